@@ -16,7 +16,7 @@ from babel.messages.extract import extract_from_dir
 from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
-from cardan.calc import CALCULATIONS
+from cardan.calc import CALCULATIONS, Given
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import TABLES
 from cardan.catalogue.telling import SENTENCES, WORDS
@@ -86,7 +86,9 @@ def _declared() -> Iterator[tuple[str, str]]:
     for name in (*example_names(), *mechanism_names(), *recording_names()):
         yield f"examples/{name}", about(example_text(name))
     for one in CALCULATIONS.values():
-        yield "calc", one.source
+        name = one.module.removeprefix("cardan.").replace(".", "/") + ".py"
+        docs = [one.doc, one.source, *_meant(one.takes), *(output.doc for output in one.returns)]
+        yield from ((name, text) for text in docs)
     for table, rows in catalogue().tables.items():
         for row in rows.values():
             words = [getattr(row, name, "") for name in SENTENCES]
@@ -95,6 +97,13 @@ def _declared() -> Iterator[tuple[str, str]]:
     for unit in dict.fromkeys(unit for units in DIMENSIONS.values() for unit in units):
         if LABELS.get(unit, unit).strip("°′%1"):
             yield "units.py", LABELS.get(unit, unit)
+
+
+def _meant(keys: Sequence[Given]) -> Iterator[str]:
+    """Yield what keys of a calculation mean, and those of the tables under them."""
+    for one in keys:
+        yield one.meaning.doc
+        yield from _meant([*one.columns, *(column for more in one.kinds.values() for column in more)])
 
 
 def _empty(code: str | None = None) -> Catalog:

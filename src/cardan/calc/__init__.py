@@ -3,7 +3,8 @@
 An entry translates names, units, signs and origins; the formula is in the function it calls.
 """
 
-from .calculation import Calculation, Given, Gives
-from .calculations import CALCULATIONS, calc, find
+from .calculation import Calculation
+from .calculations import CALCULATIONS, GROUPS, calc, find
+from .keys import Given, Gives
 
-__all__ = ["CALCULATIONS", "Calculation", "Given", "Gives", "calc", "find"]
+__all__ = ["CALCULATIONS", "GROUPS", "Calculation", "Given", "Gives", "calc", "find"]

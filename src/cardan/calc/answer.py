@@ -9,8 +9,9 @@ from cardan.answers.answer import Answer, Column, Remark, Table
 from cardan.answers.quantity import Joined, Quantity, Text
 from cardan.texts import _
 
-from .calculation import Calculation, Given
+from .calculation import Calculation
 from .calculations import CALCULATIONS
+from .keys import Given
 
 LONG = 32
 """Forms of a key longer than this are told beside its meaning."""

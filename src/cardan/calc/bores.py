@@ -2,38 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import TypeAlias
+from collections.abc import Callable
 
-from cardan.errors import Problem
 from cardan.texts import _
 
-from .calculation import Values
-
-Key: TypeAlias = Callable[[str], str]
-Check: TypeAlias = Callable[[Values, Key], Iterator[Problem]]
+from .calculation import Problems, Values
 
 
-def bores(outer: str, inner: str) -> Check:
+def bores(outer: str, inner: str) -> Callable[[Values], Problems]:
     """Return a check that an inner diameter is less than its outer one, where both are given."""
 
-    def check(values: Values, key: Key) -> Iterator[Problem]:
-        one, other = values.get(inner), values.get(outer)
+    def check(v: Values) -> Problems:
+        one, other = v.get(inner), v.get(outer)
         if one is not None and other is not None and one >= other:
             text = _("{inner:.6g} mm is not less than the outer diameter, {outer:.6g} mm")
-            yield Problem(key(inner), text.format(inner=1e3 * one, outer=1e3 * other), "out_of_range")
+            yield v.wrong(inner, text.format(inner=1e3 * one, outer=1e3 * other), "out_of_range")
 
     return check
 
 
-def segment_bores(outer: str, inner: str) -> Check:
+def segment_bores(outer: str, inner: str) -> Callable[[Values], Problems]:
     """Return a check that a table of segments holds one at least, each with a bore that leaves a wall."""
 
-    def check(values: Values, key: Key) -> Iterator[Problem]:
-        segments = values.get("segments")
+    def check(v: Values) -> Problems:
+        segments = v.get("segments")
         if segments is not None and not segments:
-            yield Problem(key("segments"), _("empty; a shaft has at least one segment"), "empty")
-        for k, row in enumerate(segments or ()):
-            yield from bores(outer, inner)(row, lambda name, k=k: key(f"segments[{k}].{name}"))  # type: ignore[misc]
+            yield v.wrong("segments", _("empty; a shaft has at least one segment"), "empty")
+        for row in segments or ():
+            yield from bores(outer, inner)(row)
 
     return check

@@ -1,31 +1,34 @@
-"""What a calculation is: a named question with unit keys, read and answered in SI by the function below it."""
+"""What a calculation is: a named question with unit keys, read and answered in SI by the formula below it.
+
+One line a key: inputs are declared by `given` and its kin, outputs as ``"key: what it means"``, the unit in the key.
+
+>>> from cardan.calc.keys import given, positive
+>>> formula = Formulas("levers")
+>>> @formula("torque of a force on a lever", "statics", positive("F_N", "force"), given("r_mm", "arm"), "M_Nm: torque")
+... def _lever(v: Values) -> Any:
+...     return v.F * v.r
+>>> formula.calculations[0]({"F_kN": 2, "r_mm": 300})
+{'M_Nm': 600.0}
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from cardan.errors import InputError, Problem, check
 
-from .keys import Given, Gives, Values, at_least_zero, given, gives, positive, record, rows
-from .reading import read
+from .keys import Given, Gives, gives
+from .reading import Values, read
 
-__all__ = [
-    "Calculation",
-    "Given",
-    "Gives",
-    "Values",
-    "at_least_zero",
-    "given",
-    "gives",
-    "positive",
-    "record",
-    "rows",
-]
+__all__ = ["Calculation", "Formulas", "Problems", "Values"]
+
+Problems: TypeAlias = Iterator[Problem]
+"""What a check yields."""
 
 PYTHON = {
     "joint_angle": ("alpha",),
@@ -43,7 +46,7 @@ PYTHON = {
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Calculation:
-    """A named question: which keys it takes, which it gives, and the function that answers in SI.
+    """A named question: which keys it takes, which it gives, and the formula that answers in SI.
 
     Attributes
     ----------
@@ -58,9 +61,12 @@ class Calculation:
     returns : tuple of Gives
         Outputs that may occur.
     answer : function
-        From values in SI by name to outputs in SI by key; outputs that are None are left out.
+        From values in SI by name to the outputs in SI: one value, all in their order, those that there are by key, or
+        a thing that has them by the names declared; outputs that are None are left out.
     check : function
         Yields what is wrong with values taken together; sees only inputs that are right by themselves.
+    module : str
+        Where it is declared.
     """
 
     name: str
@@ -68,10 +74,11 @@ class Calculation:
     source: str
     takes: tuple[Given, ...]
     returns: tuple[Gives, ...]
-    answer: Callable[[Values], Values]
-    check: Callable[[Values, Callable[[str], str]], Iterable[Problem]] = lambda _values, _key: ()
+    answer: Callable[[Values], Any]
+    check: Callable[[Values], Iterable[Problem]] = lambda _values: ()
+    module: str = ""
 
-    def __call__(self, inputs: Mapping[str, Any]) -> Values:
+    def __call__(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
         """Return the outputs for inputs with unit keys.
 
         Raises
@@ -79,20 +86,52 @@ class Calculation:
         InputError
             With everything that is wrong, each problem under the key as it was given.
         """
-        values, keys = self.read(inputs)
+        values, problems = read(self.takes, inputs)
+        check([*problems, *self.check(values)])
         try:
-            found = self.answer(values)
+            found = self._by_key(self.answer(values))
         except InputError as error:
-            raise error.renamed(lambda field: _named(field, keys)) from None
+            raise error.renamed(lambda name: _named(name, values.spelled)) from None
         known = {output.key: output for output in self.returns}
         return {key: _plain(value, known[key].factor) for key, value in found.items() if value is not None}
 
-    def read(self, inputs: Mapping[str, Any]) -> tuple[Values, dict[str, str]]:
-        """Return the values in SI by name, and under which key each was given."""
-        values, keys, problems = read(self.takes, inputs)
-        problems += self.check(values, lambda name: keys[name])
-        check(problems)
-        return values, keys
+    def _by_key(self, found: Any) -> dict[str, Any]:
+        """Return what the formula found by the keys of the outputs."""
+        keys = [one.key for one in self.returns]
+        if isinstance(found, dict) and found.keys() <= set(keys):
+            return found
+        if any(one.of for one in self.returns):
+            return {one.key: getattr(found, one.of or one.key) for one in self.returns}
+        return dict(zip(keys, (found,) if len(keys) == 1 else found, strict=True))
+
+
+@dataclass(frozen=True, slots=True)
+class Formulas:
+    """The formulas of one subject; called, it declares another one: what it answers, its source, one line a key."""
+
+    title: str
+    calculations: list[Calculation] = field(default_factory=list)
+
+    def __call__(
+        self, doc: str, source: str, *keys: Given | Gives | str | tuple[Any, ...], kind: Any = Calculation, **more: Any
+    ) -> Callable[[Callable[[Values], Any]], Callable[[Values], Any]]:
+        """Return what declares the function below it, which has the name of the formula behind an underscore."""
+        every = [one if isinstance(one, Given | Gives) else gives(*one.split(": ", 1)) for one in _flat(keys)]
+        takes = tuple(one for one in every if isinstance(one, Given))
+        returns = tuple(one for one in every if isinstance(one, Gives))
+
+        def declare(answer: Callable[[Values], Any]) -> Callable[[Values], Any]:
+            name, module = answer.__name__.removeprefix("_"), answer.__module__
+            about = {"name": name, "doc": doc, "source": source, "module": module}
+            self.calculations.append(kind(**about, takes=takes, returns=returns, answer=answer, **more))
+            return answer
+
+        return declare
+
+
+def _flat(keys: Iterable[Any]) -> Iterator[Any]:
+    for one in keys:
+        yield from _flat(one) if isinstance(one, tuple) else (one,)
 
 
 def _named(field: str, keys: Mapping[str, str]) -> str:

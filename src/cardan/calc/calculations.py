@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from cardan.errors import refuse
-from cardan.texts import _, mark
+from cardan.texts import _
 from cardan.units import nearest
 
-from .calculation import Calculation, given
+from .calculation import Calculation, Formulas, Values
+from .keys import word
 from .loads import assembly, bearings, forces, joint_forces, life, losses, part_strength, strength
 from .motion import (
     accuracy,
@@ -51,17 +52,8 @@ class Call(Calculation):
         return find(str(inputs.get("call", "")), field="call")(rest)
 
 
-ERRORS = Call(
-    name="errors",
-    doc=mark("any other formula, by its name under call; its answer, or what is wrong with its inputs"),
-    source=mark("see the formula named"),
-    takes=(given("call", mark("name of the formula; its own keys follow"), kind="word"),),
-    returns=(),
-    answer=dict,
-)
-
-CALCULATIONS: dict[str, Calculation] = {
-    calculation.name: calculation
+GROUPS = tuple(
+    part.formula
     for part in (
         kinematics,
         synthesis,
@@ -95,8 +87,23 @@ CALCULATIONS: dict[str, Calculation] = {
         constant_velocity,
         instruments,
     )
-    for calculation in part.CALCULATIONS
-} | {ERRORS.name: ERRORS}
+)
+"""The formulas by subject."""
+
+other = Formulas("Any formula by its name")
+
+
+@other(
+    "any other formula, by its name under call; its answer, or what is wrong with its inputs",
+    "see the formula named",
+    word("call", "name of the formula; its own keys follow"),
+    kind=Call,
+)
+def _errors(v: Values) -> Any:
+    return dict(v)
+
+
+CALCULATIONS: dict[str, Calculation] = {one.name: one for group in (*GROUPS, other) for one in group.calculations}
 """Name of the capability -> its calculation."""
 
 

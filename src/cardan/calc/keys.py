@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any, Literal, TypeAlias
 
-from cardan.texts import _, mark
+from cardan.texts import _
 from cardan.units import DIMENSIONS, Key, factor
-
-Values: TypeAlias = dict[str, Any]
-"""Name without unit -> value in SI."""
 
 Kind: TypeAlias = Literal["numbers", "whole", "table", "word", "flag", "rows", "record"]
 
 REQUIRED: Any = object()
 """Default of an input that must be given."""
+
+RIGHT = 0.5 * math.pi
+"""A right angle."""
+
+BY_UNIT = "by unit"
+"""In place of a dimension: the first one that has the unit in the key."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -112,12 +117,15 @@ class Gives:
         A key of `cardan.units.DIMENSIONS`.
     unit : str
         Unit the value is given in; "" without a dimension.
+    of : str
+        Name of the value in what the formula found, where it has names.
     """
 
     key: str
     doc: str
     dimension: str | None = None
     unit: str = ""
+    of: str = ""
 
     @property
     def factor(self) -> float:
@@ -128,42 +136,63 @@ class Gives:
 def given(
     key: str,
     doc: str,
-    dimension: str | None = None,
+    dimension: str | None = BY_UNIT,
     *,
     kind: Kind = "numbers",
-    axes: tuple[int, ...] = (0,),
+    axes: int | tuple[int, ...] = 0,
     width: int | None = None,
     default: Any = REQUIRED,
     entries: bool = False,
     **limits: Any,
 ) -> Given:
-    """Declare an input; ``limits`` are those of `cardan.units.Key`, in SI."""
-    meaning = Key(doc, dimension, **limits)
+    """Declare an input; its dimension is that of the unit in its key, ``limits`` are those of `Key`, in SI."""
+    meaning = Key(doc, _dimension(key) if dimension == BY_UNIT else dimension, **limits)
+    axes = axes if isinstance(axes, tuple) else (axes,)
     return Given(key=key, meaning=meaning, kind=kind, axes=axes, width=width, default=default, entries=entries)
 
 
-def positive(key: str, doc: str, dimension: str | None = None, **options: Any) -> Given:
+def positive(key: str, doc: str, dimension: str | None = BY_UNIT, **options: Any) -> Given:
     """Declare an input above zero."""
     return given(key, doc, dimension, above=0.0, **options)
 
 
-def at_least_zero(key: str, doc: str, dimension: str | None = None, **options: Any) -> Given:
+def at_least_zero(key: str, doc: str, dimension: str | None = BY_UNIT, **options: Any) -> Given:
     """Declare an input that is not negative."""
     return given(key, doc, dimension, low=0.0, **options)
 
 
+def yoke_rotation(key: str, doc: str, **options: Any) -> Given:
+    """Declare an input that is the angle of a joint: at least 0, less than 90°."""
+    return given(key, doc, low=0.0, below=RIGHT, **options)
+
+
+def vector(key: str, doc: str, **options: Any) -> Given:
+    """Declare an input with three components."""
+    return given(key, doc, axes=1, width=3, **options)
+
+
+def whole(key: str, doc: str, **options: Any) -> Given:
+    """Declare an input that is a whole number."""
+    return given(key, doc, None, kind="whole", **options)
+
+
+def word(key: str, doc: str, *choices: str, **options: Any) -> Given:
+    """Declare an input that is one of some words, or any word."""
+    return given(key, doc, None, kind="word", choices=choices, **options)
+
+
+def flag(key: str, doc: str, *, default: Any = False) -> Given:
+    """Declare an input that is true or false."""
+    return given(key, doc, None, kind="flag", default=default)
+
+
 def rows(
-    key: str,
-    doc: str,
-    *columns: Given,
-    default: Any = REQUIRED,
-    kinds: Mapping[str, tuple[Given, ...]] | None = None,
+    key: str, doc: str, *columns: Given, default: Any = REQUIRED, kinds: Mapping[str, tuple[Given, ...]] | None = None
 ) -> Given:
     """Declare an input that is a list of tables, each with the keys of ``columns`` and those of its ``kind``."""
-    more = {} if kinds is None else dict(kinds)
-    if more:
-        columns += (given("kind", mark("of which kind"), kind="word", choices=tuple(more)),)
-    return Given(key=key, meaning=Key(doc), kind="rows", columns=columns, default=default, kinds=more)
+    if kinds:
+        columns += (word("kind", "of which kind", *kinds),)
+    return Given(key=key, meaning=Key(doc), kind="rows", columns=columns, default=default, kinds=kinds or {})
 
 
 def record(key: str, doc: str, *columns: Given, default: Any = REQUIRED) -> Given:
@@ -171,12 +200,23 @@ def record(key: str, doc: str, *columns: Given, default: Any = REQUIRED) -> Give
     return Given(key=key, meaning=Key(doc), kind="record", columns=columns, default=default)
 
 
-def gives(key: str, doc: str, dimension: str | None = None) -> Gives:
-    """Declare an output; its unit is read off the key."""
-    if dimension is None:
-        return Gives(key=key, doc=doc)
-    units = [unit for unit in DIMENSIONS[dimension] if f"_{unit}_" in f"{key}_"]
-    return Gives(key=key, doc=doc, dimension=dimension, unit=max(units, key=len))
+def gives(key: str, doc: str, dimension: str | None = BY_UNIT) -> Gives:
+    """Declare an output, ``"key"`` or ``"key = name of it in what the formula found"``; its unit is in the key."""
+    key, _equals, of = key.partition(" = ")
+    dimension = _dimension(key) if dimension == BY_UNIT else dimension
+    return Gives(key=key, doc=doc, dimension=dimension, unit=unit_of(key, dimension), of=of)
+
+
+LEAST = "min"
+"""A word of keys that is not the unit of its name."""
+
+
+@cache
+def _dimension(key: str) -> str | None:
+    """Return the first dimension that has the unit in a key: the one it ends in, else one amid it."""
+    every = {unit: name for name, units in reversed(DIMENSIONS.items()) for unit in units if unit != LEAST}
+    last = [unit for unit in every if key.endswith(f"_{unit}")] or [unit for unit in every if f"_{unit}_" in key]
+    return every[max(last, key=len)] if last else None
 
 
 def without_unit(key: str, dimension: str | None) -> str:

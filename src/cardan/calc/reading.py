@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -13,15 +14,42 @@ from cardan.errors import Problem
 from cardan.texts import _
 from cardan.units import factor, nearest
 
-from .keys import Given, Values, unit_of, without_unit
+from .keys import Given, unit_of, without_unit
 
 
-def read(
-    takes: tuple[Given, ...], inputs: Mapping[str, Any], before: str = ""
-) -> tuple[Values, dict[str, str], list[Problem]]:
-    """Return the values in SI by name, under which key each was given, and what is wrong with them one by one."""
+class Values(dict[str, Any]):
+    """Values in SI by name without unit, as attributes too, with the key under which each was given."""
+
+    spelled: dict[str, str]
+
+    def __init__(self, values: Mapping[str, Any] = MappingProxyType({}), spelled: Mapping[str, str] | None = None):
+        super().__init__(values)
+        object.__setattr__(self, "spelled", dict(spelled or {}))
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(name) from None
+
+    def key(self, name: str) -> str:
+        """Return the key under which a value was given, or would be; with its path where it stands in a table."""
+        return self.spelled[name]
+
+    def wrong(self, name: str, message: str, code: str = "") -> Problem:
+        """Return what is wrong with a value, under its key."""
+        return Problem(self.key(name), message, code)
+
+    def but(self, **changed: Any) -> Values:
+        """Return these values with some of them changed."""
+        return Values(self | changed, self.spelled)
+
+
+def read(takes: tuple[Given, ...], inputs: Mapping[str, Any], before: str = "") -> tuple[Values, list[Problem]]:
+    """Return the values in SI by name, and what is wrong with them one by one."""
     found, keys, problems = _sort(takes, inputs, before)
-    values: Values = {}
+    values: dict[str, Any] = {}
+    places: dict[str, str] = {}
     for item in takes:
         if item.name not in found:
             if item.required:
@@ -32,23 +60,23 @@ def read(
         key = keys[item.name]
         if item.columns:
             wrong, value, inner = _inner(item, found[item.name], before + key)
-            keys |= {item.name + place: name for place, name in inner.items()}
+            places |= {item.name + place: name for place, name in inner.items()}
         else:
             wrong, value = list(_problems(item, found[item.name], key)), None
             wrong = [Problem(before + problem.field, problem.message, problem.code) for problem in wrong]
         problems += wrong
         if not wrong:
             values[item.name] = value if item.columns else _si(item, found[item.name], key)
-    return values, keys, problems
+    return Values(values, {name: before + key for name, key in keys.items()} | places), problems
 
 
 def _sort(
     takes: tuple[Given, ...], inputs: Mapping[str, Any], before: str
-) -> tuple[Values, dict[str, str], list[Problem]]:
+) -> tuple[dict[str, Any], dict[str, str], list[Problem]]:
     """Find the input each given key belongs to."""
     own = {item.key: item for item in takes}
     keys = {item.name: item.key for item in takes}
-    found: Values = {}
+    found: dict[str, Any] = {}
     problems: list[Problem] = []
     for key, value in inputs.items():
         item = own.get(key) or _in_other_unit(key, takes)
@@ -69,8 +97,8 @@ def _inner(item: Given, value: Any, key: str) -> tuple[list[Problem], Any, dict[
         return _rows(item, value, key)
     if not isinstance(value, Mapping):
         return [Problem(key, _("{value} is not a {shape}").format(value=_short(value), shape=item.shape))], {}, {}
-    values, own, wrong = read(item.columns, value, f"{key}.")
-    return wrong, values, {f".{name}": f"{key}.{given_as}" for name, given_as in own.items()}
+    values, wrong = read(item.columns, value, f"{key}.")
+    return wrong, values, {f".{name}": given_as for name, given_as in values.spelled.items()}
 
 
 def _rows(item: Given, value: Any, key: str) -> tuple[list[Problem], list[Values], dict[str, str]]:
@@ -86,10 +114,10 @@ def _rows(item: Given, value: Any, key: str) -> tuple[list[Problem], list[Values
             takes += item.kinds.get(str(row.get("kind")), ())
             if takes == item.columns:  # which other keys it needs cannot be said
                 given = {name: entry for name, entry in row.items() if name == "kind" or _sort(takes, {name: 0}, "")[0]}
-        values, own, wrong = read(takes, given, f"{key}[{k}].")
+        values, wrong = read(takes, given, f"{key}[{k}].")
         problems += wrong
         tables.append(values)
-        keys |= {f"[{k}].{name}": f"{key}[{k}].{given_as}" for name, given_as in own.items()}
+        keys |= {f"[{k}].{name}": given_as for name, given_as in values.spelled.items()}
     return problems, tables, keys
 
 

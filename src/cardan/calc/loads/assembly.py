@@ -1,15 +1,15 @@
-"""Calculations of what is held too much: forces of assembly in a joint, reactions of bearings that give way."""
+"""Held too much: forces of assembly in a joint, reactions of bearings that give way."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 
-from cardan.calc.calculation import Calculation, Values, given, gives, rows
-from cardan.calc.motion.kinematics import RIGHT, START, YOKES, between, points
+from cardan.calc.calculation import Formulas, Problems, Values
+from cardan.calc.keys import at_least_zero, flag, given, positive, rows, word, yoke_rotation
+from cardan.calc.motion.kinematics import START, YOKES, between, points
 from cardan.drive.models.train import train_of_points
 from cardan.errors import Problem
 from cardan.maths.arrays import Array
@@ -18,42 +18,98 @@ from cardan.maths.kernel import frames
 from cardan.questions.forces.forces import kinetostatics
 from cardan.questions.forces.held import Hold, Layout, actions, shaft_flexibility
 from cardan.questions.forces.misfit import Crosses, crosses, joint_gap, misfit
-from cardan.texts import _, mark
+from cardan.texts import _
 from cardan.units import mm
 
 from .forces import SHAFT, unknown_shafts
+
+formula = Formulas(__doc__)
+
 
 SLIDES = ("pin_B", "pin_C", "shaft_2")
 TURN = np.linspace(0.0, 2.0 * np.pi, 361)
 
 BEARINGS = rows(
     "bearings",
-    mark("bearings in any order"),
+    "bearings in any order",
     SHAFT,
-    given("x_from_shaft_start_m", mark("place along the power flow from the point before"), "length"),
-    given("radial", mark("whether it holds across"), kind="flag", default=True),
-    given("axial", mark("whether it holds along the shaft"), kind="flag", default=False),
-    given("k_radial_N_m", mark("radial stiffness in N/m, where statics alone cannot tell"), above=0.0, default=None),
-    given("k_axial_N_m", mark("axial stiffness in N/m, where statics alone cannot tell"), above=0.0, default=None),
-    given("housing_offset_m", mark("displacement of its housing"), "length", axes=(1,), width=3, default=None),
+    given("x_from_shaft_start_m", "place along the power flow from the point before"),
+    flag("radial", "whether it holds across", default=True),
+    flag("axial", "whether it holds along the shaft"),
+    positive("k_radial_N_m", "radial stiffness in N/m, where statics alone cannot tell", None, default=None),
+    positive("k_axial_N_m", "axial stiffness in N/m, where statics alone cannot tell", None, default=None),
+    given("housing_offset_m", "displacement of its housing", axes=1, width=3, default=None),
 )
 
 
-def _two(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    if "shafts" in values and len(values["shafts"]) != 2:
+def _two(v: Values) -> Problems:
+    if "shafts" in v and len(v.shafts) != 2:
         text = _("{given} values given, {wanted} needed")
-        yield Problem(key("shafts"), text.format(given=len(values["shafts"]), wanted=2))
+        yield v.wrong("shafts", text.format(given=len(v.shafts), wanted=2))
 
 
-def _blocked(values: Values) -> Values:
+def _stand(axis: Array, angle: Array) -> Crosses:
+    """Return the cross of a joint whose plane has the normal -x, at the angles of its driving yoke from that plane."""
+    none = 0.0 * angle
+    driving = np.stack((-np.sin(angle), np.cos(angle), none), axis=-1)
+    driven = frames.unit(frames.cross(axis[1] + 0.0 * driving, driving))
+    return crosses(axis, driving[..., None, :], driven[..., None, :])
+
+
+def _bearings(v: Values) -> Problems:
+    yield from between(v)
+    if "points" not in v or "bearings" not in v:
+        return
+    shafts = len(v.points) - 1
+    if not v.bearings:
+        yield v.wrong("bearings", _("an empty list holds no shaft"))
+    yield from unknown_shafts(v.bearings, shafts, v.key("bearings"))
+    for k, bearing in enumerate(v.bearings):
+        if not bearing.get("radial", True) and not bearing.get("axial", True):
+            yield Problem(f"bearings[{k}].radial", _("a bearing that holds neither across nor along is none"))
+
+
+def _holds(bearing: Values) -> tuple[Hold, ...]:
+    held: dict[Hold, bool] = {"radial": bearing["radial"], "axial": bearing["axial"]}
+    return tuple(hold for hold, there in held.items() if there)
+
+
+@formula(
+    "force in a joint whose slides are blocked, from its errors of length",
+    "Book p. 190, (171)",
+    yoke_rotation("alpha_deg", "joint angle of the joint"),
+    given("phi1_deg", "angle of the driving yoke from the plane of the joint"),
+    given("errors_mm_s1_a1_a2_a3_a4", "errors s1, a1, a2, a3, a4 in mm", None, axes=1, width=5),
+    word("free_slides", "what slides freely", *SLIDES, axes=1, default=()),
+    rows(
+        "shafts",
+        "shaft 1 and shaft 2",
+        positive("bearing_span_m", "distance between its two bearings"),
+        at_least_zero("overhang_m", "distance from the joint to the near bearing"),
+        positive("EI_Nm2", "bending stiffness in N·m²"),
+        positive("EA_N", "stiffness in tension"),
+        positive("k_radial_near_N_m", "radial stiffness of the near bearing in N/m", None),
+        positive("k_radial_far_N_m", "radial stiffness of the far bearing in N/m", None),
+        positive("k_axial_far_N_m", "axial stiffness of the far bearing in N/m", None),
+    ),
+    "gap_vector_frame1_m: gap in the joint centre, shaft 1 along z, bend about x",
+    "force_magnitude_N: force in the joint centre",
+    "force_abs_along_shaft1_N: its part along shaft 1",
+    "force_abs_along_shaft2_N: its part along shaft 2",
+    "strain_energy_J: stored energy",
+    "extra_input_torque_Nm: torque that turning against the stored energy needs",
+    "max_force_over_turn_N: largest force over a turn",
+    check=_two,
+)
+def _assembly_forces(v: Values) -> Any:
     """Return the forces in one joint with blocked slides; shaft 1 lies along z, the joint angle turns about x."""
-    one, two = values["shafts"]
-    alpha, free = values["alpha"], values["free_slides"]
+    one, two = v.shafts
+    alpha, free = v.alpha, v.free_slides
     axis = np.asarray([[0.0, 0.0, 1.0], [0.0, np.sin(alpha), np.cos(alpha)]])
     ends: list[tuple[int, tuple[Hold, ...]]] = [(0, ("radial", "axial")), (0, ("radial",)), (1, ("radial",))]
     ends.append((1, ("radial",) if "shaft_2" in free else ("radial", "axial")))
     layout = Layout(joints=1, bearings=tuple(ends), slides=(("pin_B" in free, "pin_C" in free),))
-    lengths = np.asarray([shaft["bearing_span"] + shaft["overhang"] for shaft in (one, two)])
+    lengths = np.asarray([shaft.bearing_span + shaft.overhang for shaft in (one, two)])
     place = np.asarray([0.0, one["bearing_span"], two["overhang"], lengths[1]])
     acting = actions(axis, lengths, layout, place)
     far, near = 1.0 / one["k_radial_far_N_m"], 1.0 / one["k_radial_near_N_m"]
@@ -62,14 +118,14 @@ def _blocked(values: Values) -> Values:
     count = len(layout.unknowns)
     body = [np.asarray([[1.0 / shaft[key]] for shaft in (one, two)]) for key in ("EI_Nm2", "EA")]
     compliance = np.diag(soft[:count]) + shaft_flexibility(acting, *body)
-    error = values["errors_mm_s1_a1_a2_a3_a4"][None] * mm
+    error = v.errors_mm_s1_a1_a2_a3_a4[None] * mm
 
     def answer(angle: Array) -> tuple[Any, Array]:
         stand = _stand(axis, angle)
         gap = joint_gap(axis, np.asarray([[-1.0, 0.0, 0.0]]), stand, error)
         return misfit(acting, layout, stand, compliance, gap, np.zeros(count)), gap[0]
 
-    found, gap = answer(np.atleast_1d(values["phi1"]))
+    found, gap = answer(np.atleast_1d(v.phi1))
     force = found.unknowns[..., :3]
 
     def size(angle: Array) -> Array:
@@ -86,30 +142,20 @@ def _blocked(values: Values) -> Values:
     }
 
 
-def _stand(axis: Array, angle: Array) -> Crosses:
-    """Return the cross of a joint whose plane has the normal -x, at the angles of its driving yoke from that plane."""
-    none = 0.0 * angle
-    driving = np.stack((-np.sin(angle), np.cos(angle), none), axis=-1)
-    driven = frames.unit(frames.cross(axis[1] + 0.0 * driving, driving))
-    return crosses(axis, driving[..., None, :], driven[..., None, :])
-
-
-def _bearings(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    yield from between(values, key)
-    if "points" not in values or "bearings" not in values:
-        return
-    shafts = len(values["points"]) - 1
-    if not values["bearings"]:
-        yield Problem(key("bearings"), _("an empty list holds no shaft"))
-    yield from unknown_shafts(values["bearings"], shafts, key("bearings"))
-    for k, bearing in enumerate(values["bearings"]):
-        if not bearing.get("radial", True) and not bearing.get("axial", True):
-            yield Problem(f"bearings[{k}].radial", _("a bearing that holds neither across nor along is none"))
-
-
-def _elastic(values: Values) -> Values:
+@formula(
+    "reactions of bearings that give way, under torque and in housings that are off",
+    "least complementary energy; Book p. 190 for the idea",
+    (points(), START, YOKES),
+    given("phi1_deg", "input angle from the start position"),
+    given("M_out_Nm", "torque that resists the output", default=0.0),
+    BEARINGS,
+    "degree_of_indeterminacy: forces and couples that balance alone leaves open",
+    "bearing_reaction_N: force of each bearing on its shaft, in the order given",
+    check=_bearings,
+)
+def _indeterminate_reactions(v: Values) -> Any:
     """Return the reactions of bearings that give way, in the housings where they are."""
-    bearings = values["bearings"]
+    bearings = v.bearings
     kinds = [(bearing["shaft"] - 1, _holds(bearing)) for bearing in bearings]
     stiffness = [
         [math.nan if one is None else one for one in (bearing["k_radial_N_m"], bearing["k_axial_N_m"], None)]
@@ -119,77 +165,13 @@ def _elastic(values: Values) -> Values:
         (0.0, 0.0, 0.0) if bearing["housing_offset"] is None else bearing["housing_offset"] for bearing in bearings
     ]
     whole = train_of_points(
-        values["points"],
-        yoke_angle=values["gamma"],
-        start_phase=values["psi1"],
+        v.points,
+        yoke_angle=v.gamma,
+        start_phase=v.psi1,
         bearings=tuple(kinds),
         position=np.asarray([bearing["x_from_shaft_start"] for bearing in bearings], dtype=float),
         stiffness=np.asarray(stiffness),
         offset=np.asarray(offset, dtype=float),
     )
-    found = kinetostatics(whole, np.atleast_1d(values["phi1"]), torque=values["M_out"], field="bearings")
-    return {
-        "degree_of_indeterminacy": found.unknowns - found.equations,
-        "bearing_reaction_N": np.asarray(found.reaction)[:, 0],
-    }
-
-
-def _holds(bearing: Values) -> tuple[Hold, ...]:
-    held: dict[Hold, bool] = {"radial": bearing["radial"], "axial": bearing["axial"]}
-    return tuple(hold for hold, there in held.items() if there)
-
-
-CALCULATIONS = (
-    Calculation(
-        name="assembly_forces",
-        doc=mark("force in a joint whose slides are blocked, from its errors of length"),
-        source="Kozhevnikov & Perfil'ev (1978), p. 190, (171)",
-        takes=(
-            given("alpha_deg", mark("joint angle of the joint"), "angle", low=0.0, below=RIGHT),
-            given("phi1_deg", mark("angle of the driving yoke from the plane of the joint"), "angle"),
-            given("errors_mm_s1_a1_a2_a3_a4", mark("errors s1, a1, a2, a3, a4 in mm"), axes=(1,), width=5),
-            given("free_slides", mark("what slides freely"), kind="word", axes=(1,), choices=SLIDES, default=()),
-            rows(
-                "shafts",
-                mark("shaft 1 and shaft 2"),
-                given("bearing_span_m", mark("distance between its two bearings"), "length", above=0.0),
-                given("overhang_m", mark("distance from the joint to the near bearing"), "length", low=0.0),
-                given("EI_Nm2", mark("bending stiffness in N·m²"), above=0.0),
-                given("EA_N", mark("stiffness in tension"), "force", above=0.0),
-                given("k_radial_near_N_m", mark("radial stiffness of the near bearing in N/m"), above=0.0),
-                given("k_radial_far_N_m", mark("radial stiffness of the far bearing in N/m"), above=0.0),
-                given("k_axial_far_N_m", mark("axial stiffness of the far bearing in N/m"), above=0.0),
-            ),
-        ),
-        returns=(
-            gives("gap_vector_frame1_m", mark("gap in the joint centre, shaft 1 along z, bend about x"), "length"),
-            gives("force_magnitude_N", mark("force in the joint centre"), "force"),
-            gives("force_abs_along_shaft1_N", mark("its part along shaft 1"), "force"),
-            gives("force_abs_along_shaft2_N", mark("its part along shaft 2"), "force"),
-            gives("strain_energy_J", mark("stored energy"), "work"),
-            gives("extra_input_torque_Nm", mark("torque that turning against the stored energy needs"), "torque"),
-            gives("max_force_over_turn_N", mark("largest force over a turn"), "force"),
-        ),
-        answer=_blocked,
-        check=_two,
-    ),
-    Calculation(
-        name="indeterminate_reactions",
-        doc=mark("reactions of bearings that give way, under torque and in housings that are off"),
-        source=mark("least complementary energy; Kozhevnikov & Perfil'ev (1978), p. 190 for the idea"),
-        takes=(
-            points(),
-            START,
-            YOKES,
-            given("phi1_deg", mark("input angle from the start position"), "angle"),
-            given("M_out_Nm", mark("torque that resists the output"), "torque", default=0.0),
-            BEARINGS,
-        ),
-        returns=(
-            gives("degree_of_indeterminacy", mark("forces and couples that balance alone leaves open")),
-            gives("bearing_reaction_N", mark("force of each bearing on its shaft, in the order given"), "force"),
-        ),
-        answer=_elastic,
-        check=_bearings,
-    ),
-)
+    found = kinetostatics(whole, np.atleast_1d(v.phi1), torque=v.M_out, field="bearings")
+    return found.unknowns - found.equations, np.asarray(found.reaction)[:, 0]

@@ -1,22 +1,24 @@
-"""Calculations of the strength of parts: splines and their thrust, arms of yokes, journals of crosses."""
+"""The strength of parts: splines and their thrust, arms of yokes, journals of crosses."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from cardan.calc.bores import bores
-from cardan.calc.calculation import Calculation, Values, at_least_zero, given, gives, positive, record
+from cardan.calc.calculation import Calculation, Formulas, Problems, Values
+from cardan.calc.keys import at_least_zero, gives, positive, record, word
 from cardan.drive.models.train import spline_grip
-from cardan.errors import Problem
 from cardan.formulas.joint_strength import journal_stress, yoke_stress
 from cardan.formulas.spline_strength import spline_stress
-from cardan.texts import _, mark
+from cardan.texts import _
 
 from .joint_forces import SPLINE_THRUST
 from .strength import TORQUE
+
+formula = Formulas(__doc__)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -31,170 +33,129 @@ class Forms(Calculation):
         return self.forms[known.index(max(known))](inputs)
 
 
-def _spline(values: Values) -> Values:
-    found = spline_stress(
-        values["torque"],
-        outer=values["D"],
-        root=values["d"],
-        teeth=values["teeth"],
-        tooth_width=values["tooth_width"],
-        length=values["length"],
-        chamfer=values["chamfer"],
-        load_share=values["load_share"],
-    )
-    return {
-        "d_m_mm": found.mean_diameter,
-        "h_mm": found.height,
-        "sigma_crush_MPa": found.pressure,
-        "tau_tooth_MPa": found.tooth_shear,
-        "tau_core_MPa": found.core_shear,
-    }
-
-
-def _flanks(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    wrong = list(bores("D", "d")(values, key))
+def _flanks(v: Values) -> Problems:
+    wrong = list(bores("D", "d")(v))
     yield from wrong
-    if wrong or not {"D", "d", "chamfer"} <= values.keys():
+    if wrong or not {"D", "d", "chamfer"} <= v.keys():
         return
-    if 0.5 * (values["D"] - values["d"]) <= 2.0 * values["chamfer"]:
+    if 0.5 * (v.D - v.d) <= 2.0 * v.chamfer:
         text = _("{chamfer:.6g} mm leaves no height of the flanks: (D - d)/2 - 2c must be more than 0")
-        yield Problem(key("chamfer"), text.format(chamfer=1e3 * values["chamfer"]), "out_of_range")
-
-
-def _thrust(values: Values) -> Values:
-    return {
-        "axial_force_N": spline_grip(values["friction"], values["d_m"], values["pressure_angle"]) * values["torque"]
-    }
+        yield v.wrong("chamfer", text.format(chamfer=1e3 * v.chamfer), "out_of_range")
 
 
 SHAPES = {"rect": "rectangle", "ellipse": "ellipse"}
 
 
-def _yoke(values: Values) -> Values:
-    section = values["section"]
-    found = yoke_stress(
-        values["journal_force"],
-        bending_arm=values["bending_arm"],
-        torsion_arm=values["torsion_arm"],
-        height=section["height"],
-        width=section["width"],
-        shape=SHAPES[section["shape"]],
-    )
-    return {"sigma_bending_MPa": found.bending, "tau_torsion_MPa": found.shear, "sigma_mises_MPa": found.mises}
+FORCE = at_least_zero("journal_force_N", "force on a journal")
 
 
-def _journal(values: Values) -> Values:
-    arm = 0.5 * values["length"] if values["arm"] is None else values["arm"]
-    found = journal_stress(values["journal_force"], diameter=values["d"], arm=arm, bore=values["bore"])
-    return {"sigma_bending_MPa": found.bending, "tau_mean_MPa": found.mean_shear, "tau_max_MPa": found.shear}
-
-
-FORCE = at_least_zero("journal_force_N", mark("force on a journal"), "force")
-
-CALCULATIONS = (
-    Calculation(
-        name="spline",
-        doc=mark("stresses of a straight-sided spline"),
-        source=mark(
-            "Kozhevnikov & Perfil'ev (1978), p. 228, pressure and shear of the teeth, torsion at the smallest diameter"
-        ),
-        takes=(
-            positive("D_mm", mark("outer diameter"), "length"),
-            positive("d_mm", mark("root diameter"), "length"),
-            positive("teeth", mark("number of teeth"), kind="whole"),
-            positive("tooth_width_mm", mark("width of a tooth"), "length"),
-            positive("length_mm", mark("length of the teeth"), "length"),
-            TORQUE,
-            at_least_zero("chamfer_mm", mark("chamfer"), "length", default=0.0),
-            positive("load_share", mark("share of the teeth that carry"), default=0.75, high=1.0),
-        ),
-        returns=(
-            gives("d_m_mm", mark("mean diameter"), "length"),
-            gives("h_mm", mark("height of the flanks that bear"), "length"),
-            gives("sigma_crush_MPa", mark("pressure on the flanks"), "stress"),
-            gives("tau_tooth_MPa", mark("shear at the roots of the teeth"), "stress"),
-            gives("tau_core_MPa", mark("torsion at the root diameter"), "stress"),
-        ),
-        answer=_spline,
-        check=_flanks,
-    ),
-    Calculation(
-        name="yoke",
-        doc=mark("stresses of the arm of a yoke"),
-        source=mark("Kozhevnikov & Perfil'ev (1978), eq. 263; Saint-Venant's torsion"),
-        takes=(
-            FORCE,
-            at_least_zero("bending_arm_mm", mark("arm of the force for bending"), "length"),
-            at_least_zero("torsion_arm_mm", mark("arm of the force for torsion"), "length"),
-            record(
-                "section",
-                mark("weakest section"),
-                given("shape", mark("shape of the section"), kind="word", choices=tuple(SHAPES)),
-                positive("height_mm", mark("height along the force"), "length"),
-                positive("width_mm", mark("width across the force"), "length"),
-            ),
-        ),
-        returns=(
-            gives("sigma_bending_MPa", mark("bending stress"), "stress"),
-            gives("tau_torsion_MPa", mark("shear stress of torsion"), "stress"),
-            gives("sigma_mises_MPa", mark("equivalent stress by von Mises"), "stress"),
-        ),
-        answer=_yoke,
-    ),
-    Calculation(
-        name="journal",
-        doc=mark("stresses at the root of a journal of the cross"),
-        source="Kozhevnikov & Perfil'ev (1978), eq. 264, 265, with the grease bore",
-        takes=(
-            FORCE,
-            positive("length_mm", mark("length of the journal"), "length"),
-            positive("d_mm", mark("diameter"), "length"),
-            at_least_zero("bore_mm", mark("diameter of the grease bore"), "length", default=0.0),
-            at_least_zero("arm_mm", mark("arm of the force; half the length when not given"), "length", default=None),
-        ),
-        returns=(
-            gives("sigma_bending_MPa", mark("bending stress"), "stress"),
-            gives("tau_mean_MPa", mark("mean shear stress"), "stress"),
-            gives("tau_max_MPa", mark("largest shear stress"), "stress"),
-        ),
-        answer=_journal,
-        check=bores("d", "bore"),
-    ),
-    Forms(
-        name="spline_axial_force",
-        doc=mark("friction thrust of a spline: its parts in the joint, or the thrust alone"),
-        source=SPLINE_THRUST.source,
-        takes=(
-            *SPLINE_THRUST.takes,
-            *(
-                thrust_keys := (
-                    at_least_zero("torque_Nm", mark("torque at the spline, for the thrust alone"), "torque"),
-                    positive("d_m_mm", mark("its mean diameter"), "length"),
-                    at_least_zero("friction", mark("its coefficient of friction")),
-                    given(
-                        "pressure_angle_deg",
-                        mark("pressure angle of its teeth"),
-                        "angle",
-                        default=0.0,
-                        low=0.0,
-                        below=0.5 * math.pi,
-                    ),
-                )
-            ),
-        ),
-        returns=(*SPLINE_THRUST.returns, gives("axial_force_N", mark("friction thrust"), "force")),
-        answer=dict,
-        forms=(
-            SPLINE_THRUST,
-            Calculation(
-                name="spline_axial_force",
-                doc=mark("friction thrust of a spline"),
-                source="Kozhevnikov & Perfil'ev (1978), eq. 123",
-                takes=thrust_keys,
-                returns=(gives("axial_force_N", mark("friction thrust"), "force"),),
-                answer=_thrust,
-            ),
-        ),
-    ),
+@formula(
+    "stresses of a straight-sided spline",
+    "Book p. 228, pressure and shear of the teeth, torsion at the smallest diameter",
+    positive("D_mm", "outer diameter"),
+    positive("d_mm", "root diameter"),
+    positive("teeth", "number of teeth", kind="whole"),
+    positive("tooth_width_mm", "width of a tooth"),
+    positive("length_mm", "length of the teeth"),
+    TORQUE,
+    at_least_zero("chamfer_mm", "chamfer", default=0.0),
+    positive("load_share", "share of the teeth that carry", default=0.75, high=1.0),
+    "d_m_mm: mean diameter",
+    "h_mm: height of the flanks that bear",
+    "sigma_crush_MPa: pressure on the flanks",
+    "tau_tooth_MPa: shear at the roots of the teeth",
+    "tau_core_MPa: torsion at the root diameter",
+    check=_flanks,
 )
-"""Calculations of this part."""
+def _spline(v: Values) -> Any:
+    found = spline_stress(
+        v.torque,
+        outer=v.D,
+        root=v.d,
+        teeth=v.teeth,
+        tooth_width=v.tooth_width,
+        length=v.length,
+        chamfer=v.chamfer,
+        load_share=v.load_share,
+    )
+    return found.mean_diameter, found.height, found.pressure, found.tooth_shear, found.core_shear
+
+
+@formula(
+    "stresses of the arm of a yoke",
+    "Book (263); Saint-Venant's torsion",
+    FORCE,
+    at_least_zero("bending_arm_mm", "arm of the force for bending"),
+    at_least_zero("torsion_arm_mm", "arm of the force for torsion"),
+    record(
+        "section",
+        "weakest section",
+        word("shape", "shape of the section", *SHAPES),
+        positive("height_mm", "height along the force"),
+        positive("width_mm", "width across the force"),
+    ),
+    "sigma_bending_MPa: bending stress",
+    "tau_torsion_MPa: shear stress of torsion",
+    "sigma_mises_MPa: equivalent stress by von Mises",
+)
+def _yoke(v: Values) -> Any:
+    section = v.section
+    found = yoke_stress(
+        v.journal_force,
+        bending_arm=v.bending_arm,
+        torsion_arm=v.torsion_arm,
+        height=section.height,
+        width=section.width,
+        shape=SHAPES[section.shape],
+    )
+    return found.bending, found.shear, found.mises
+
+
+@formula(
+    "stresses at the root of a journal of the cross",
+    "Book (264), (265), with the grease bore",
+    FORCE,
+    positive("length_mm", "length of the journal"),
+    positive("d_mm", "diameter"),
+    at_least_zero("bore_mm", "diameter of the grease bore", default=0.0),
+    at_least_zero("arm_mm", "arm of the force; half the length when not given", default=None),
+    "sigma_bending_MPa: bending stress",
+    "tau_mean_MPa: mean shear stress",
+    "tau_max_MPa: largest shear stress",
+    check=bores("d", "bore"),
+)
+def _journal(v: Values) -> Any:
+    arm = 0.5 * v.length if v.arm is None else v.arm
+    found = journal_stress(v.journal_force, diameter=v.d, arm=arm, bore=v.bore)
+    return found.bending, found.mean_shear, found.shear
+
+
+@formula(
+    "friction thrust of a spline: its parts in the joint, or the thrust alone",
+    SPLINE_THRUST.source,
+    *SPLINE_THRUST.takes,
+    *(
+        thrust_keys := (
+            at_least_zero("torque_Nm", "torque at the spline, for the thrust alone"),
+            positive("d_m_mm", "its mean diameter"),
+            at_least_zero("friction", "its coefficient of friction"),
+            at_least_zero("pressure_angle_deg", "pressure angle of its teeth", default=0.0, below=0.5 * math.pi),
+        )
+    ),
+    *SPLINE_THRUST.returns,
+    "axial_force_N: friction thrust",
+    forms=(
+        SPLINE_THRUST,
+        Calculation(
+            name="spline_axial_force",
+            doc="friction thrust of a spline",
+            source="Book (123)",
+            takes=thrust_keys,
+            returns=(gives("axial_force_N", "friction thrust"),),
+            answer=lambda v: spline_grip(v.friction, v.d_m, v.pressure_angle) * v.torque,
+        ),
+    ),
+    kind=Forms,
+)
+def _spline_axial_force(v: Values) -> Any:
+    return dict(v)

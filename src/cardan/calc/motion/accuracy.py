@@ -1,67 +1,37 @@
-"""Calculations of accuracy: the closed loop of a joint with errors, influence coefficients, tolerances, chains."""
+"""Accuracy: the closed loop of a joint with errors, influence coefficients, tolerances, chains."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 
 from cardan.book.joint_accuracy import joint_samples, joint_stack, stack_over_turn
-from cardan.calc.calculation import Calculation, Values, given, gives
+from cardan.calc.calculation import Formulas, Problems, Values
+from cardan.calc.keys import RIGHT, at_least_zero, given, gives, positive, whole, word, yoke_rotation
 from cardan.drive.drives import Drives
-from cardan.errors import Problem, refuse
+from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import loops
 from cardan.questions.accuracy.accuracy import course, one_turn, transmission_error
 from cardan.questions.accuracy.sampling import MonteCarlo
-from cardan.texts import _, mark
+from cardan.texts import _
 from cardan.units import deg
 
-from .kinematics import RIGHT, joint_angles
+from .kinematics import joint_angles
+
+formula = Formulas(__doc__)
+
 
 IDEAL, OTHER = "phi4=atan2(cos(alpha)cos(phi1),sin(phi1))", "phi4=atan2(-cos(alpha)cos(phi1),-sin(phi1))"
 LAWS = ("normal", "uniform", "triangular")
 LENGTHS = ("s1", "a1", "a2", "a3", "a4")
 ANGLES = ("alpha1", "alpha2", "alpha3", "alpha4")
 
-JOINT_ANGLE = given("alpha_deg", mark("joint angle of the joint"), "angle", low=0.0, below=RIGHT)
-INPUT = given("phi1_deg", mark("angle of the driving yoke from the plane of the shafts"), "angle")
-WAYS = given(
-    "tol_s1_a1_a2_a3_a4_mm",
-    mark("tolerances ± of the five lengths of the loop"),
-    "length",
-    axes=(1,),
-    width=5,
-    low=0.0,
-)
-TURNS = given(
-    "tol_alpha1_2_3_4_deg", mark("tolerances ± of the four angles of the loop"), "angle", axes=(1,), width=4, low=0.0
-)
-
-
-def _rccc(values: Values) -> Values:
-    """Return both positions of a loop; the angles between axes and around them in one frame of words."""
-    alpha, phi, length, slide = values["alpha"], values["phi1"], values["a"], values["s1"]
-    both = loops.rccc(alpha, phi, length=length, slide=slide, branch=np.asarray([-1.0, 1.0]))
-    spread = loops.turning_range(alpha)
-    _closed(alpha, spread, both.status)
-    order = np.argsort(both.angle[:, 2])
-    angle = np.concatenate((np.full((2, 1), phi), both.angle), axis=-1)[order]
-    slides = np.concatenate((np.full((2, 1), slide), both.slide), axis=-1)[order]
-    return {
-        "full_rotation": bool(spread.full),
-        "cos_phi1_min": _finite(spread.lowest),
-        "cos_phi1_max": _finite(spread.highest),
-        "solutions_sorted_by_phi4": [
-            {
-                **{f"phi{k}_deg": float(turned[k - 1] / deg) for k in (2, 3, 4)},
-                **{f"s{k}_m": float(slid[k - 1]) for k in (2, 3, 4)},
-            }
-            for turned, slid in zip(angle, slides, strict=True)
-        ],
-        "closure_residual": float(np.max(loops.closure(alpha, angle, length, slides))),
-    }
+JOINT_ANGLE = yoke_rotation("alpha_deg", "joint angle of the joint")
+INPUT = given("phi1_deg", "angle of the driving yoke from the plane of the shafts")
+WAYS = at_least_zero("tol_s1_a1_a2_a3_a4_mm", "tolerances ± of the five lengths of the loop", axes=1, width=5)
+TURNS = at_least_zero("tol_alpha1_2_3_4_deg", "tolerances ± of the four angles of the loop", axes=1, width=4)
 
 
 def _finite(value: Array) -> float:
@@ -94,24 +64,113 @@ def _closed(alpha: Array, spread: loops.Range, status: Array) -> None:
     raise refuse("angle", _("the angle of the driven shaft is left free here"))
 
 
-def _influence(values: Values) -> Values:
-    table = loops.influence(
-        values["alpha"], values["phi1"], branch=loops.IDEAL * (1 if values["branch"] == IDEAL else -1)
-    )
+def _law(v: Values) -> str:
+    """Return the law that a description begins with."""
+    return next((law for law in LAWS if str(v.distribution).strip().lower().startswith(law)), "")
+
+
+def _law_check(v: Values) -> Problems:
+    if "distribution" in v and not _law(v):
+        text = _("{value} begins with none of {choices}")
+        yield v.wrong("distribution", text.format(value=repr(v.distribution), choices=", ".join(LAWS)))
+
+
+def _lists(v: Values) -> Problems:
+    if "alpha" not in v:
+        return
+    count = len(v.alpha)
+    if not count:
+        yield v.wrong("alpha", _("an empty list has no joint"))
+        return
+    wanted = {
+        "kappa_between_joints": count - 1,
+        "angle_errors_alpha1_4_per_joint": count,
+        "phase_errors_before_each_joint": count,
+        "linear_errors_s1_a1_4_per_joint": count,
+    }
+    for name, needed in wanted.items():
+        if v.get(name) is not None and len(v[name]) != needed:
+            text = _("{given} values given, {wanted} needed")
+            yield v.wrong(name, text.format(given=len(v[name]), wanted=needed))
+
+
+@formula(
+    "both positions of a closed loop of one revolute and three cylindrical pairs, and its range",
+    "Book (141)-(156)",
+    given("alpha_deg", "angles between neighbouring axes", axes=1, width=4),
+    given("a_m", "lengths between neighbouring axes", axes=1, width=4),
+    given("s1_m", "way along axis 1"),
+    given("phi1_deg", "input angle about axis 1"),
+    "full_rotation: whether the input can turn all the way round",
+    "cos_phi1_min: least cosine of the input angle; None where it makes no difference",
+    "cos_phi1_max: largest cosine of the input angle; None where it makes no difference",
+    "solutions_sorted_by_phi4: angles in degrees and slides in metres of both assemblies",
+    "closure_residual: by how much the product of the matrices misses the unit matrix",
+)
+def _rccc(v: Values) -> Any:
+    """Return both positions of a loop; the angles between axes and around them in one frame of words."""
+    alpha, phi, length, slide = v.alpha, v.phi1, v.a, v.s1
+    both = loops.rccc(alpha, phi, length=length, slide=slide, branch=np.asarray([-1.0, 1.0]))
+    spread = loops.turning_range(alpha)
+    _closed(alpha, spread, both.status)
+    order = np.argsort(both.angle[:, 2])
+    angle = np.concatenate((np.full((2, 1), phi), both.angle), axis=-1)[order]
+    slides = np.concatenate((np.full((2, 1), slide), both.slide), axis=-1)[order]
     return {
-        "rows": ["2", "3", "4"],
-        "C_columns": list(LENGTHS),
-        "C": table,
-        "d_columns": list(ANGLES),
-        "d": table[..., 1:],
+        "full_rotation": bool(spread.full),
+        "cos_phi1_min": _finite(spread.lowest),
+        "cos_phi1_max": _finite(spread.highest),
+        "solutions_sorted_by_phi4": [
+            {
+                **{f"phi{k}_deg": float(turned[k - 1] / deg) for k in (2, 3, 4)},
+                **{f"s{k}_m": float(slid[k - 1]) for k in (2, 3, 4)},
+            }
+            for turned, slid in zip(angle, slides, strict=True)
+        ],
+        "closure_residual": float(np.max(loops.closure(alpha, angle, length, slides))),
     }
 
 
-def _stack(values: Values) -> Values:
-    tolerances = {"ways": values["tol_s1_a1_a2_a3_a4"], "turns": values["tol_alpha1_2_3_4"]}
-    here = joint_stack(values["alpha"], values["phi1"], **tolerances)
-    turn = stack_over_turn(values["alpha"], **tolerances)
-    angle, way = values["target_phi4"], values["target_s4"]
+@formula(
+    "by how much angles and slides of a joint follow the errors of its loop",
+    "Book (171), (180)",
+    (JOINT_ANGLE, INPUT),
+    word("branch", "assembly of the joint", IDEAL, OTHER, default=IDEAL),
+    "rows: numbers of the axes",
+    "C_columns: errors of lengths",
+    "C: slides s_2, s_3, s_4 by errors of lengths",
+    "d_columns: errors of angles",
+    "d: angles φ_2, φ_3, φ_4 by errors of angles",
+)
+def _influence_coefficients(v: Values) -> Any:
+    table = loops.influence(v.alpha, v.phi1, branch=loops.IDEAL * (1 if v.branch == IDEAL else -1))
+    return ["2", "3", "4"], list(LENGTHS), table, list(ANGLES), table[..., 1:]
+
+
+@formula(
+    "what the tolerances of one joint add up to, at worst and as root of the sum of squares",
+    "Book (171), (180), pp. 186-190",
+    (JOINT_ANGLE, INPUT, WAYS, TURNS),
+    positive("target_phi4_deg", "allowed error of the driven angle", default=None),
+    positive("target_s4_mm", "allowed shift of the driven shaft", default=None),
+    "worst_s2_s3_s4_m: worst case of the slides",
+    "rss_s2_s3_s4_m: root of the sum of squares of the slides",
+    "worst_phi2_phi3_phi4_rad: worst case of the angles",
+    "rss_phi2_phi3_phi4_rad: root of the sum of squares of the angles",
+    "max_over_turn_worst_phi4_rad: largest worst case of the driven angle",
+    "max_over_turn_worst_s4_m: largest worst case of the driven shaft's shift",
+    "max_over_turn_rss_phi4_rad: largest root of squares of the driven angle",
+    "max_over_turn_rss_s4_m: largest root of squares of the driven shaft's shift",
+    gives("share_of_alpha1_4_in_phi2_phi3_phi4", "share of each tolerance in the sum of squares", None),
+    gives("share_of_s1_a1_4_in_s2_s3_s4", "share of each tolerance in the sum of squares", None),
+    "required_alpha1_4_deg: tolerances of equal share that keep the target of the angle",
+    "required_s1_a1_4_m: tolerances of equal share that keep the target of the shift",
+)
+def _tolerance_stack(v: Values) -> Any:
+    tolerances = {"ways": v.tol_s1_a1_a2_a3_a4, "turns": v.tol_alpha1_2_3_4}
+    here = joint_stack(v.alpha, v.phi1, **tolerances)
+    turn = stack_over_turn(v.alpha, **tolerances)
+    angle, way = v.target_phi4, v.target_s4
     return {
         "worst_s2_s3_s4_m": here.worst_slide,
         "rss_s2_s3_s4_m": here.square_slide,
@@ -128,25 +187,34 @@ def _stack(values: Values) -> Values:
     }
 
 
-def _law(values: Values) -> str:
-    """Return the law that a description begins with."""
-    return next((law for law in LAWS if str(values["distribution"]).strip().lower().startswith(law)), "")
-
-
-def _law_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    if "distribution" in values and not _law(values):
-        text = _("{value} begins with none of {choices}")
-        yield Problem(key("distribution"), text.format(value=repr(values["distribution"]), choices=", ".join(LAWS)))
-
-
-def _samples(values: Values) -> Values:
+@formula(
+    "what errors drawn at random within the tolerances of one joint do, by the exact loop",
+    "Book pp. 186-190; random samples",
+    (JOINT_ANGLE, INPUT, WAYS, TURNS),
+    word("distribution", "law of the errors, the first word of a description", default=LAWS[0]),
+    whole("samples", "how many joints to draw", low=128, high=10000000.0, default=65536),
+    whole("seed", "start of the random numbers", low=0, default=1),
+    "std_phi2_phi3_phi4_rad: standard deviations of the angles",
+    "std_s2_s3_s4_m: standard deviations of the slides",
+    "mean_phi2_phi3_phi4_rad: means of what the errors add to the angles",
+    "mean_s2_s3_s4_m: means of the slides",
+    "quantile_95_phi2_phi3_phi4_rad: lower and upper bounds of 95 % of the angles",
+    "quantile_95_s2_s3_s4_m: lower and upper bounds of 95 % of the slides",
+    "quantile_997_phi2_phi3_phi4_rad: lower and upper bounds of 99.7 % of the angles",
+    "quantile_997_s2_s3_s4_m: lower and upper bounds of 99.7 % of the slides",
+    "samples: joints that could be assembled",
+    "not_assembled: joints that could not",
+    "seed: start of the random numbers",
+    check=_law_check,
+)
+def _tolerance_montecarlo(v: Values) -> Any:
     found = joint_samples(
-        values["alpha"],
-        values["phi1"],
-        ways=values["tol_s1_a1_a2_a3_a4"],
-        turns=values["tol_alpha1_2_3_4"],
-        distribution=_law(values),
-        method=MonteCarlo(samples=values["samples"], seed=values["seed"]),
+        v.alpha,
+        v.phi1,
+        ways=v.tol_s1_a1_a2_a3_a4,
+        turns=v.tol_alpha1_2_3_4,
+        distribution=_law(v),
+        method=MonteCarlo(samples=v.samples, seed=v.seed),
     )
     return {
         "std_phi2_phi3_phi4_rad": found.angle_deviation,
@@ -159,22 +227,43 @@ def _samples(values: Values) -> Values:
         "quantile_997_s2_s3_s4_m": found.slide_levels[0::3],
         "samples": found.count,
         "not_assembled": found.lost,
-        "seed": values["seed"],
+        "seed": v.seed,
     }
 
 
-def _chain(values: Values) -> Values:
-    joints = Drives.from_angles(values["alpha"], yoke_angle=RIGHT - values["kappa_between_joints"])
-    count = len(values["alpha"])
-    phase = values["phase_errors_before_each_joint"]
+@formula(
+    "what errors of every joint do to the output of a chain, exactly and to first order",
+    "Book (171), (180), chained",
+    joint_angles(axes=1),
+    given("kappa_deg_between_joints", "angle added to that of the yokes between joints", axes=1),
+    given("phi1_deg", "angle of the first driving yoke from the plane of its joint"),
+    given("angle_errors_deg_alpha1_4_per_joint", "errors of the four angles of each joint", axes=2, width=4),
+    given("phase_errors_deg_before_each_joint", "errors of the angle of each driving yoke", axes=1, default=None),
+    given(
+        "linear_errors_mm_s1_a1_4_per_joint", "errors of the five lengths of each joint", axes=2, width=5, default=None
+    ),
+    "delta_phi_out_exact_rad: error of the output angle",
+    "delta_phi_out_linear_rad: error of the output angle to first order",
+    "axial_shift_out_exact_m: shift of the output shaft",
+    "axial_shift_out_linear_m: shift of the output shaft to first order",
+    "mean_over_turn_rad: part of the error of the angle that setting up takes away",
+    "peak_to_peak_over_turn_rad: change of the error of the angle over a turn",
+    "first_harmonic_rad: amplitude of the error of the angle once a turn",
+    "second_harmonic_rad: amplitude of the error of the angle twice a turn",
+    check=_lists,
+)
+def _chain_with_errors(v: Values) -> Any:
+    joints = Drives.from_angles(v.alpha, yoke_angle=RIGHT - v.kappa_between_joints)
+    count = len(v.alpha)
+    phase = v.phase_errors_before_each_joint
     phase = np.zeros(count) if phase is None else phase
     errors: dict[str, Any] = {
-        "turns": np.concatenate((phase[:, None], values["angle_errors_alpha1_4_per_joint"]), axis=-1),
-        "ways": values["linear_errors_s1_a1_4_per_joint"],
+        "turns": np.concatenate((phase[:, None], v.angle_errors_alpha1_4_per_joint), axis=-1),
+        "ways": v.linear_errors_s1_a1_4_per_joint,
     }
     if errors["ways"] is None:
         errors["ways"] = np.zeros((count, 5))
-    here = transmission_error(joints, values["phi1"], **errors)
+    here = transmission_error(joints, v.phi1, **errors)
     turn = transmission_error(joints, one_turn(), **errors)
     if not (here.closes and turn.closes):
         raise refuse("angle_errors_alpha1_4_per_joint", _("a joint with such errors cannot be assembled all round"))
@@ -189,170 +278,3 @@ def _chain(values: Values) -> Values:
         "first_harmonic_rad": parts.first,
         "second_harmonic_rad": parts.second,
     }
-
-
-def _lists(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    if "alpha" not in values:
-        return
-    count = len(values["alpha"])
-    if not count:
-        yield Problem(key("alpha"), _("an empty list has no joint"))
-        return
-    wanted = {
-        "kappa_between_joints": count - 1,
-        "angle_errors_alpha1_4_per_joint": count,
-        "phase_errors_before_each_joint": count,
-        "linear_errors_s1_a1_4_per_joint": count,
-    }
-    for name, needed in wanted.items():
-        if values.get(name) is not None and len(values[name]) != needed:
-            text = _("{given} values given, {wanted} needed")
-            yield Problem(key(name), text.format(given=len(values[name]), wanted=needed))
-
-
-CALCULATIONS = (
-    Calculation(
-        name="rccc",
-        doc=mark("both positions of a closed loop of one revolute and three cylindrical pairs, and its range"),
-        source="Kozhevnikov & Perfil'ev (1978), eq. 141–156",
-        takes=(
-            given("alpha_deg", mark("angles between neighbouring axes"), "angle", axes=(1,), width=4),
-            given("a_m", mark("lengths between neighbouring axes"), "length", axes=(1,), width=4),
-            given("s1_m", mark("way along axis 1"), "length"),
-            given("phi1_deg", mark("input angle about axis 1"), "angle"),
-        ),
-        returns=(
-            gives("full_rotation", mark("whether the input can turn all the way round")),
-            gives("cos_phi1_min", mark("least cosine of the input angle; None where it makes no difference")),
-            gives("cos_phi1_max", mark("largest cosine of the input angle; None where it makes no difference")),
-            gives("solutions_sorted_by_phi4", mark("angles in degrees and slides in metres of both assemblies")),
-            gives("closure_residual", mark("by how much the product of the matrices misses the unit matrix")),
-        ),
-        answer=_rccc,
-    ),
-    Calculation(
-        name="influence_coefficients",
-        doc=mark("by how much angles and slides of a joint follow the errors of its loop"),
-        source="Kozhevnikov & Perfil'ev (1978), eq. 171, 180",
-        takes=(
-            JOINT_ANGLE,
-            INPUT,
-            given("branch", mark("assembly of the joint"), kind="word", choices=(IDEAL, OTHER), default=IDEAL),
-        ),
-        returns=(
-            gives("rows", mark("numbers of the axes")),
-            gives("C_columns", mark("errors of lengths")),
-            gives("C", mark("slides s_2, s_3, s_4 by errors of lengths")),
-            gives("d_columns", mark("errors of angles")),
-            gives("d", mark("angles φ_2, φ_3, φ_4 by errors of angles")),
-        ),
-        answer=_influence,
-    ),
-    Calculation(
-        name="tolerance_stack",
-        doc=mark("what the tolerances of one joint add up to, at worst and as root of the sum of squares"),
-        source="Kozhevnikov & Perfil'ev (1978), eq. 171, 180, pp. 186-190",
-        takes=(
-            JOINT_ANGLE,
-            INPUT,
-            WAYS,
-            TURNS,
-            given("target_phi4_deg", mark("allowed error of the driven angle"), "angle", above=0.0, default=None),
-            given("target_s4_mm", mark("allowed shift of the driven shaft"), "length", above=0.0, default=None),
-        ),
-        returns=(
-            gives("worst_s2_s3_s4_m", mark("worst case of the slides"), "length"),
-            gives("rss_s2_s3_s4_m", mark("root of the sum of squares of the slides"), "length"),
-            gives("worst_phi2_phi3_phi4_rad", mark("worst case of the angles"), "angle"),
-            gives("rss_phi2_phi3_phi4_rad", mark("root of the sum of squares of the angles"), "angle"),
-            gives("max_over_turn_worst_phi4_rad", mark("largest worst case of the driven angle"), "angle"),
-            gives("max_over_turn_worst_s4_m", mark("largest worst case of the driven shaft's shift"), "length"),
-            gives("max_over_turn_rss_phi4_rad", mark("largest root of squares of the driven angle"), "angle"),
-            gives("max_over_turn_rss_s4_m", mark("largest root of squares of the driven shaft's shift"), "length"),
-            gives("share_of_alpha1_4_in_phi2_phi3_phi4", mark("share of each tolerance in the sum of squares")),
-            gives("share_of_s1_a1_4_in_s2_s3_s4", mark("share of each tolerance in the sum of squares")),
-            gives(
-                "required_alpha1_4_deg", mark("tolerances of equal share that keep the target of the angle"), "angle"
-            ),
-            gives("required_s1_a1_4_m", mark("tolerances of equal share that keep the target of the shift"), "length"),
-        ),
-        answer=_stack,
-    ),
-    Calculation(
-        name="tolerance_montecarlo",
-        doc=mark("what errors drawn at random within the tolerances of one joint do, by the exact loop"),
-        source="Kozhevnikov & Perfil'ev (1978), pp. 186–190; random samples",
-        takes=(
-            JOINT_ANGLE,
-            INPUT,
-            WAYS,
-            TURNS,
-            given(
-                "distribution", mark("law of the errors, the first word of a description"), kind="word", default=LAWS[0]
-            ),
-            given("samples", mark("how many joints to draw"), kind="whole", low=128, high=1e7, default=65536),
-            given("seed", mark("start of the random numbers"), kind="whole", low=0, default=1),
-        ),
-        returns=(
-            gives("std_phi2_phi3_phi4_rad", mark("standard deviations of the angles"), "angle"),
-            gives("std_s2_s3_s4_m", mark("standard deviations of the slides"), "length"),
-            gives("mean_phi2_phi3_phi4_rad", mark("means of what the errors add to the angles"), "angle"),
-            gives("mean_s2_s3_s4_m", mark("means of the slides"), "length"),
-            gives("quantile_95_phi2_phi3_phi4_rad", mark("lower and upper bounds of 95 % of the angles"), "angle"),
-            gives("quantile_95_s2_s3_s4_m", mark("lower and upper bounds of 95 % of the slides"), "length"),
-            gives("quantile_997_phi2_phi3_phi4_rad", mark("lower and upper bounds of 99.7 % of the angles"), "angle"),
-            gives("quantile_997_s2_s3_s4_m", mark("lower and upper bounds of 99.7 % of the slides"), "length"),
-            gives("samples", mark("joints that could be assembled")),
-            gives("not_assembled", mark("joints that could not")),
-            gives("seed", mark("start of the random numbers")),
-        ),
-        answer=_samples,
-        check=_law_check,
-    ),
-    Calculation(
-        name="chain_with_errors",
-        doc=mark("what errors of every joint do to the output of a chain, exactly and to first order"),
-        source="Kozhevnikov & Perfil'ev (1978), eq. 171, 180, chained",
-        takes=(
-            joint_angles(axes=(1,)),
-            given(
-                "kappa_deg_between_joints", mark("angle added to that of the yokes between joints"), "angle", axes=(1,)
-            ),
-            given("phi1_deg", mark("angle of the first driving yoke from the plane of its joint"), "angle"),
-            given(
-                "angle_errors_deg_alpha1_4_per_joint",
-                mark("errors of the four angles of each joint"),
-                "angle",
-                axes=(2,),
-                width=4,
-            ),
-            given(
-                "phase_errors_deg_before_each_joint",
-                mark("errors of the angle of each driving yoke"),
-                "angle",
-                axes=(1,),
-                default=None,
-            ),
-            given(
-                "linear_errors_mm_s1_a1_4_per_joint",
-                mark("errors of the five lengths of each joint"),
-                "length",
-                axes=(2,),
-                width=5,
-                default=None,
-            ),
-        ),
-        returns=(
-            gives("delta_phi_out_exact_rad", mark("error of the output angle"), "angle"),
-            gives("delta_phi_out_linear_rad", mark("error of the output angle to first order"), "angle"),
-            gives("axial_shift_out_exact_m", mark("shift of the output shaft"), "length"),
-            gives("axial_shift_out_linear_m", mark("shift of the output shaft to first order"), "length"),
-            gives("mean_over_turn_rad", mark("part of the error of the angle that setting up takes away"), "angle"),
-            gives("peak_to_peak_over_turn_rad", mark("change of the error of the angle over a turn"), "angle"),
-            gives("first_harmonic_rad", mark("amplitude of the error of the angle once a turn"), "angle"),
-            gives("second_harmonic_rad", mark("amplitude of the error of the angle twice a turn"), "angle"),
-        ),
-        answer=_chain,
-        check=_lists,
-    ),
-)

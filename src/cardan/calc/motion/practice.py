@@ -1,21 +1,25 @@
-"""Calculations of practice: balance, accuracy of parts, layout, upkeep, materials, types of joints."""
+"""Practice: balance, accuracy of parts, layout, upkeep, materials, types of joints."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from typing import Any
 
-from cardan.calc.calculation import Calculation, Values, at_least_zero, given, gives, positive
+from cardan.calc.calculation import Formulas, Problems, Values
+from cardan.calc.keys import at_least_zero, flag, gives, positive, word, yoke_rotation
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import BalanceNorm, Lubrication, PartLimit
-from cardan.choices.selection import JointDuty, select_joint
+from cardan.choices.selection import Need, select_joint
 from cardan.errors import Problem
 from cardan.formulas.upkeep import lubrication_shares, shaft_sections
 from cardan.questions.bending.balance import allowed_unbalance
-from cardan.texts import _, mark
+from cardan.texts import _
 from cardan.units import DIMENSIONS
 
-from .angles import SLACK, angle
+from .angles import SLACK
+
+formula = Formulas(__doc__)
+
 
 MEASURES = {
     "yoke": {
@@ -33,82 +37,171 @@ MEASURES = {
 """Part -> row of its limits -> key of the measure."""
 
 
-def _balance(values: Values) -> Values:
-    found = allowed_unbalance(values["mass"], values["speed"], values["grade"])
-    return {
-        "U_per_gmm": found.whole / GMM,
-        "U_per_plane_gmm": found.plane / GMM,
-        "e_per_um": found.eccentricity / 1e-6,
-        "force_N": found.force,
-    }
-
-
 GMM = DIMENSIONS["unbalance"]["g_mm"]
 UNITS = tuple(unit for unit in DIMENSIONS["unbalance"])
 
 
-def _convert(values: Values) -> Values:
-    return {"unbalance_gmm": values["value"] * DIMENSIONS["unbalance"][values["unit"]] / GMM}
-
-
-def _norm(values: Values) -> Values:
-    limit = catalogue().rows(BalanceNorm)[values["vehicle_class"]].max_unbalance / DIMENSIONS["unbalance"]["N_cm"]
-    return {"ok": values["unbalance_Ncm"] <= limit * (1.0 + SLACK), "limit_Ncm": limit}
-
-
-def _accuracy(values: Values) -> Values:
-    limits = catalogue().rows(PartLimit)
-    violated = []
-    for row, key in MEASURES[values["part"]].items():
-        value = values[MEASURE[key].name]
-        if value is not None and value > limits[row].limit * (1.0 + SLACK):
-            violated.append(key)
-    return {"ok": not violated, "violated": violated}
-
-
-def _measures(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+def _measures(v: Values) -> Problems:
     """Yield measures of the other part, and a part of which nothing was measured."""
-    part = values.get("part")
+    part = v.get("part")
     if part is None:
         return
     own = [MEASURE[one] for one in MEASURES[part].values()]
     for item in MEASURE.values():
-        if item not in own and values.get(item.name) is not None:
+        if item not in own and v.get(item.name) is not None:
             text = _("is not a measure of a {part}; its measures are {known}")
             known = ", ".join(one.key for one in own)
-            yield Problem(key(item.name), text.format(part=part, known=known), "unknown_key")
-    if all(values.get(item.name, math.nan) is None for item in own):
+            yield v.wrong(item.name, text.format(part=part, known=known), "unknown_key")
+    if all(v.get(item.name, math.nan) is None for item in own):
         yield Problem(own[0].key, _("missing: give at least one measure"), "missing")
-
-
-def _layout(values: Values) -> Values:
-    sections = shaft_sections(values["wheelbase"])
-    return {"shaft_sections": sections, "joints": sections + 1, "centre_bearings": sections - 1}
 
 
 COUNTERS = {"hours": "hours", "distance": "km", "years": "years"}
 
 
-def _lubrication(values: Values) -> Values:
-    row = catalogue().rows(Lubrication)[values["item"]]
-    shares = lubrication_shares(
-        row,
-        hours=None if values["hours"] is None else 3600.0 * values["hours"],
-        distance=None if values["km"] is None else 1000.0 * values["km"],
-        years=values["years"],
-        severe=values["severe"],
-    )
-    by = [COUNTERS[name] for name, share in shares.items() if share >= 1.0 - SLACK]
-    return {"due": bool(by), "by": by, "lubricant": row.lubricant}
-
-
-def _counters(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    if all(values.get(name, math.nan) is None for name in ("hours", "km", "years")):
+def _counters(v: Values) -> Problems:
+    if all(v.get(name, math.nan) is None for name in ("hours", "km", "years")):
         yield Problem("hours", _("missing: give the hours, the km or the years since the last lubrication"), "missing")
 
 
-def _material(values: Values) -> Values:
-    row = catalogue().grade(values["grade"], field="grade")
+def _uses(v: Values) -> Problems:
+    """Yield a part that the grade is not used for, where both are known."""
+    parts = {part for row in catalogue().tables["materials"].values() for part in row.parts}  # type: ignore[attr-defined]
+    part = v.get("part")
+    if part is not None and part not in parts:
+        text = _("{part} is none of {known}")
+        yield v.wrong("part", text.format(part=repr(part), known=", ".join(sorted(parts))), "out_of_range")
+
+
+MEASURE = {
+    key: at_least_zero(
+        key,
+        "deviation as measured" + (", on 100 mm" if key.endswith("per_100") else ""),
+        "length",
+        default=None,
+    )
+    for keys in MEASURES.values()
+    for key in keys.values()
+}
+
+
+@formula(
+    "unbalance that a balance grade allows",
+    "ISO 21940-11",
+    positive("mass_kg", "mass of the shaft"),
+    positive("speed_rpm", "highest speed"),
+    positive("grade_mm_s", "grade: 16 for G16"),
+    "U_per_gmm: unbalance of the shaft [g mm]",
+    "U_per_plane_gmm: in each of two planes [g mm]",
+    gives("e_per_um", "eccentricity of the centre of mass [µm]", None),
+    "force_N: force that turns with the shaft",
+)
+def _balance(v: Values) -> Any:
+    found = allowed_unbalance(v.mass, v.speed, v.grade)
+    return found.whole / GMM, found.plane / GMM, found.eccentricity / 1e-6, found.force
+
+
+@formula(
+    "unbalance from one unit to g mm",
+    "g = 9.80665 m/s²",
+    at_least_zero("value", "unbalance"),
+    word("unit", "its unit", *UNITS),
+    "unbalance_gmm: unbalance [g mm]",
+)
+def _unbalance_convert(v: Values) -> Any:
+    return v.value * DIMENSIONS["unbalance"][v.unit] / GMM
+
+
+@formula(
+    "whether an unbalance keeps the book's norm of a vehicle",
+    "Book p. 247",
+    word("vehicle_class", "vehicle", *catalogue().rows(BalanceNorm)),
+    at_least_zero("unbalance_Ncm", "unbalance [N cm]"),
+    "ok: whether it does",
+    "limit_Ncm: the norm [N cm]",
+)
+def _balance_norm_book(v: Values) -> Any:
+    limit = catalogue().rows(BalanceNorm)[v.vehicle_class].max_unbalance / DIMENSIONS["unbalance"]["N_cm"]
+    return v.unbalance_Ncm <= limit * (1.0 + SLACK), limit
+
+
+@formula(
+    "whether the measures of a yoke or a cross keep their limits",
+    "GOST 2752-74, by the Book",
+    word("part", "part", *MEASURES),
+    *MEASURE.values(),
+    "ok: whether they do",
+    "violated: the keys that do not",
+    check=_measures,
+)
+def _accuracy_check(v: Values) -> Any:
+    limits = catalogue().rows(PartLimit)
+    violated = []
+    for row, key in MEASURES[v.part].items():
+        value = v[MEASURE[key].name]
+        if value is not None and value > limits[row].limit * (1.0 + SLACK):
+            violated.append(key)
+    return not violated, violated
+
+
+@formula(
+    "how many shafts and centre bearings a wheelbase usually has",
+    "web articles on drive shafts",
+    positive("wheelbase_m", "distance of the axles"),
+    "shaft_sections: shafts in line",
+    "joints: joints",
+    "centre_bearings: centre bearings",
+)
+def _shaft_layout(v: Values) -> Any:
+    sections = shaft_sections(v.wheelbase)
+    return sections, sections + 1, sections - 1
+
+
+@formula(
+    "whether lubrication is due, and by which counter",
+    "Book pp. 248-249; half the intervals in water, mud or dust is a rule of this program",
+    word("item", "what is lubricated", *catalogue().rows(Lubrication)),
+    at_least_zero("hours", "hours run since the last time", default=None),
+    at_least_zero("km", "kilometres run since the last time", default=None),
+    at_least_zero("years", "years since the last time", default=None),
+    flag("severe", "water, mud or dust"),
+    "due: whether it is",
+    "by: hours, km, years: those reached",
+    "lubricant: with what",
+    check=_counters,
+)
+def _lubrication_due(v: Values) -> Any:
+    row = catalogue().rows(Lubrication)[v.item]
+    shares = lubrication_shares(
+        row,
+        hours=None if v.hours is None else 3600.0 * v.hours,
+        distance=None if v.km is None else 1000.0 * v.km,
+        years=v.years,
+        severe=v.severe,
+    )
+    by = [COUNTERS[name] for name, share in shares.items() if share >= 1.0 - SLACK]
+    return bool(by), by, row.lubricant
+
+
+@formula(
+    "what the catalogue says of a grade",
+    "Book p. 230; see the source of each row",
+    word("grade", "grade, or its name in another standard"),
+    word("part", "part it is to be used for", default=None),
+    "heat_treatment: treatment",
+    "hardness_HB: Brinell hardness, from and to",
+    "hardness_HRC: Rockwell C hardness, from and to",
+    "yield_MPa: yield strength",
+    "ultimate_MPa: tensile strength",
+    "en_equivalent: European grade, the same or the nearest",
+    "aisi_equivalent: AISI grade, the same or the nearest",
+    "used_for: parts it is used for",
+    "confidence: how sure the figures are",
+    "source: where they come from",
+    check=_uses,
+)
+def _material(v: Values) -> Any:
+    row = catalogue().grade(v.grade, field="grade")
     return {
         "heat_treatment": row.treatment,
         "hardness_HB": list(row.hardness_brinell) if row.hardness_brinell else None,
@@ -123,170 +216,34 @@ def _material(values: Values) -> Values:
     }
 
 
-def _uses(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    """Yield a part that the grade is not used for, where both are known."""
-    parts = {part for row in catalogue().tables["materials"].values() for part in row.parts}  # type: ignore[attr-defined]
-    part = values.get("part")
-    if part is not None and part not in parts:
-        text = _("{part} is none of {known}")
-        yield Problem(key("part"), text.format(part=repr(part), known=", ".join(sorted(parts))), "out_of_range")
-
-
-def _select(values: Values) -> Values:
-    need = JointDuty(
-        torque=values["torque"],
-        joint_angle=values["angle"],
-        speed=values["speed"],
-        synchronous=values["synchronous"],
-        service_factor=values["service_factor"],
-        continuous=values["continuous"],
-        outer=values["outer_diameter"],
+@formula(
+    "types of joints that do a job, under conditions or not, and why not",
+    "catalogue of types; Book, chapter 1",
+    positive("torque_Nm", "torque"),
+    yoke_rotation("angle_deg", "joint angle of the joint"),
+    at_least_zero("speed_rpm", "speed"),
+    flag("synchronous", "whether the output must turn evenly"),
+    positive("service_factor", "factor on the torque", default=1.0),
+    flag("continuous", "whether it runs for long at a time", default=True),
+    positive("outer_diameter_m", "outer diameter of the joint", default=None),
+    flag("include_beyond_seeds", "whether modern types count"),
+    "ok: types that do",
+    "conditional: types that do under conditions -> conditions",
+    "rejected: types that do not -> causes",
+)
+def _joint_selection(v: Values) -> Any:
+    need = Need(
+        torque=v.torque,
+        joint_angle=v.angle,
+        speed=v.speed,
+        synchronous=v.synchronous,
+        service_factor=v.service_factor,
+        continuous=v.continuous,
+        outer=v.outer_diameter,
     )
-    found = select_joint(need, include_beyond=values["include_beyond_seeds"])
+    found = select_joint(need, include_beyond=v.include_beyond_seeds)
     return {
         "ok": sorted(one.row.id for one in found if one.state == "ok"),
         "conditional": {one.row.id: list(one.flags) for one in found if one.state == "conditional"},
         "rejected": {one.row.id: list(one.causes) for one in found if one.state == "rejected"},
     }
-
-
-MEASURE = {
-    key: at_least_zero(
-        key,
-        mark("deviation as measured") + (mark(", on 100 mm") if key.endswith("per_100") else ""),
-        "length",
-        default=None,
-    )
-    for keys in MEASURES.values()
-    for key in keys.values()
-}
-
-CALCULATIONS = (
-    Calculation(
-        name="balance",
-        doc=mark("unbalance that a balance grade allows"),
-        source="ISO 21940-11",
-        takes=(
-            positive("mass_kg", mark("mass of the shaft"), "mass"),
-            positive("speed_rpm", mark("highest speed"), "angular_speed"),
-            positive("grade_mm_s", mark("grade: 16 for G16"), "speed"),
-        ),
-        returns=(
-            gives("U_per_gmm", mark("unbalance of the shaft [g mm]")),
-            gives("U_per_plane_gmm", mark("in each of two planes [g mm]")),
-            gives("e_per_um", mark("eccentricity of the centre of mass [µm]")),
-            gives("force_N", mark("force that turns with the shaft"), "force"),
-        ),
-        answer=_balance,
-    ),
-    Calculation(
-        name="unbalance_convert",
-        doc=mark("unbalance from one unit to g mm"),
-        source=mark("g = 9.80665 m/s²"),
-        takes=(
-            at_least_zero("value", mark("unbalance")),
-            given("unit", mark("its unit"), kind="word", choices=UNITS),
-        ),
-        returns=(gives("unbalance_gmm", mark("unbalance [g mm]")),),
-        answer=_convert,
-    ),
-    Calculation(
-        name="balance_norm_book",
-        doc=mark("whether an unbalance keeps the book's norm of a vehicle"),
-        source="Kozhevnikov & Perfil'ev (1978), p. 247",
-        takes=(
-            given("vehicle_class", mark("vehicle"), kind="word", choices=tuple(catalogue().rows(BalanceNorm))),
-            at_least_zero("unbalance_Ncm", mark("unbalance [N cm]")),
-        ),
-        returns=(gives("ok", mark("whether it does")), gives("limit_Ncm", mark("the norm [N cm]"))),
-        answer=_norm,
-    ),
-    Calculation(
-        name="accuracy_check",
-        doc=mark("whether the measures of a yoke or a cross keep their limits"),
-        source=mark("GOST 2752-74, by Kozhevnikov & Perfil'ev (1978)"),
-        takes=(given("part", mark("part"), kind="word", choices=tuple(MEASURES)), *MEASURE.values()),
-        returns=(gives("ok", mark("whether they do")), gives("violated", mark("the keys that do not"))),
-        answer=_accuracy,
-        check=_measures,
-    ),
-    Calculation(
-        name="shaft_layout",
-        doc=mark("how many shafts and centre bearings a wheelbase usually has"),
-        source=mark("rule of practice, source unknown"),
-        takes=(positive("wheelbase_m", mark("distance of the axles"), "length"),),
-        returns=(
-            gives("shaft_sections", mark("shafts in line")),
-            gives("joints", mark("joints")),
-            gives("centre_bearings", mark("centre bearings")),
-        ),
-        answer=_layout,
-    ),
-    Calculation(
-        name="lubrication_due",
-        doc=mark("whether lubrication is due, and by which counter"),
-        source=mark(
-            "Kozhevnikov & Perfil'ev (1978), pp. 248–249; half the intervals in water, mud or dust is a "
-            "rule of this program"
-        ),
-        takes=(
-            given("item", mark("what is lubricated"), kind="word", choices=tuple(catalogue().rows(Lubrication))),
-            at_least_zero("hours", mark("hours run since the last time"), default=None),
-            at_least_zero("km", mark("kilometres run since the last time"), default=None),
-            at_least_zero("years", mark("years since the last time"), default=None),
-            given("severe", mark("water, mud or dust"), kind="flag", default=False),
-        ),
-        returns=(
-            gives("due", mark("whether it is")),
-            gives("by", mark("hours, km, years: those reached")),
-            gives("lubricant", mark("with what")),
-        ),
-        answer=_lubrication,
-        check=_counters,
-    ),
-    Calculation(
-        name="material",
-        doc=mark("what the catalogue says of a grade"),
-        source=mark("Kozhevnikov & Perfil'ev (1978), p. 230; see the source of each row"),
-        takes=(
-            given("grade", mark("grade, or its name in another standard"), kind="word"),
-            given("part", mark("part it is to be used for"), kind="word", default=None),
-        ),
-        returns=(
-            gives("heat_treatment", mark("treatment")),
-            gives("hardness_HB", mark("Brinell hardness, from and to")),
-            gives("hardness_HRC", mark("Rockwell C hardness, from and to")),
-            gives("yield_MPa", mark("yield strength"), "stress"),
-            gives("ultimate_MPa", mark("tensile strength"), "stress"),
-            gives("en_equivalent", mark("European grade, the same or the nearest")),
-            gives("aisi_equivalent", mark("AISI grade, the same or the nearest")),
-            gives("used_for", mark("parts it is used for")),
-            gives("confidence", mark("how sure the figures are")),
-            gives("source", mark("where they come from")),
-        ),
-        answer=_material,
-        check=_uses,
-    ),
-    Calculation(
-        name="joint_selection",
-        doc=mark("types of joints that do a job, under conditions or not, and why not"),
-        source=mark("catalogue of types; Kozhevnikov & Perfil'ev (1978), chapter 1"),
-        takes=(
-            positive("torque_Nm", mark("torque"), "torque"),
-            angle("angle_deg", mark("joint angle of the joint")),
-            at_least_zero("speed_rpm", mark("speed"), "angular_speed"),
-            given("synchronous", mark("whether the output must turn evenly"), kind="flag", default=False),
-            positive("service_factor", mark("factor on the torque"), default=1.0),
-            given("continuous", mark("whether it runs for long at a time"), kind="flag", default=True),
-            positive("outer_diameter_m", mark("outer diameter of the joint"), "length", default=None),
-            given("include_beyond_seeds", mark("whether modern types count"), kind="flag", default=False),
-        ),
-        returns=(
-            gives("ok", mark("types that do")),
-            gives("conditional", mark("types that do under conditions -> conditions")),
-            gives("rejected", mark("types that do not -> causes")),
-        ),
-        answer=_select,
-    ),
-)
-"""Calculations of this part."""

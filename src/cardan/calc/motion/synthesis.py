@@ -1,48 +1,81 @@
-"""Calculations of synthesis: the yoke angles that make a chain synchronous, freely chosen or by spline teeth."""
+"""Synthesis: the yoke angles that make a chain synchronous, freely chosen or by spline teeth."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 
-from cardan.calc.calculation import Calculation, Given, Values, given, gives
+from cardan.calc.calculation import Formulas, Problems, Values
+from cardan.calc.keys import Given, given, gives, whole
 from cardan.drive.drive import Drive
 from cardan.drive.models.chain import chain
 from cardan.errors import Problem
 from cardan.questions.phases.phases import phases
 from cardan.questions.phases.setting import settings
 from cardan.questions.phases.spline_pitch import best_pitched, steps
-from cardan.texts import _, mark
+from cardan.texts import _
 
 from .kinematics import between, joint_angles, points, twists
+
+formula = Formulas(__doc__)
+
 
 RUNNERS_UP = 6
 
 
-def _drive(values: Values, yoke_angle: str) -> Drive:
-    yokes = values[yoke_angle]
+def _drive(v: Values, yoke_angle: str) -> Drive:
+    yokes = v[yoke_angle]
     yokes = [] if yokes is None else yokes.tolist()
-    if values["points"] is not None:
-        return Drive.from_points(values["points"].tolist(), yoke_angles=yokes)
-    twist = [] if values["beta"] is None else values["beta"].tolist()
-    return Drive.from_angles(values["alpha"].tolist(), plane_twists=twist, yoke_angles=yokes)
+    if v.points is not None:
+        return Drive.from_points(v.points.tolist(), yoke_angles=yokes)
+    twist = [] if v.beta is None else v.beta.tolist()
+    return Drive.from_angles(v.alpha.tolist(), plane_twists=twist, yoke_angles=yokes)
 
 
-def _check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    yield from between(values, key)
-    alpha, place = values.get("alpha"), values.get("points")
+def _check(v: Values) -> Problems:
+    yield from between(v)
+    alpha, place = v.get("alpha"), v.get("points")
     last = alpha.shape[0] if alpha is not None else place.shape[0] - 2 if place is not None else None
-    for number in values.get("fixed_gamma") or {}:
+    for number in v.get("fixed_gamma") or {}:
         if last is not None and not 2 <= number <= last:
             yield Problem(
-                f"{key('fixed_gamma')}.{number}",
+                f"{v.key('fixed_gamma')}.{number}",
                 _("there is no such yoke angle; the shafts between two joints are 2 to {last}").format(last=last),
             )
 
 
-def _continuous(values: Values) -> Values:
-    found = phases(_drive(values, "gamma"), fixed=values["fixed_gamma"])
+def _ties(one: float, other: float) -> bool:
+    return one - other <= 1e-12
+
+
+def _yokes(key: str, doc: str) -> Given:
+    return given(key, doc, axes=1, default=None)
+
+
+@formula(
+    "yoke angles that make a chain synchronous or as even as can be, and what they can reach",
+    "hyperbolic polygon; Book (77)-(86) is its first order",
+    joint_angles(axes=1, default=None),
+    (twists(axes=1), points(default=None)),
+    _yokes("gamma_deg", "present yoke angle of shafts 2 to n"),
+    given("fixed_gamma_deg", "yoke angles that must stay, by shaft number", kind="table", default=None),
+    "delta_min: smallest speed fluctuation",
+    "delta_max: largest speed fluctuation",
+    "synchronous_feasible: whether the chain can be synchronous",
+    "alpha_eq_min_deg: smallest equivalent angle",
+    "alpha_eq_max_deg: largest equivalent angle",
+    "gamma_deg: best yoke angles",
+    "gamma_deg_sets: best yoke angles and their mirror image",
+    "delta: speed fluctuation that the best yoke angles leave",
+    "delta_of_each_shaft: speed fluctuation of shafts 2 to n+1 then",
+    "psi_mod180_deg: phase angle of each joint then",
+    gives("delta_per_rad", "growth of the speed fluctuation for each yoke turned, per radian", None),
+    "limiting_joint: number of the joint that bends too much for the others",
+    check=_check,
+)
+def _synthesis_continuous(v: Values) -> Any:
+    found = phases(_drive(v, "gamma"), fixed=v.fixed_gamma)
     best = found.settings[0] if found.settings else found.as_built
     return {
         "delta_min": found.speed_fluctuation_min,
@@ -60,9 +93,28 @@ def _continuous(values: Values) -> Values:
     }
 
 
-def _spline(values: Values) -> Values:
-    whole = chain(_drive(values, "gamma_offset"))
-    teeth = [int(z) for z in values["spline_teeth"]]
+@formula(
+    "best yoke angles that spline teeth allow, all looked at",
+    "enumeration on the exact model",
+    joint_angles(axes=1, default=None),
+    (twists(axes=1), points(default=None)),
+    whole("spline_teeth", "teeth of the spline on shafts 2 to n", axes=1, low=1),
+    _yokes("gamma_offset_deg", "yoke angle of shafts 2 to n from which the teeth count"),
+    "delta_min: smallest speed fluctuation",
+    "delta_second_best: speed fluctuation of the runner-up",
+    "n_distinct: different yoke angles each spline allows",
+    "gamma_deg: best yoke angles",
+    "gamma_deg_minimisers: all equally good sets found",
+    "gamma_deg_sets: best sets, best first",
+    "delta_of_each_set: speed fluctuation each set leaves",
+    "delta_of_each_shaft: speed fluctuation of shafts 2 to n+1 with the best set",
+    "psi_mod180_deg: phase angle of each joint with the best set",
+    gives("delta_per_rad", "growth of the speed fluctuation for each yoke turned, per radian", None),
+    check=_check,
+)
+def _synthesis_spline(v: Values) -> Any:
+    whole = chain(_drive(v, "gamma_offset"))
+    teeth = [int(z) for z in v.spline_teeth]
     rows = best_pitched(whole, whole.yoke_angle, dict(enumerate(teeth)), count=RUNNERS_UP)
     found = settings(whole, rows, [""] * len(rows), whole.yoke_angle)
     turned = [np.remainder(one.yoke_angle, np.pi) for one in found]
@@ -82,75 +134,3 @@ def _spline(values: Values) -> Values:
         "psi_mod180_deg": np.remainder(found[0].initial_phase, np.pi),
         "delta_per_rad": found[0].sensitivity,
     }
-
-
-def _ties(one: float, other: float) -> bool:
-    return one - other <= 1e-12
-
-
-def _yokes(key: str, doc: str) -> Given:
-    return given(key, doc, "angle", axes=(1,), default=None)
-
-
-CALCULATIONS = (
-    Calculation(
-        name="synthesis_continuous",
-        doc=mark("yoke angles that make a chain synchronous or as even as can be, and what they can reach"),
-        source="hyperbolic polygon; Kozhevnikov & Perfil'ev (1978), eq. 77–86 is its first order",
-        takes=(
-            joint_angles(axes=(1,), default=None),
-            twists(axes=(1,)),
-            points(default=None),
-            _yokes("gamma_deg", mark("present yoke angle of shafts 2 to n")),
-            given(
-                "fixed_gamma_deg",
-                mark("yoke angles that must stay, by shaft number"),
-                "angle",
-                kind="table",
-                default=None,
-            ),
-        ),
-        returns=(
-            gives("delta_min", mark("smallest speed fluctuation")),
-            gives("delta_max", mark("largest speed fluctuation")),
-            gives("synchronous_feasible", mark("whether the chain can be synchronous")),
-            gives("alpha_eq_min_deg", mark("smallest equivalent angle"), "angle"),
-            gives("alpha_eq_max_deg", mark("largest equivalent angle"), "angle"),
-            gives("gamma_deg", mark("best yoke angles"), "angle"),
-            gives("gamma_deg_sets", mark("best yoke angles and their mirror image"), "angle"),
-            gives("delta", mark("speed fluctuation that the best yoke angles leave")),
-            gives("delta_of_each_shaft", mark("speed fluctuation of shafts 2 to n+1 then")),
-            gives("psi_mod180_deg", mark("phase angle of each joint then"), "angle"),
-            gives("delta_per_rad", mark("growth of the speed fluctuation for each yoke turned, per radian")),
-            gives("limiting_joint", mark("number of the joint that bends too much for the others")),
-        ),
-        answer=_continuous,
-        check=_check,
-    ),
-    Calculation(
-        name="synthesis_spline",
-        doc=mark("best yoke angles that spline teeth allow, all looked at"),
-        source="enumeration on the exact model",
-        takes=(
-            joint_angles(axes=(1,), default=None),
-            twists(axes=(1,)),
-            points(default=None),
-            given("spline_teeth", mark("teeth of the spline on shafts 2 to n"), kind="whole", axes=(1,), low=1),
-            _yokes("gamma_offset_deg", mark("yoke angle of shafts 2 to n from which the teeth count")),
-        ),
-        returns=(
-            gives("delta_min", mark("smallest speed fluctuation")),
-            gives("delta_second_best", mark("speed fluctuation of the runner-up")),
-            gives("n_distinct", mark("different yoke angles each spline allows")),
-            gives("gamma_deg", mark("best yoke angles"), "angle"),
-            gives("gamma_deg_minimisers", mark("all equally good sets found"), "angle"),
-            gives("gamma_deg_sets", mark("best sets, best first"), "angle"),
-            gives("delta_of_each_set", mark("speed fluctuation each set leaves")),
-            gives("delta_of_each_shaft", mark("speed fluctuation of shafts 2 to n+1 with the best set")),
-            gives("psi_mod180_deg", mark("phase angle of each joint with the best set"), "angle"),
-            gives("delta_per_rad", mark("growth of the speed fluctuation for each yoke turned, per radian")),
-        ),
-        answer=_spline,
-        check=_check,
-    ),
-)

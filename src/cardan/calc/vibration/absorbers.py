@@ -1,49 +1,80 @@
-"""Calculations of absorbers, dampers and pendulums against torsional vibration."""
+"""Absorbers, dampers and pendulums against torsional vibration."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 
-from cardan.calc.calculation import Calculation, Given, Values, given, gives
+from cardan.calc.calculation import Formulas, Values
+from cardan.calc.keys import Given, at_least_zero, positive, whole, word
 from cardan.formulas.absorber_tuning import Tuning, den_hartog, h_infinity, viscous_optimum
 from cardan.formulas.absorbers import absorber_response
 from cardan.formulas.pendulum import pendulum
-from cardan.texts import mark
 
-RATIO = given("inertia_ratio", mark("inertia of the absorber over that of the system, α_J"), above=0.0)
-BETA = given("beta", mark("frequency of the torque over the system's natural one"), axes=(0, 1), low=0.0)
-XI = given("xi", mark("damping of the absorber, ξ"), low=0.0)
+formula = Formulas(__doc__)
+
+
+RATIO = positive("inertia_ratio", "inertia of the absorber over that of the system, α_J")
+BETA = at_least_zero("beta", "frequency of the torque over the system's natural one", axes=(0, 1))
+XI = at_least_zero("xi", "damping of the absorber, ξ")
 SYSTEM, ABSORBER = "b/(2 J_a omega_0)", "b/(2 J_a omega_a)"
 
 
 def _definition(*choices: str) -> Given:
-    return given("xi_definition", mark("which damping ratio xi is"), kind="word", choices=choices, default=SYSTEM)
+    return word("xi_definition", "which damping ratio xi is", *choices, default=SYSTEM)
 
 
-def _amplification(values: Values, tuned: float, xi: float) -> tuple[object, object]:
-    beta = values["beta"]
-    found = absorber_response(np.atleast_1d(beta), values["inertia_ratio"], tuned, xi)
+def _amplification(v: Values, tuned: float, xi: float) -> tuple[object, object]:
+    beta = v.beta
+    found = absorber_response(np.atleast_1d(beta), v.inertia_ratio, tuned, xi)
     size = np.where(np.isfinite(found.amplification), found.amplification, np.nan)
     return (size[0] if np.ndim(beta) == 0 else size), found.natural
 
 
-def _absorber(values: Values) -> Values:
-    tuned = values["frequency_ratio_absorber"]
-    xi = values["xi"] * (tuned if values["xi_definition"] == ABSORBER else 1.0)
-    size, natural = _amplification(values, tuned, xi)
-    return {"amplification": size, "natural_frequency_ratio_undamped": natural}
-
-
-def _viscous(values: Values) -> Values:
-    return {"amplification": _amplification(values, 0.0, values["xi"])[0]}
-
-
-def _setting(found: Tuning) -> Values:
+def _setting(found: Tuning) -> dict[str, Any]:
     return {"frequency_ratio": found.frequency_ratio, "xi": found.damping, "peak_amplification": found.peak}
 
 
-def _optimum(values: Values) -> Values:
-    alpha = np.asarray(values["inertia_ratio"])
+@formula(
+    "amplification of one mode with a tuned absorber, with or without damping, over the frequency",
+    "Book (248), (249)",
+    RATIO,
+    positive("frequency_ratio_absorber", "frequency of the absorber over the system's, f"),
+    XI,
+    _definition(SYSTEM, ABSORBER),
+    BETA,
+    "amplification: amplitude over static angle; None at a resonance without damping",
+    "natural_frequency_ratio_undamped: natural frequencies with the undamped absorber",
+)
+def _absorber_response(v: Values) -> Any:
+    tuned = v.frequency_ratio_absorber
+    xi = v.xi * (tuned if v.xi_definition == ABSORBER else 1.0)
+    size, natural = _amplification(v, tuned, xi)
+    return size, natural
+
+
+@formula(
+    "amplification of one mode with a viscous damper, an inertia without spring, over the frequency",
+    "Book (252)",
+    (RATIO, XI, _definition(SYSTEM), BETA),
+    "amplification: amplitude over static angle; None at a resonance without damping",
+)
+def _viscous_damper_response(v: Values) -> Any:
+    return _amplification(v, 0.0, v.xi)[0]
+
+
+@formula(
+    "best tuning and damping of an absorber by fixed points and exactly, and of a viscous damper",
+    "Book (250), (251); exact H∞ optimum (Nishihara, Asami)",
+    replace(RATIO, axes=(0, 1)),
+    "den_hartog: setting by fixed points, with the true peak",
+    "h_infinity: setting with the smallest peak",
+    "viscous_damper: best damper without spring",
+)
+def _absorber_optimum(v: Values) -> Any:
+    alpha = np.asarray(v.inertia_ratio)
     fixed, loose = den_hartog(alpha), viscous_optimum(alpha)
     return {
         "den_hartog": _setting(fixed)
@@ -53,15 +84,30 @@ def _optimum(values: Values) -> Values:
     }
 
 
-def _pendulum(values: Values) -> Values:
+@formula(
+    "order that a centrifugal pendulum absorbs, and what it weighs on the shaft at another one",
+    "rotor and pendulum, small oscillations",
+    positive("pendulum_mass_kg", "mass of one pendulum"),
+    positive("pivot_radius_m", "radius of its pivot on the shaft"),
+    positive("pendulum_length_m", "length of its arm"),
+    at_least_zero("order", "order of the excitation, cycles a turn"),
+    at_least_zero("rotor_inertia_kgm2", "inertia of the shaft", default=None),
+    whole("count", "number of equal pendulums", low=1, default=1),
+    "tuning_order: order at which the shaft is held still",
+    "effective_inertia_kgm2: inertia felt at the order; None at antiresonance",
+    "total_inertia_kgm2: the same with that of the shaft",
+    "swing_over_shaft: amplitude of a pendulum over that of the shaft; None at antiresonance",
+    "antiresonance: whether the order is the tuned one: infinite inertia",
+)
+def _pendulum_absorber(v: Values) -> Any:
     found = pendulum(
-        values["pendulum_mass"],
-        values["pivot_radius"],
-        values["pendulum_length"],
-        values["order"],
-        count=values["count"],
+        v.pendulum_mass,
+        v.pivot_radius,
+        v.pendulum_length,
+        v.order,
+        count=v.count,
     )
-    rotor = values["rotor_inertia"]
+    rotor = v.rotor_inertia
     return {
         "tuning_order": found.tuned_order,
         "effective_inertia_kgm2": found.inertia,
@@ -69,65 +115,3 @@ def _pendulum(values: Values) -> Values:
         "swing_over_shaft": found.swing,
         "antiresonance": found.antiresonance,
     }
-
-
-CALCULATIONS = (
-    Calculation(
-        name="absorber_response",
-        doc=mark("amplification of one mode with a tuned absorber, with or without damping, over the frequency"),
-        source="Kozhevnikov & Perfil'ev (1978), eq. 248, 249",
-        takes=(
-            RATIO,
-            given("frequency_ratio_absorber", mark("frequency of the absorber over the system's, f"), above=0.0),
-            XI,
-            _definition(SYSTEM, ABSORBER),
-            BETA,
-        ),
-        returns=(
-            gives("amplification", mark("amplitude over static angle; None at a resonance without damping")),
-            gives("natural_frequency_ratio_undamped", mark("natural frequencies with the undamped absorber")),
-        ),
-        answer=_absorber,
-    ),
-    Calculation(
-        name="viscous_damper_response",
-        doc=mark("amplification of one mode with a viscous damper, an inertia without spring, over the frequency"),
-        source="Kozhevnikov & Perfil'ev (1978), eq. 252",
-        takes=(RATIO, XI, _definition(SYSTEM), BETA),
-        returns=(gives("amplification", mark("amplitude over static angle; None at a resonance without damping")),),
-        answer=_viscous,
-    ),
-    Calculation(
-        name="absorber_optimum",
-        doc=mark("best tuning and damping of an absorber by fixed points and exactly, and of a viscous damper"),
-        source=mark("Kozhevnikov & Perfil'ev (1978), eq. 250, 251; exact H∞ optimum (Nishihara, Asami)"),
-        takes=(given(RATIO.key, RATIO.meaning.doc, axes=(0, 1), above=0.0),),
-        returns=(
-            gives("den_hartog", mark("setting by fixed points, with the true peak")),
-            gives("h_infinity", mark("setting with the smallest peak")),
-            gives("viscous_damper", mark("best damper without spring")),
-        ),
-        answer=_optimum,
-    ),
-    Calculation(
-        name="pendulum_absorber",
-        doc=mark("order that a centrifugal pendulum absorbs, and what it weighs on the shaft at another one"),
-        source=mark("rotor and pendulum, small oscillations"),
-        takes=(
-            given("pendulum_mass_kg", mark("mass of one pendulum"), "mass", above=0.0),
-            given("pivot_radius_m", mark("radius of its pivot on the shaft"), "length", above=0.0),
-            given("pendulum_length_m", mark("length of its arm"), "length", above=0.0),
-            given("order", mark("order of the excitation, cycles a turn"), low=0.0),
-            given("rotor_inertia_kgm2", mark("inertia of the shaft"), "inertia", low=0.0, default=None),
-            given("count", mark("number of equal pendulums"), kind="whole", low=1, default=1),
-        ),
-        returns=(
-            gives("tuning_order", mark("order at which the shaft is held still")),
-            gives("effective_inertia_kgm2", mark("inertia felt at the order; None at antiresonance"), "inertia"),
-            gives("total_inertia_kgm2", mark("the same with that of the shaft"), "inertia"),
-            gives("swing_over_shaft", mark("amplitude of a pendulum over that of the shaft; None at antiresonance")),
-            gives("antiresonance", mark("whether the order is the tuned one: infinite inertia")),
-        ),
-        answer=_pendulum,
-    ),
-)

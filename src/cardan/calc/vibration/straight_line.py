@@ -1,72 +1,89 @@
-"""Calculations of straight lines of shafts: natural frequencies and forced torsional vibration."""
+"""Straight lines of shafts: natural frequencies and forced torsional vibration."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from cardan.book.straight_line import line_modes, line_response
-from cardan.calc.calculation import Calculation, Values, given, gives
+from cardan.calc.calculation import Formulas, Problems, Values
+from cardan.calc.keys import at_least_zero, given, gives, positive, whole
 from cardan.errors import Problem, check
-from cardan.texts import _, mark
+from cardan.texts import _
 
-INERTIA = given("inertia_kgm2", mark("inertia of each station"), "inertia", axes=(1,), low=0.0)
-STIFFNESS = given(
-    "stiffness_Nm_per_rad",
-    mark("stiffness of each element between neighbouring stations"),
-    "turning_stiffness",
-    axes=(1,),
-    above=0.0,
-)
+formula = Formulas(__doc__)
 
 
-def fitting(*names: str) -> Callable[[Values, Callable[[str], str]], Iterator[Problem]]:
+INERTIA = at_least_zero("inertia_kgm2", "inertia of each station", axes=1)
+STIFFNESS = positive("stiffness_Nm_per_rad", "stiffness of each element between neighbouring stations", axes=1)
+
+
+def fitting(*names: str) -> Callable[[Values], Problems]:
     """Return a check that a line has inertia, and a value of each named list for each of its elements."""
 
-    def problems(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-        inertia = values.get("inertia")
+    def problems(v: Values) -> Problems:
+        inertia = v.get("inertia")
         if inertia is None:
             return
         if not inertia.size or not np.any(inertia):
-            yield Problem(key("inertia"), _("no station has inertia"))
+            yield v.wrong("inertia", _("no station has inertia"))
             return
         for name in ("stiffness", *names):
-            listed = values.get(name)
+            listed = v.get(name)
             if listed is not None and listed.size != inertia.size - 1:
                 text = _("{given} values given, {wanted} needed")
-                yield Problem(key(name), text.format(given=listed.size, wanted=inertia.size - 1))
-        station = values.get("torque_station")
+                yield v.wrong(name, text.format(given=listed.size, wanted=inertia.size - 1))
+        station = v.get("torque_station")
         if station is not None and station > inertia.size:
             text = _("station {given} of {count}")
-            yield Problem(key("torque_station"), text.format(given=station, count=inertia.size))
+            yield v.wrong("torque_station", text.format(given=station, count=inertia.size))
 
     return problems
 
 
-def _modes(values: Values) -> Values:
-    found = line_modes(values["inertia"], values["stiffness"])
+@formula(
+    "torsional natural frequencies of a straight free line of shafts, and the speeds that meet them",
+    "(K - ω²J) x = 0 with ratio 1 at every joint",
+    (INERTIA, STIFFNESS),
+    gives("omega_rad_s", "natural frequencies, 0 for the free turning", "frequency"),
+    "order2_critical_speed_rpm: speeds at which order 2 meets them",
+    "parametric_principal_speed_rpm: speeds of the principal parametric zones",
+    "mode_shape: angle of each station in each mode, the largest 1",
+    check=fitting(),
+)
+def _torsional_natural_frequencies(v: Values) -> Any:
+    found = line_modes(v.inertia, v.stiffness)
     there = np.isfinite(found.omega)
     swinging = there & (found.omega > 0.0)
-    return {
-        "omega_rad_s": found.omega[there],
-        "order2_critical_speed_rpm": found.order2_speed[swinging],
-        "parametric_principal_speed_rpm": found.parametric_speed[swinging],
-        "mode_shape": found.shape[there],
-    }
+    return found.omega[there], found.order2_speed[swinging], found.parametric_speed[swinging], found.shape[there]
 
 
-def _forced(values: Values) -> Values:
-    inertia, omega = values["inertia"], values["omega"]
+@formula(
+    "steady torsional vibration of a straight line of shafts under a harmonic torque at one station",
+    "complex stiffness c(1 + iη) + iωb of each element",
+    (INERTIA, STIFFNESS),
+    at_least_zero("damping_Nms_per_rad", "viscous damping of each element", axes=1, default=None),
+    at_least_zero("loss_factor", "structural damping of each element", axes=1, default=None),
+    whole("torque_station", "station of the torque, counted from 1", low=1),
+    given("torque_amplitude_Nm", "amplitude of the torque", default=1.0),
+    at_least_zero("omega_rad_s", "frequency of the torque", "frequency", axes=(0, 1)),
+    "station_amplitude_rad: amplitude of each station",
+    "element_torque_Nm: amplitude of the torque in each element",
+    check=fitting("damping", "loss_factor"),
+)
+def _linear_forced_response(v: Values) -> Any:
+    inertia, omega = v.inertia, v.omega
     torque = np.zeros(inertia.size)
-    torque[values["torque_station"] - 1] = values["torque_amplitude"]
+    torque[v.torque_station - 1] = v.torque_amplitude
     found = line_response(
         inertia,
-        values["stiffness"],
+        v.stiffness,
         np.atleast_1d(omega),
         torque,
-        damping=values["damping"] if values["damping"] is not None else 0.0,
-        loss_factor=values["loss_factor"] if values["loss_factor"] is not None else 0.0,
+        damping=v.damping if v.damping is not None else 0.0,
+        loss_factor=v.loss_factor if v.loss_factor is not None else 0.0,
     )
     text = _("{omega:.9g} rad/s is a natural frequency and nothing damps it: the vibration grows without end")
     at = np.flatnonzero(found.resonant)
@@ -76,48 +93,3 @@ def _forced(values: Values) -> Values:
         "station_amplitude_rad": np.abs(found.angle[:, 0] if single else found.angle),
         "element_torque_Nm": np.abs(found.torque[:, 0] if single else found.torque),
     }
-
-
-CALCULATIONS = (
-    Calculation(
-        name="torsional_natural_frequencies",
-        doc=mark("torsional natural frequencies of a straight free line of shafts, and the speeds that meet them"),
-        source=mark("(K - ω²J) x = 0 with ratio 1 at every joint"),
-        takes=(INERTIA, STIFFNESS),
-        returns=(
-            gives("omega_rad_s", mark("natural frequencies, 0 for the free turning"), "frequency"),
-            gives("order2_critical_speed_rpm", mark("speeds at which order 2 meets them"), "angular_speed"),
-            gives("parametric_principal_speed_rpm", mark("speeds of the principal parametric zones"), "angular_speed"),
-            gives("mode_shape", mark("angle of each station in each mode, the largest 1")),
-        ),
-        answer=_modes,
-        check=fitting(),
-    ),
-    Calculation(
-        name="linear_forced_response",
-        doc=mark("steady torsional vibration of a straight line of shafts under a harmonic torque at one station"),
-        source=mark("complex stiffness c(1 + iη) + iωb of each element"),
-        takes=(
-            INERTIA,
-            STIFFNESS,
-            given(
-                "damping_Nms_per_rad",
-                mark("viscous damping of each element"),
-                "turning_damping",
-                axes=(1,),
-                low=0.0,
-                default=None,
-            ),
-            given("loss_factor", mark("structural damping of each element"), axes=(1,), low=0.0, default=None),
-            given("torque_station", mark("station of the torque, counted from 1"), kind="whole", low=1),
-            given("torque_amplitude_Nm", mark("amplitude of the torque"), "torque", default=1.0),
-            given("omega_rad_s", mark("frequency of the torque"), "frequency", axes=(0, 1), low=0.0),
-        ),
-        returns=(
-            gives("station_amplitude_rad", mark("amplitude of each station"), "angle"),
-            gives("element_torque_Nm", mark("amplitude of the torque in each element"), "torque"),
-        ),
-        answer=_forced,
-        check=fitting("damping", "loss_factor"),
-    ),
-)

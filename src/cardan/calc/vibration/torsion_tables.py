@@ -2,92 +2,85 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
-from cardan.calc.calculation import Given, Values, given, rows
-from cardan.calc.motion.kinematics import RIGHT
+from cardan.calc.calculation import Problems, Values
+from cardan.calc.keys import Given, at_least_zero, given, positive, rows, whole, yoke_rotation
 from cardan.errors import Problem
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torques import Asynchronous, Constant, Falling, History, Law, SpeedTable, Swinging
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
-from cardan.texts import _, mark
+from cardan.texts import _
 
 
-def _each(key: str, doc: str, dimension: str, **options: object) -> Given:
-    return given(key, doc, dimension, axes=(1,), entries=True, **options)  # type: ignore[arg-type]
+def _each(key: str, doc: str, **options: Any) -> Given:
+    return given(key, doc, axes=1, entries=True, **options)
 
 
 SHAFTS = rows(
     "shafts",
-    mark("shafts along the power flow, each with its stations"),
-    _each("inertia_kgm2", mark("inertia of every station"), "inertia", low=0.0),
-    _each("stiffness_Nm_per_rad", mark("between neighbouring stations"), "turning_stiffness", above=0.0, default=()),
-    _each("damping_Nms_per_rad", mark("between neighbouring stations"), "turning_damping", low=0.0, default=None),
-    _each("gap_rad", mark("whole play between neighbouring stations"), "angle", low=0.0, default=None),
-    _each("ground_damping_Nms_per_rad", mark("of every station to ground"), "turning_damping", low=0.0, default=None),
+    "shafts along the power flow, each with its stations",
+    _each("inertia_kgm2", "inertia of every station", low=0.0),
+    _each("stiffness_Nm_per_rad", "between neighbouring stations", above=0.0, default=()),
+    _each("damping_Nms_per_rad", "between neighbouring stations", low=0.0, default=None),
+    _each("gap_rad", "whole play between neighbouring stations", low=0.0, default=None),
+    _each("ground_damping_Nms_per_rad", "of every station to ground", low=0.0, default=None),
 )
 """Shafts with their stations."""
 
 JOINTS = rows(
     "joints",
-    mark("joints between the shafts"),
-    given("alpha_deg", mark("joint angle"), "angle", low=0.0, below=RIGHT),
-    given("psi_deg", mark("phase of the driving yoke at the start position"), "angle", default=0.0),
+    "joints between the shafts",
+    yoke_rotation("alpha_deg", "joint_angle"),
+    given("psi_deg", "phase of the driving yoke at the start position", default=0.0),
 )
 """Joints between the shafts."""
 
 TORQUES = rows(
     "torques",
-    mark("torques on stations, positive with the rotation"),
-    given("shaft", mark("number of the shaft from 1"), kind="whole"),
-    given("station", mark("number of the station on its shaft from 1"), kind="whole"),
+    "torques on stations, positive with the rotation",
+    whole("shaft", "number of the shaft from 1"),
+    whole("station", "number of the station on its shaft from 1"),
     default=(),
     kinds={
-        "constant": (given("value_Nm", mark("torque"), "torque"),),
+        "constant": (given("value_Nm", "torque"),),
         "harmonic": (
-            given("amplitude_Nm", mark("amplitude"), "torque"),
-            given("order", mark("cycles in one turn of the station")),
-            given("phase_deg", mark("phase of the sine at the start position"), "angle", default=0.0),
+            given("amplitude_Nm", "amplitude"),
+            given("order", "cycles in one turn of the station"),
+            given("phase_deg", "phase of the sine at the start position", default=0.0),
         ),
         "linear_speed": (
-            given("M0_Nm", mark("torque at standstill"), "torque"),
-            given("slope_Nms_per_rad", mark("by how much it falls with the speed"), "turning_damping"),
+            given("M0_Nm", "torque at standstill"),
+            given("slope_Nms_per_rad", "by how much it falls with the speed"),
         ),
-        "speed_table": (
-            _each("omega_rad_s", mark("speeds of the table, rising"), "angular_speed"),
-            _each("M_Nm", mark("torques at these speeds"), "torque"),
-        ),
-        "time_history": (
-            _each("t_s", mark("times of the table, rising"), "time"),
-            _each("M_Nm", mark("torques at these times"), "torque"),
-        ),
+        "speed_table": (_each("omega_rad_s", "speeds of the table, rising"), _each("M_Nm", "torques at these speeds")),
+        "time_history": (_each("t_s", "times of the table, rising"), _each("M_Nm", "torques at these times")),
         "asynchronous": (
-            given("omega_sync_rad_s", mark("synchronous speed; negative turns the other way"), "angular_speed"),
-            given("M_pullout_Nm", mark("pull-out torque"), "torque", low=0.0),
-            given("slip_pullout", mark("slip at the pull-out torque"), above=0.0),
+            given("omega_sync_rad_s", "synchronous speed; negative turns the other way"),
+            at_least_zero("M_pullout_Nm", "pull-out torque"),
+            positive("slip_pullout", "slip at the pull-out torque"),
         ),
     },
 )
 """Torques on stations."""
 
-INPUT_SPEED = given(
-    "input_speed_rad_s", mark("speed forced on the first station; free without it"), "angular_speed", default=None
-)
+INPUT_SPEED = given("input_speed_rad_s", "speed forced on the first station; free without it", default=None)
 """Speed forced on the first station."""
 
 MODEL = (SHAFTS, JOINTS, TORQUES, INPUT_SPEED)
 """Inputs of a calculation on the torsional model; `model_of` makes the model of them, `model_problems` checks it."""
 
 _LAWS: dict[str, Callable[[Values], Law]] = {
-    "constant": lambda row: Constant(value=row["value"]),
-    "harmonic": lambda row: Swinging(amplitude=row["amplitude"], frequency=row["order"], phase=row["phase"]),
-    "linear_speed": lambda row: Falling(standstill=row["M0"], slope=row["slope"]),
-    "speed_table": lambda row: SpeedTable(speeds=row["omega"], torques=row["M"]),
-    "time_history": lambda row: History(times=row["t"], torques=row["M"]),
+    "constant": lambda row: Constant(value=row.value),
+    "harmonic": lambda row: Swinging(amplitude=row.amplitude, frequency=row.order, phase=row.phase),
+    "linear_speed": lambda row: Falling(standstill=row.M0, slope=row.slope),
+    "speed_table": lambda row: SpeedTable(speeds=row.omega, torques=row.M),
+    "time_history": lambda row: History(times=row.t, torques=row.M),
     "asynchronous": lambda row: Asynchronous(
-        synchronous_speed=row["omega_sync"], pullout_torque=row["M_pullout"], pullout_slip=row["slip_pullout"]
+        synchronous_speed=row.omega_sync, pullout_torque=row.M_pullout, pullout_slip=row.slip_pullout
     ),
 }
 
@@ -97,31 +90,30 @@ _BRAKES = ("linear_speed", "speed_table", "asynchronous")
 """Kinds of torques that follow the speed."""
 
 
-def model_of(values: Values) -> TorsionalModel:
+def model_of(v: Values) -> TorsionalModel:
     """Return the torsional model of values that were read by `MODEL` and passed `model_problems`."""
-    shafts, joints = values["shafts"], values["joints"]
-    counts = [len(shaft["inertia"]) for shaft in shafts]
+    shafts, joints = v.shafts, v.joints
+    counts = [len(shaft.inertia) for shaft in shafts]
     starts = np.cumsum([0, *counts])
 
     def springs(name: str) -> list[Array]:
         return [np.zeros(n - 1) if _absent(one[name]) else one[name] for one, n in zip(shafts, counts, strict=True)]
 
     return torsional_line(
-        [shaft["inertia"] for shaft in shafts],
+        [shaft.inertia for shaft in shafts],
         stiffness=springs("stiffness"),
         damping=springs("damping"),
         backlash=springs("gap"),
         ground_damping=[
-            np.zeros(n) if _absent(shaft["ground_damping"]) else shaft["ground_damping"]
+            np.zeros(n) if _absent(shaft.ground_damping) else shaft.ground_damping
             for shaft, n in zip(shafts, counts, strict=True)
         ],
         joint_angle=np.asarray([joint["alpha"] for joint in joints]),
         phase=np.asarray([joint["psi"] for joint in joints]),
         torques=[
-            Torque(station=int(starts[row["shaft"] - 1]) + row["station"] - 1, law=_LAWS[row["kind"]](row))
-            for row in values["torques"]
+            Torque(station=int(starts[row.shaft - 1]) + row.station - 1, law=_LAWS[row.kind](row)) for row in v.torques
         ],
-        input_speed=values["input_speed"],
+        input_speed=v.input_speed,
     )
 
 
@@ -129,97 +121,97 @@ def _absent(value: Array | None) -> bool:
     return value is None or len(value) == 0
 
 
-def model_problems(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+def model_problems(v: Values) -> Problems:
     """Yield what is wrong with the tables taken together; those that are wrong by themselves are left out."""
-    shafts, joints, torques = (values.get(name) for name in ("shafts", "joints", "torques"))
+    shafts, joints, torques = (v.get(name) for name in ("shafts", "joints", "torques"))
     if shafts is not None:
         if not shafts:
-            yield Problem(key("shafts"), _("a drive needs at least one shaft"))
-        for i, shaft in enumerate(shafts):
-            yield from _length_problems(shaft, f"shafts[{i}].", key)
+            yield v.wrong("shafts", _("a drive needs at least one shaft"))
+        for shaft in shafts:
+            yield from _length_problems(shaft)
     if shafts and joints is not None and len(joints) != len(shafts) - 1:
         text = _("{joints} joints given, {wanted} needed between {shafts} shafts")
-        yield Problem(key("joints"), text.format(joints=len(joints), wanted=len(shafts) - 1, shafts=len(shafts)))
-    for i, row in enumerate(torques or ()):
+        yield v.wrong("joints", text.format(joints=len(joints), wanted=len(shafts) - 1, shafts=len(shafts)))
+    for row in torques or ():
         if shafts:
-            yield from _station_problems(row, [len(shaft["inertia"]) for shaft in shafts], f"torques[{i}].", key)
-        yield from _table_problems(row, f"torques[{i}].", key)
-    if shafts and all(len(shaft["inertia"]) for shaft in shafts):
-        yield from _loose_problems(shafts, values, key)
+            yield from _station_problems(row, [len(shaft.inertia) for shaft in shafts])
+        yield from _table_problems(row)
+    if shafts and all(len(shaft.inertia) for shaft in shafts):
+        yield from _loose_problems(shafts, v)
 
 
-def _length_problems(shaft: Values, at: str, key: Callable[[str], str]) -> Iterator[Problem]:
-    count = len(shaft["inertia"])
+def _length_problems(shaft: Values) -> Problems:
+    count = len(shaft.inertia)
     if not count:
-        yield Problem(key(at + "inertia"), _("empty; a shaft has at least one station"))
+        yield shaft.wrong("inertia", _("empty; a shaft has at least one station"))
         return
     text = _("{given} values given, {wanted} needed between {count} stations")
     for name in _BETWEEN:
         if len(() if shaft[name] is None else shaft[name]) != count - 1 and (
             name == "stiffness" or shaft[name] is not None
         ):
-            yield Problem(key(at + name), text.format(given=len(shaft[name]), wanted=count - 1, count=count))
-    ground = shaft["ground_damping"]
+            yield shaft.wrong(name, text.format(given=len(shaft[name]), wanted=count - 1, count=count))
+    ground = shaft.ground_damping
     if ground is not None and len(ground) != count:
         text = _("{given} values given, {wanted} needed, one a station")
-        yield Problem(key(at + "ground_damping"), text.format(given=len(ground), wanted=count))
+        yield shaft.wrong("ground_damping", text.format(given=len(ground), wanted=count))
 
 
-def _station_problems(row: Values, counts: list[int], at: str, key: Callable[[str], str]) -> Iterator[Problem]:
-    shaft, station = row["shaft"], row["station"]
+def _station_problems(row: Values, counts: list[int]) -> Problems:
+    shaft, station = row.shaft, row.station
     if not 1 <= shaft <= len(counts):
         text = _("shaft {given} given; there are {count}")
-        yield Problem(key(at + "station"), text.format(given=shaft, count=len(counts)))
+        yield row.wrong("station", text.format(given=shaft, count=len(counts)))
     elif counts[shaft - 1] and not 1 <= station <= counts[shaft - 1]:
         text = _("station {given} given; shaft {shaft} has {count}")
-        yield Problem(key(at + "station"), text.format(given=station, shaft=shaft, count=counts[shaft - 1]))
+        yield row.wrong("station", text.format(given=station, shaft=shaft, count=counts[shaft - 1]))
 
 
-def _table_problems(row: Values, at: str, key: Callable[[str], str]) -> Iterator[Problem]:
-    places = {"speed_table": "omega", "time_history": "t"}.get(row["kind"])
+def _table_problems(row: Values) -> Problems:
+    places = {"speed_table": "omega", "time_history": "t"}.get(row.kind)
     if places is None:
-        if row["kind"] == "asynchronous" and row["omega_sync"] == 0.0:
-            yield Problem(key(at + "omega_sync"), _("0 given; the synchronous speed is not 0"))
+        if row.kind == "asynchronous" and row.omega_sync == 0.0:
+            yield row.wrong("omega_sync", _("0 given; the synchronous speed is not 0"))
         return
     count = len(row[places])
     if not count:
-        yield Problem(key(at + places), _("empty; a table has at least one row"))
-    elif len(row["M"]) != count:
+        yield row.wrong(places, _("empty; a table has at least one row"))
+    elif len(row.M) != count:
         text = _("{given} values given, {wanted} needed, one for each of {other}")
-        yield Problem(key(at + "M"), text.format(given=len(row["M"]), wanted=count, other=key(at + places)))
+        yield row.wrong("M", text.format(given=len(row.M), wanted=count, other=row.key(places)))
     elif not np.all(np.diff(row[places]) > 0.0):
-        yield Problem(key(at + places), _("does not rise; each value must be above the one before"))
+        yield row.wrong(places, _("does not rise; each value must be above the one before"))
 
 
-def _loose_problems(shafts: list[Values], values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+def _loose_problems(shafts: list[Values], v: Values) -> Problems:
     """Yield groups of stations that nothing holds: without inertia, spring or damper."""
     held: list[bool] = []
     first: list[str] = []
     for i, shaft in enumerate(shafts):
-        count = len(shaft["inertia"])
-        ground = shaft["ground_damping"]
+        count = len(shaft.inertia)
+        ground = shaft.ground_damping
         for k in range(count):
             any_here = (
-                count > 1 or shaft["inertia"][k] > 0.0 or (ground is not None and k < len(ground) and ground[k] > 0.0)
+                count > 1 or shaft.inertia[k] > 0.0 or (ground is not None and k < len(ground) and ground[k] > 0.0)
             )
             if k or not i:
                 held.append(any_here)
-                first.append(f"{key(f'shafts[{i}].inertia')}[{k}]")
+                first.append(f"{v.key(f'shafts[{i}].inertia')}[{k}]")
             else:
                 held[-1] |= any_here
-    forced = values.get("input_speed") is not None
+    forced = v.get("input_speed") is not None
     for r, (good, place) in enumerate(zip(held, first, strict=True)):
         if not good and not (forced and r == 0):
             yield Problem(
                 place, _("this station and those that joints bind to it have neither inertia nor spring nor damper")
             )
-    if all(held) and not forced and not any(np.any(shaft["inertia"] > 0.0) for shaft in shafts):
-        yield from _weightless_problems(shafts, values, key)
+    if all(held) and not forced and not any(np.any(shaft.inertia > 0.0) for shaft in shafts):
+        yield from _weightless_problems(shafts, v)
 
 
-def _weightless_problems(shafts: list[Values], values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+def _weightless_problems(shafts: list[Values], v: Values) -> Problems:
     """Yield that nothing sets the speed of a free drive without inertia: no damper to ground, no torque by speed."""
-    grounded = any(shaft["ground_damping"] is not None and np.any(shaft["ground_damping"] > 0.0) for shaft in shafts)
-    if not grounded and not any(row["kind"] in _BRAKES for row in values.get("torques") or ()):
+    grounded = any(shaft.ground_damping is not None and np.any(shaft.ground_damping > 0.0) for shaft in shafts)
+    if not grounded and not any(row.kind in _BRAKES for row in v.get("torques") or ()):
         text = _("no station of the drive has inertia, and neither a damper to ground nor its torques set its speed")
-        yield Problem(key("shafts[0].inertia"), text)
+        yield v.wrong("shafts[0].inertia", text)
