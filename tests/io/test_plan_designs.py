@@ -102,7 +102,7 @@ def test_a_sensitivity_takes_the_distributions_that_are_drawn():
                 "search.goals[0]: not a goal: 'speed_fluctuation'",
                 "search.limits[0]: not a limit: 'x'",
                 "search.method: 'swarm'",
-                "search.betwen: unknown key; the nearest is between",
+                "search.betwen: unknown key; the nearest known one is between",
                 "two numbers are needed, the lower one first",
             ],
         ),

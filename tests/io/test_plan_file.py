@@ -204,7 +204,7 @@ BIG = "1" + 400 * "0"
         ('key = "joints[0].centre_mm"\nvalues = [[0, 0, 0], 3]\n', "vary[0]: joints[0].centre_mm"),
         ('key = "duty.speed_rpm"\nvalues = [{ a = 1 }]\n', "vary[0]: duty.speed_rpm[0]"),
         ('key = "duty.speed_rpm"\nfrom = -1e308\nto = 1e308\ncount = 3\n', "vary[0]: duty.speed_rpm: to"),
-        ('key = "duty.speed_rpm"\nfrom = 1\nto = 3\ncount = ' + BIG + "\n", "vary"),
+        ('key = "duty.speed_rpm"\nfrom = 1\nto = 3\ncount = ' + BIG + "\n", "vary[0].count"),
         ('key = "duty.speed_rpm"\nfrom = 1\nto = 3\ncount = 0\n', "vary[0]: duty.speed_rpm: count"),
         ('design = "random"\ncount = 3\nseed = -1\nfields = []\n', "vary[0].fields"),
         ('name = "make"\nrows = []\n', "vary[0].rows"),

@@ -16,7 +16,7 @@ from cardan.catalogue import completed, material
 from cardan.drive.crack import ShaftCrack
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Case, Duty, Limits, Vehicle
-from cardan.drive.fields.keys import WORD_OR_FLAG, Field, fields_of, in_unit, spelled
+from cardan.drive.fields.keys import spelled
 from cardan.drive.joint_parts import Rating
 from cardan.drive.joints import Hooke
 from cardan.drive.machine import (
@@ -35,6 +35,7 @@ from cardan.drive.shaft import Lump, Shaft, Spline
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
 from cardan.io import dumps, loads
+from cardan.reading.fields import WORD_OR_FLAG, Field, fields_of, in_unit
 from cardan.units import DIMENSIONS
 
 DRIVE = Drive.from_angles([0.2, 0.3, 0.1], yoke_angles=[0.4, -0.3])

@@ -21,11 +21,11 @@ from cardan.catalogue import catalogue
 from cardan.catalogue.rows import TABLES
 from cardan.catalogue.telling import SENTENCES, WORDS
 from cardan.cli.files.example import about
-from cardan.drive.fields.keys import fields_of
 from cardan.io import example_names, example_text, mechanism_names, recording_names
 from cardan.io.reference import sections
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import Pair
+from cardan.reading.fields import fields_of
 from cardan.texts import DOMAIN, FOLDER, LANGUAGES, speaking
 from cardan.units import DIMENSIONS, LABELS
 

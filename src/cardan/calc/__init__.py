@@ -3,8 +3,9 @@
 An entry translates names, units, signs and origins; the formula is in the function it calls.
 """
 
+from cardan.reading.given import Given, Gives
+
 from .calculation import Calculation
 from .calculations import CALCULATIONS, GROUPS, calc, find
-from .keys import Given, Gives
 
 __all__ = ["CALCULATIONS", "GROUPS", "Calculation", "Given", "Gives", "calc", "find"]

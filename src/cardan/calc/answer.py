@@ -7,11 +7,11 @@ from typing import Any
 
 from cardan.answers.answer import Answer, Column, Remark, Table
 from cardan.answers.quantity import Joined, Quantity, Text
+from cardan.reading.given import Given
 from cardan.texts import _
 
 from .calculation import Calculation
 from .calculations import CALCULATIONS
-from .keys import Given
 
 LONG = 32
 """Forms of a key longer than this are told beside its meaning."""

@@ -2,7 +2,7 @@
 
 One line a key: inputs are declared by `given` and its kin, outputs as ``"key: what it means"``, the unit in the key.
 
->>> from cardan.calc.keys import given, positive
+>>> from cardan.reading.given import given, positive
 >>> formula = Formulas("levers")
 >>> @formula("torque of a force on a lever", "statics", positive("F_N", "force"), given("r_mm", "arm"), "M_Nm: torque")
 ... def _lever(v: Values) -> Any:
@@ -21,9 +21,8 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from cardan.errors import InputError, Problem, check
-
-from .keys import Given, Gives, gives
-from .reading import Values, read
+from cardan.reading.given import Given, Gives, gives
+from cardan.reading.values import Values, read
 
 __all__ = ["Calculation", "Formulas", "Problems", "Values"]
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from cardan.errors import refuse
+from cardan.reading.given import word
 from cardan.texts import _
 from cardan.units import nearest
 
 from .calculation import Calculation, Formulas, Values
-from .keys import word
 from .loads import assembly, bearings, forces, joint_forces, life, losses, part_strength, strength
 from .motion import (
     accuracy,

@@ -7,7 +7,8 @@ from dataclasses import is_dataclass, replace
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
-from cardan.drive.fields.keys import NAMED, fields_of
+from cardan.drive.fields.keys import NAMED
+from cardan.reading.fields import fields_of
 from cardan.texts import _
 
 from .rows import TABLES, Row

@@ -11,10 +11,10 @@ import numpy as np
 from cardan.errors import InputError, JointAngleLimitError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.kernel import frames
+from cardan.reading.ranges import HUGE
 from cardan.texts import _
 
 from .drive import Drive
-from .fields.ranges import HUGE
 from .fields.validity import COINCIDENT
 from .models.chain import Chain, turning_chain
 from .models.geometry import geometry_from_points

@@ -14,8 +14,9 @@ from typing import Any, TypeAlias, get_args, get_origin
 import tomlkit
 
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import KINDS, NAMED, fields_of, spellings_of
+from cardan.drive.fields.keys import KINDS, NAMED
 from cardan.errors import refuse
+from cardan.reading.fields import fields_of, spellings_of
 from cardan.texts import _
 
 from .edit import plain, removed, shaft_table

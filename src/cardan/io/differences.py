@@ -7,8 +7,8 @@ from dataclasses import dataclass, is_dataclass
 from typing import Any
 
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import Field, fields_of
 from cardan.errors import refuse
+from cardan.reading.fields import Field, fields_of
 from cardan.texts import _
 from cardan.units import DIMENSIONS, label
 

@@ -9,7 +9,8 @@ from functools import cache
 from typing import Any, get_args
 
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import KINDS, fields_of, spellings_of
+from cardan.drive.fields.keys import KINDS
+from cardan.reading.fields import fields_of, spellings_of
 from cardan.texts import _
 from cardan.units import DIMENSIONS, label, nearest
 

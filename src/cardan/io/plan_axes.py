@@ -12,9 +12,8 @@ from cardan.batch.points.distributions import DISTRIBUTIONS, Distribution
 from cardan.batch.points.fields import present, spread_out
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
+from cardan.reading.table import Table
 from cardan.texts import _
-
-from .tables import Table
 
 
 def axis_of(one: Table, drive: Drive | None, seed: int) -> Axis | None:

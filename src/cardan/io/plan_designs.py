@@ -19,10 +19,10 @@ from cardan.batch.search.pareto import ParetoSet, pareto_search
 from cardan.batch.search.pieces import Progress
 from cardan.batch.search.sobol import Sensitivity, sensitivity
 from cardan.errors import InputError, Problem, check
+from cardan.reading.table import Table
 from cardan.texts import _
 
 from .plan_file import Plan
-from .tables import Table
 
 Read = TypeVar("Read", Goal, Limit)
 

@@ -20,11 +20,11 @@ from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.files import Enclosed, folder_of
+from cardan.reading.table import Table
 from cardan.texts import _
 
 from .drive_file import known_to, load, parsed, text_of
 from .plan_axes import axis_of
-from .tables import Table
 
 FORMAT = 1
 """Version of the plan file."""

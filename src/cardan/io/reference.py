@@ -12,8 +12,7 @@ from cardan.drive.cross import Cross
 from cardan.drive.described import Input, Output
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Case, Duty, Harmonic, History, Limits, Upkeep, Vehicle
-from cardan.drive.fields.keys import NAMED, WORD_OR_FLAG, Field, fields_of
-from cardan.drive.fields.ranges import allowed
+from cardan.drive.fields.keys import NAMED
 from cardan.drive.fields.tables import written
 from cardan.drive.inspection import Inspection
 from cardan.drive.joint_parts import Needles, Rating, Section, Yoke
@@ -28,6 +27,8 @@ from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import Pair
+from cardan.reading.fields import WORD_OR_FLAG, Field, fields_of
+from cardan.reading.ranges import allowed
 from cardan.units import DIMENSIONS
 
 

@@ -7,8 +7,9 @@ from dataclasses import is_dataclass
 from typing import Any, get_args, get_origin
 
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import KINDS, NAMED, WORD_OR_FLAG, Field, fields_of
+from cardan.drive.fields.keys import KINDS, NAMED
 from cardan.mechanism.mechanism import Mechanism
+from cardan.reading.fields import WORD_OR_FLAG, Field, fields_of
 from cardan.texts import _
 from cardan.units import label
 

@@ -10,11 +10,11 @@ import pytest
 from cardan import Drive, InputError, motion
 from cardan.drive.described import Input, Output
 from cardan.drive.duty import Duty, Limits
-from cardan.drive.fields.ranges import HUGE, allowed, in_range, out_of_range, shown
 from cardan.drive.fields.validity import point_problems
 from cardan.drive.joints import Hooke
 from cardan.drive.pose import Pose
 from cardan.drive.shaft import Shaft, Spline
+from cardan.reading.ranges import HUGE, allowed, in_range, out_of_range, shown
 from cardan.units import Key, deg
 
 LINE = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (2.0, 0.1, 0.0), (3.0, 0.1, 0.1))

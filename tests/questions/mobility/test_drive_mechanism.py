@@ -5,7 +5,6 @@ import pytest
 
 from cardan import Drive, InputError, assembly, example
 from cardan.drive.cross import Cross
-from cardan.drive.fields.keys import fields_of
 from cardan.drive.joints import JOINTS
 from cardan.drive.models.chain import chain
 from cardan.drive.models.geometry import geometry
@@ -17,6 +16,7 @@ from cardan.questions.mobility.drive_mechanism import marks, mechanism_of
 from cardan.questions.mobility.mobility import mobility
 from cardan.questions.mobility.mobility_turn import mobility_over_turn
 from cardan.questions.mobility.repair import repairs
+from cardan.reading.fields import fields_of
 
 HELD = [
     name

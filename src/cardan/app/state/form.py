@@ -12,9 +12,10 @@ from typing import Any, Literal, TypeAlias, get_args, get_origin
 
 from cardan.catalogue import catalogue
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import KINDS, NAMED, WORD_OR_FLAG, Field, fields_of
+from cardan.drive.fields.keys import KINDS, NAMED
 from cardan.errors import Problem
 from cardan.io.amend import kind_at, steps_of
+from cardan.reading.fields import WORD_OR_FLAG, Field, fields_of
 from cardan.texts import _
 
 Sort: TypeAlias = Literal[

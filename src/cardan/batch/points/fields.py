@@ -13,11 +13,11 @@ import numpy as np
 from cardan.batch.work import Column
 from cardan.catalogue import Catalogue, catalogue, completed, shortened
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import WORD_OR_FLAG
 from cardan.drive.fields.paths import Place, bare_path, place, read, with_values
-from cardan.drive.fields.ranges import in_range
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
+from cardan.reading.fields import WORD_OR_FLAG
+from cardan.reading.ranges import in_range
 from cardan.texts import _, mark
 
 _MOTION = re.compile(

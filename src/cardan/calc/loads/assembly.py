@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import at_least_zero, flag, given, positive, rows, word, yoke_rotation
 from cardan.calc.motion.kinematics import START, YOKES, between, points
 from cardan.drive.models.train import train_of_points
 from cardan.errors import Problem
@@ -18,6 +17,7 @@ from cardan.maths.kernel import frames
 from cardan.questions.forces.forces import kinetostatics
 from cardan.questions.forces.held import Hold, Layout, actions, shaft_flexibility
 from cardan.questions.forces.misfit import Crosses, crosses, joint_gap, misfit
+from cardan.reading.given import at_least_zero, flag, given, positive, rows, word, yoke_rotation
 from cardan.texts import _
 from cardan.units import mm
 

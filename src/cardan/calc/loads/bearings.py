@@ -8,8 +8,8 @@ import numpy as np
 
 from cardan.book.single_joint_forces import cross_loads
 from cardan.calc.calculation import Formulas, Values
-from cardan.calc.keys import at_least_zero, given, positive, whole
 from cardan.formulas.needle_bearing import book_load, critical_swing, needle_contact, needle_rating
+from cardan.reading.given import at_least_zero, given, positive, whole
 
 from .life import ARM, JOINT_ANGLE, SIDE, WARNINGS, said
 

@@ -10,11 +10,11 @@ import numpy as np
 
 from cardan.book.gap_closure import gap_closure
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import at_least_zero, flag, given, positive, rows, whole
 from cardan.calc.motion.kinematics import ACCELERATION, ANGLE, START, between, points
 from cardan.drive.models.train import Hold, Train, spline_grip, train_of_points
 from cardan.errors import Problem
 from cardan.questions.forces.forces import kinetostatics
+from cardan.reading.given import at_least_zero, flag, given, positive, rows, whole
 from cardan.texts import _
 
 formula = Formulas(__doc__)

@@ -10,11 +10,11 @@ from cardan.book.double_joint_forces import double_joint_forces, largest_middle_
 from cardan.book.single_joint_forces import single_joint_forces
 from cardan.book.spline_thrust import spline_thrust
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import RIGHT, at_least_zero, given, positive, word, yoke_rotation
 from cardan.drive.models.train import spline_grip
 from cardan.maths.curves import paths
 from cardan.maths.kernel import frames
 from cardan.questions.forces.swing_couple import parallel_ends, swing_couple
+from cardan.reading.given import RIGHT, at_least_zero, given, positive, word, yoke_rotation
 from cardan.texts import _
 
 formula = Formulas(__doc__)

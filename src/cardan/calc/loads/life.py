@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import at_least_zero, given, gives, positive, rows, word, yoke_rotation
 from cardan.errors import Problem
 from cardan.formulas.joint_rating import (
     LIFE_RANGE,
@@ -24,6 +23,7 @@ from cardan.formulas.joint_rating import (
 from cardan.questions.life.bearing_life import CONVENTIONS, bearing_life, maker_life
 from cardan.questions.life.duty_cycle import WHOLE, combined_life
 from cardan.questions.life.life_cautions import clamped, extrapolated
+from cardan.reading.given import at_least_zero, given, gives, positive, rows, word, yoke_rotation
 from cardan.texts import _
 from cardan.units import deg, rpm
 

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import at_least_zero, positive, word, yoke_rotation
 from cardan.calc.motion.kinematics import START, YOKES, between, drives, joint_angles, points, twists
 from cardan.errors import Problem, check
 from cardan.formulas.friction import branch_efficiency, joint_friction, reduced_friction, spline_efficiency
 from cardan.questions.losses.chain_friction import chain_friction
+from cardan.reading.given import at_least_zero, positive, word, yoke_rotation
 from cardan.texts import _
 
 formula = Formulas(__doc__)

@@ -9,10 +9,10 @@ from typing import Any
 
 from cardan.calc.bores import bores
 from cardan.calc.calculation import Calculation, Formulas, Problems, Values
-from cardan.calc.keys import at_least_zero, gives, positive, record, word
 from cardan.drive.models.train import spline_grip
 from cardan.formulas.joint_strength import journal_stress, yoke_stress
 from cardan.formulas.spline_strength import spline_stress
+from cardan.reading.given import at_least_zero, gives, positive, record, word
 from cardan.texts import _
 
 from .joint_forces import SPLINE_THRUST

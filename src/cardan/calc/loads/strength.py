@@ -9,13 +9,13 @@ import numpy as np
 
 from cardan.calc.bores import bores, segment_bores
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import at_least_zero, given, gives, positive, rows, word
 from cardan.drive.shaft import Layup, Ply
 from cardan.formulas.composite_tube import composite_tube
 from cardan.formulas.critical_speed import uniform_speed
 from cardan.formulas.design_torque import design_torque, wheel_load
 from cardan.formulas.fatigue import FINISHES, RELIABILITIES, shaft_fatigue
 from cardan.formulas.shaft_strength import RATED_TWIST, shaft_diameter, shaft_stress, shaft_twist
+from cardan.reading.given import at_least_zero, given, gives, positive, rows, word
 from cardan.texts import _
 
 formula = Formulas(__doc__)

@@ -8,13 +8,13 @@ import numpy as np
 
 from cardan.book.joint_accuracy import joint_samples, joint_stack, stack_over_turn
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import RIGHT, at_least_zero, given, gives, positive, whole, word, yoke_rotation
 from cardan.drive.drives import Drives
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import loops
 from cardan.questions.accuracy.accuracy import course, one_turn, transmission_error
 from cardan.questions.accuracy.sampling import MonteCarlo
+from cardan.reading.given import RIGHT, at_least_zero, given, gives, positive, whole, word, yoke_rotation
 from cardan.texts import _
 from cardan.units import deg
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from cardan.calc.calculation import Formulas, Values
-from cardan.calc.keys import RIGHT, flag, given, positive, word, yoke_rotation
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import AnglePair, SpeedAngleLimit
 from cardan.questions.motion.angle_limits import TABLE_INERTIA, angle_limits, broken_rules, compound_angle
+from cardan.reading.given import RIGHT, flag, given, positive, word, yoke_rotation
 
 formula = Formulas(__doc__)
 

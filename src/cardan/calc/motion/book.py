@@ -10,7 +10,7 @@ import numpy as np
 from cardan.book.comparison import book_comparison, book_series, collinear_joint_angle, rule_of_practice
 from cardan.book.forms import OutputMotion, arrangement_phase, blokh, double_joint, double_joint_law
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import given, whole, word, yoke_rotation
+from cardan.reading.given import given, whole, word, yoke_rotation
 from cardan.texts import _
 
 from .kinematics import ANGLE, START, YOKES, between, drives, joint_angles, points, twists

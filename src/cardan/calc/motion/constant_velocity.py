@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import RIGHT, at_least_zero, given, positive, whole, word, yoke_rotation
 from cardan.drive.joints.laws import offset_grooves, pilot_lever, tilted_plane, tracta, tripod
 from cardan.errors import InputError, refuse
 from cardan.formulas.groove_offset import groove_offset
 from cardan.formulas.pilot_lever import lever_choice
+from cardan.reading.given import RIGHT, at_least_zero, given, positive, whole, word, yoke_rotation
 from cardan.texts import _
 from cardan.units import deg
 

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import RIGHT, Given, at_least_zero, given, gives, positive, record, whole, word, yoke_rotation
 from cardan.drive.joints.laws import double_cardan, offset_cross, pin_coupling, profile_coupling
 from cardan.errors import refuse
 from cardan.formulas.centring import best_centring
 from cardan.formulas.pin_geometry import MARGIN, best_pins
+from cardan.reading.given import RIGHT, Given, at_least_zero, given, gives, positive, record, whole, word, yoke_rotation
 from cardan.texts import _
 from cardan.units import deg
 

@@ -11,8 +11,8 @@ from cardan.book.disc_integrator import roller_speed, roller_turn
 from cardan.book.friction_drive import least_press, press, speed_ratio
 from cardan.book.slot_cam import Contact, SlotCam, cam_forces
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import RIGHT, at_least_zero, given, gives, positive, whole, word
 from cardan.errors import refuse
+from cardan.reading.given import RIGHT, at_least_zero, given, gives, positive, whole, word
 from cardan.texts import _, mark
 from cardan.units import deg
 

@@ -10,13 +10,13 @@ import numpy as np
 from cardan.book.comparison import book_series
 from cardan.book.single_joint import book_coefficients, fourier, joint_extremes
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import Given, given, whole, yoke_rotation
 from cardan.drive.drives import Drives
 from cardan.drive.fields.validity import point_problems
 from cardan.drive.models.geometry import geometry_from_points
 from cardan.errors import Problem
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.motion import Motion, initial_phases, motion
+from cardan.reading.given import Given, given, whole, yoke_rotation
 from cardan.texts import _
 
 formula = Formulas(__doc__)

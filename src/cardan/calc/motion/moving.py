@@ -10,7 +10,6 @@ import numpy as np
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import RIGHT, at_least_zero, given, positive, vector, whole
 from cardan.drive.drives import Drives
 from cardan.drive.duty import Limits
 from cardan.drive.fields.validity import point_problems
@@ -22,6 +21,7 @@ from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.length import length_compensation
 from cardan.questions.motion.moving_chain import MovingMotion, harmonic_points, moving_centres
 from cardan.questions.motion.moving_points import moving_points
+from cardan.reading.given import RIGHT, at_least_zero, given, positive, vector, whole
 from cardan.texts import _
 
 from .kinematics import ACCELERATION

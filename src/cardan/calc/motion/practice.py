@@ -6,13 +6,13 @@ import math
 from typing import Any
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import at_least_zero, flag, gives, positive, word, yoke_rotation
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import BalanceNorm, Lubrication, PartLimit
-from cardan.choices.selection import Need, select_joint
+from cardan.choices.selection import JointDuty, select_joint
 from cardan.errors import Problem
 from cardan.formulas.upkeep import lubrication_shares, shaft_sections
 from cardan.questions.bending.balance import allowed_unbalance
+from cardan.reading.given import at_least_zero, flag, gives, positive, word, yoke_rotation
 from cardan.texts import _
 from cardan.units import DIMENSIONS
 
@@ -232,7 +232,7 @@ def _material(v: Values) -> Any:
     "rejected: types that do not -> causes",
 )
 def _joint_selection(v: Values) -> Any:
-    need = Need(
+    need = JointDuty(
         torque=v.torque,
         joint_angle=v.angle,
         speed=v.speed,

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import given, gives, positive, record, rows, vector, whole, word
 from cardan.errors import InputError, Problem, check
 from cardan.mechanism.groups import MOST, group, minus_groups, zero_groups
 from cardan.mechanism.mechanism import Mechanism
@@ -16,6 +15,7 @@ from cardan.mechanism.partition import Join, partition
 from cardan.questions.mobility.finite_mobility import CLOSED, finite_mobility
 from cardan.questions.mobility.mobility import mobility
 from cardan.questions.mobility.release import release
+from cardan.reading.given import given, gives, positive, record, rows, vector, whole, word
 from cardan.texts import _
 
 formula = Formulas(__doc__)

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import Given, given, gives, whole
 from cardan.drive.drive import Drive
 from cardan.drive.models.chain import chain
 from cardan.errors import Problem
 from cardan.questions.phases.phases import phases
 from cardan.questions.phases.setting import settings
 from cardan.questions.phases.spline_pitch import best_pitched, steps
+from cardan.reading.given import Given, given, gives, whole
 from cardan.texts import _
 
 from .kinematics import between, joint_angles, points, twists

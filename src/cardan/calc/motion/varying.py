@@ -7,7 +7,7 @@ from typing import Any
 from cardan.book.random_joint_angle import random_joint_angle
 from cardan.book.varying_joint_angle import swinging_chain, swinging_joint
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import RIGHT, at_least_zero, given, yoke_rotation
+from cardan.reading.given import RIGHT, at_least_zero, given, yoke_rotation
 from cardan.texts import _
 
 from .kinematics import ACCELERATION

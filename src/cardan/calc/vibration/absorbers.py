@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Values
-from cardan.calc.keys import Given, at_least_zero, positive, whole, word
 from cardan.formulas.absorber_tuning import Tuning, den_hartog, h_infinity, viscous_optimum
 from cardan.formulas.absorbers import absorber_response
 from cardan.formulas.pendulum import pendulum
+from cardan.reading.given import Given, at_least_zero, positive, whole, word
 
 formula = Formulas(__doc__)
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from cardan.calc.bores import bores
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import Given, at_least_zero, gives, positive, whole, word
 from cardan.formulas.critical_speed import (
     BOOK_CONSTANT,
     CATALOGUE,
@@ -23,6 +22,7 @@ from cardan.formulas.critical_speed import (
     tube_speed,
     uniform_speed,
 )
+from cardan.reading.given import Given, at_least_zero, gives, positive, whole, word
 from cardan.texts import _
 
 formula = Formulas(__doc__)

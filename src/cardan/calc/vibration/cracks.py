@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from cardan.calc.calculation import Formulas, Values
-from cardan.calc.keys import Given, at_least_zero, given, positive, whole, word, yoke_rotation
 from cardan.errors import InputError, Problem, check
 from cardan.formulas.unbalance_behind_joint import unbalance_behind_joint
 from cardan.questions.bending.crack import MOST_POWER, Crack, breathing_law, crack_section
 from cardan.questions.bending.cracked_rotor import GRAVITY, SLOWEST, CrackedRotor, cracked_rotor
 from cardan.questions.bending.cracked_shafts import WhirlingShaft, cracked_shafts
+from cardan.reading.given import Given, at_least_zero, given, positive, whole, word, yoke_rotation
 from cardan.texts import _
 
 formula = Formulas(__doc__)

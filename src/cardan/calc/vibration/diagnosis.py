@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import flag, gives, positive, word
 from cardan.catalogue.rows import FLAGS
 from cardan.questions.diagnosis.match import Signs, likely_causes, symptoms
+from cardan.reading.given import flag, gives, positive, word
 from cardan.texts import _
 
 formula = Formulas(__doc__)

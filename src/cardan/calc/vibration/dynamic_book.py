@@ -9,8 +9,8 @@ import numpy as np
 from cardan.book.dynamic_book import TRUCK, truck_example, validity
 from cardan.book.engineering_torque import engineering_torque
 from cardan.calc.calculation import Formulas, Values
-from cardan.calc.keys import Given, at_least_zero, given, gives, positive, rows
 from cardan.maths.periodic.mathieu import LARGEST_A, LARGEST_Q
+from cardan.reading.given import Given, at_least_zero, given, gives, positive, rows
 
 from .mathieu import FIRST, LAST, STIFFNESS, WAVE, fields_named, harmonics_of, label, told
 

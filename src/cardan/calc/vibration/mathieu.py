@@ -13,10 +13,10 @@ from cardan.book.dynamic_book import book_beta, book_half_trace, book_zone
 from cardan.book.massless_joints import steady_twist
 from cardan.book.mathieu_reduction import mathieu_reduction
 from cardan.calc.calculation import Calculation, Formulas, Problems, Values
-from cardan.calc.keys import at_least_zero, given, gives, positive, rows, whole, yoke_rotation
 from cardan.errors import InputError, refuse
 from cardan.maths.periodic.mathieu import LARGEST_A, LARGEST_Q, LEAST_A, boundaries, damped_zone, exponents
 from cardan.maths.periodic.mathieu_forced import forced
+from cardan.reading.given import at_least_zero, given, gives, positive, rows, whole, yoke_rotation
 from cardan.texts import _
 from cardan.units import rpm
 

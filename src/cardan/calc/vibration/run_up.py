@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import at_least_zero, positive, word, yoke_rotation
 from cardan.formulas.joint_run_up import joint_run_up
 from cardan.formulas.run_up import run_up
+from cardan.reading.given import at_least_zero, positive, word, yoke_rotation
 from cardan.texts import _
 
 formula = Formulas(__doc__)

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import given, positive
 from cardan.errors import InputError, Problem, check
 from cardan.questions.torsion.transient.simulation import Simulation, Status
 from cardan.questions.torsion.transient.transient import simulate
+from cardan.reading.given import given, positive
 from cardan.texts import _, mark
 
 from .torsion_tables import MODEL, model_of, model_problems

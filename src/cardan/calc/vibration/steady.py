@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import given, gives
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.maths.periodic.harmonics import Status
@@ -16,6 +15,7 @@ from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.steady.run_stability import Floquet, Kind, Verdict, floquet
 from cardan.questions.torsion.steady.steady import periodic_response
 from cardan.questions.torsion.steady.steady_result import Orders, SteadyResponse
+from cardan.reading.given import given, gives
 from cardan.texts import _
 
 from .torsion_tables import MODEL, model_of, model_problems

@@ -9,9 +9,9 @@ import numpy as np
 from cardan.book.stepped import Node, placed_speeds, stepped_speeds
 from cardan.calc.bores import segment_bores
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import at_least_zero, flag, given, positive, rows, word
 from cardan.errors import Problem
 from cardan.maths.linear.rotor_beams import Section, round_section
+from cardan.reading.given import at_least_zero, flag, given, positive, rows, word
 from cardan.texts import _
 
 from .bending import DENSITY, INNER, LENGTH, MILLIMETRES, OUTER, SPEEDS, YOUNGS, mode_count

@@ -9,8 +9,8 @@ import numpy as np
 
 from cardan.book.straight_line import line_modes, line_response
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.keys import at_least_zero, given, gives, positive, whole
 from cardan.errors import Problem, check
+from cardan.reading.given import at_least_zero, given, gives, positive, whole
 from cardan.texts import _
 
 formula = Formulas(__doc__)

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Problems, Values
-from cardan.calc.keys import Given, at_least_zero, given, positive, rows, whole, yoke_rotation
 from cardan.errors import Problem
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torques import Asynchronous, Constant, Falling, History, Law, SpeedTable, Swinging
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
+from cardan.reading.given import Given, at_least_zero, given, positive, rows, whole, yoke_rotation
 from cardan.texts import _
 
 

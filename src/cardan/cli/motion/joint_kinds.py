@@ -7,12 +7,12 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from cardan.cli.shared.values import value_of
-from cardan.drive.fields.keys import spellings_of
 from cardan.drive.joints import JOINTS
 from cardan.drive.joints.joint import Joint
 from cardan.errors import InputError, Problem, check
 from cardan.io.reader import drive_from_tree
 from cardan.questions.motion.joint_answer import Named, written
+from cardan.reading.fields import spellings_of
 from cardan.texts import _
 from cardan.units import nearest
 

@@ -14,9 +14,9 @@ import typer
 
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
-from cardan.drive.fields.ranges import HUGE
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.questions.gathering import principal
+from cardan.reading.ranges import HUGE
 from cardan.register import QUESTIONS
 from cardan.texts import _
 from cardan.units import rpm

@@ -8,9 +8,9 @@ from collections.abc import Iterable
 from math import isfinite
 from pathlib import Path
 
-from cardan.drive.fields.ranges import HUGE
 from cardan.errors import refuse
 from cardan.files import write_text as write
+from cardan.reading.ranges import HUGE
 from cardan.texts import _
 from cardan.units import rpm
 

@@ -14,11 +14,12 @@ from typing import Any, TypeVar, get_args, get_origin
 
 from cardan.drive.described import Described
 from cardan.errors import InputError, Problem, check
+from cardan.reading.fields import WORD_OR_FLAG, Field, fields_of, in_unit, spellings_of
+from cardan.reading.ranges import in_range, out_of_range
 from cardan.texts import _
 from cardan.units import DIMENSIONS, nearest
 
-from .keys import WORD_OR_FLAG, Field, fields_of, in_unit, spelled, spellings_of
-from .ranges import in_range, out_of_range
+from .keys import spelled
 
 D = TypeVar("D", bound=Described)
 """A drive, checked or not."""

@@ -11,9 +11,10 @@ from typing import Any
 
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.drive.drive import Drive
+from cardan.reading.fields import fields_of
 from cardan.texts import _
 
-from .keys import fields_of, spelled
+from .keys import spelled
 
 USUAL: tuple[tuple[str, float, float], ...] = (
     (r"shafts\[\d+\]\.length|shafts\[\d+\]\.segments\[\d+\]\.length", 2e-3, 40.0),

@@ -7,9 +7,10 @@ from dataclasses import is_dataclass
 from typing import Any
 
 from cardan.drive.shaft import Shaft
+from cardan.reading.fields import Field, exact_in_unit, fields_of, in_unit
 from cardan.units import DIMENSIONS
 
-from .keys import KINDS, NAMED, Field, exact_in_unit, fields_of, in_unit
+from .keys import KINDS, NAMED
 
 
 def tree_of(thing: Any) -> dict[str, Any]:

@@ -11,13 +11,14 @@ from cardan.drive.described import Described
 from cardan.drive.movement import Movement
 from cardan.drive.shaft import Shaft
 from cardan.errors import Problem
+from cardan.reading.ranges import HUGE
 from cardan.texts import _
 
 from .duty_validity import duty_problems
 from .line_validity import line_problems
 from .parts import part_problems
 from .paths import pose_problems
-from .ranges import HUGE, range_problems
+from .ranges import range_problems
 from .size_validity import size_problems
 
 MAX_JOINTS = 1000

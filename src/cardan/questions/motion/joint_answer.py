@@ -13,11 +13,11 @@ import numpy as np
 from cardan.answers.answer import Answer, Cell, Column, Remark, Table, Tone
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.catalogue.rows import JointType
-from cardan.drive.fields.keys import fields_of
 from cardan.drive.joints import JOINTS
 from cardan.drive.joints.common.inside import Inside
 from cardan.drive.joints.joint import Joint
 from cardan.maths.ties import foremost
+from cardan.reading.fields import fields_of
 from cardan.texts import _, plural
 from cardan.units import deg
 

@@ -1,4 +1,4 @@
-"""Keys of calculations: what an input and an output is called, means, and may be."""
+"""Inputs and outputs under keys with units: what each is called, means, and may be."""
 
 from __future__ import annotations
 

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from cardan.errors import InputError, Problem
 from cardan.texts import _
-from cardan.units import nearest
 
-NUMBER = (int, float)
-"""Kinds of a number."""
+from .scalar import ANY, Wrong, as_given, scalar, unknown_key
 
 
 @dataclass(kw_only=True)
@@ -55,30 +52,19 @@ class Table:
 
     def text(self, key: str, default: str | None = None, *, choices: Sequence[str] = ()) -> str:
         """Return the text of a key; required when there is no default."""
-        value = self._taken(key, default, str, _("a text"))
-        if choices and value not in choices and key in self.given and isinstance(self.given[key], str):
-            self.refuse(key, _("{value} is none of {choices}").format(value=repr(value), choices=", ".join(choices)))
-        return str(value or "")
+        return str(self._scalar(key, default, str, choices) or "")
 
     def number(self, key: str, default: float | None = None) -> float:
         """Return the finite number of a key; required when there is no default."""
-        value = self._taken(key, default, NUMBER, _("a number"))
-        if isinstance(value, bool) or (value is not None and not abs(value) <= sys.float_info.max):
-            self.refuse(key, _("{value} is not a finite number").format(value=repr(value)[:40]))
-            return 0.0
-        return float(value or 0.0)
+        return float(self._scalar(key, default, float) or 0.0)
 
     def whole(self, key: str, default: int | None = None) -> int:
         """Return the whole number of a key; required when there is no default."""
-        value = self._taken(key, default, int, _("a whole number"))
-        if isinstance(value, bool):
-            self.refuse(key, _("{value} is not a whole number").format(value=value))
-            return 0
-        return int(value or 0)
+        return int(self._scalar(key, default, int) or 0)
 
     def items(self, key: str, *, required: bool = False) -> list[Any]:
         """Return the list of a key, empty when it is not given."""
-        return list(self._taken(key, None if required else [], list, _("a list")) or [])
+        return list(self._list(key, None if required else [], list, _("a list")) or [])
 
     def texts(self, key: str) -> list[str]:
         """Return the list of texts of a key, empty when it is not given."""
@@ -89,7 +75,7 @@ class Table:
 
     def table(self, key: str) -> Table:
         """Return the table of a key, an empty one when it is not given."""
-        value = self._taken(key, {}, dict, _("a table"))
+        value = self._list(key, {}, dict, _("a table"))
         return Table(given=value or {}, path=self.at(key), problems=self.problems)
 
     def tables(self, key: str, *, required: bool = False) -> Iterator[Table]:
@@ -104,19 +90,25 @@ class Table:
         """Note every key that nobody asked for."""
         for key in self.given:
             if key not in self.known:
-                near = nearest(key, self.known)
-                text = _("unknown key; the nearest is {near}") if near else _("unknown key; known here: {known}")
-                self.refuse(key, text.format(near=near, known=", ".join(self.known)))
+                self.refuse(key, unknown_key(key, self.known))
 
-    def _taken(self, key: str, default: Any, kind: Any, wanted: str) -> Any:
-        self.known[key] = None
-        if key not in self.given:
-            if default is None:
-                self.refuse(key, _("missing; {wanted} is needed").format(wanted=wanted))
+    def _scalar(self, key: str, default: Any, kind: type, choices: Sequence[str] = ()) -> Any:
+        value = self._taken(key, default, {float: _("a number"), int: _("a whole number")}.get(kind, _("a text")))
+        found = default if value is None else scalar(kind, value, replace(ANY, choices=tuple(choices)))
+        if isinstance(found, Wrong):
+            self.refuse(key, found.message)
             return default
-        value = self.given[key]
-        if not isinstance(value, kind):
-            text = _("{value} does not fit this key, which holds {wanted}")
-            self.refuse(key, text.format(value=repr(value)[:40], wanted=wanted))
+        return found
+
+    def _list(self, key: str, default: Any, kind: type, wanted: str) -> Any:
+        value = self._taken(key, default, wanted)
+        if value is not None and not isinstance(value, kind):
+            self.refuse(key, _("must be {wanted}, not {given}").format(wanted=wanted, given=as_given(value)))
             return default
         return value
+
+    def _taken(self, key: str, default: Any, wanted: str) -> Any:
+        self.known[key] = None
+        if key not in self.given and default is None:
+            self.refuse(key, _("missing; {wanted} is needed").format(wanted=wanted))
+        return self.given.get(key, default)

@@ -1,0 +1,151 @@
+"""Fields of a dataclass as keys of a file: the one list that reader, writer, schema, paths and reference share."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import MISSING, dataclass, fields
+from functools import cache
+from types import UnionType
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+from cardan.units import DIMENSIONS, KEY, Key, preferred
+
+WORD_OR_FLAG: Any = bool | str
+"""Type of a field that is true, false or one of its words."""
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """A field that may stand in a file.
+
+    Attributes
+    ----------
+    name : str
+        Its name in Python.
+    key : Key
+        What it means.
+    type : type
+        What it holds, without None.
+    required : bool
+        Whether it must be given.
+    default : object
+        Value when it is not given; None when required.
+    """
+
+    name: str
+    key: Key
+    type: Any
+    required: bool
+    default: Any
+
+    @property
+    def spellings(self) -> dict[str, float]:
+        """Keys under which a file may give this field, each with its factor to SI; the preferred one first."""
+        if self.key.dimension is None:
+            units = {"": 1.0}
+        else:
+            units = {f"_{unit}": factor for unit, factor in DIMENSIONS[self.key.dimension].items()}
+        plain = {self.name + end: factor for end, factor in units.items()}
+        mirrored = {self.key.mirror + end: -factor for end, factor in units.items()} if self.key.mirror else {}
+        return plain | mirrored
+
+    @property
+    def spelling(self) -> str:
+        """The key we write."""
+        return self.name if self.key.dimension is None else f"{self.name}_{preferred(self.key.dimension)}"
+
+    def unit(self, spelling: str) -> str:
+        """Return the unit at the end of one of the spellings, empty where there is none."""
+        if self.key.dimension is None:
+            return ""
+        word = self.name if spelling.startswith(f"{self.name}_") else self.key.mirror
+        return spelling.removeprefix(f"{word}_")
+
+
+def fields_of(cls: Any) -> dict[str, Field]:
+    """Return the fields of a class of the drive model that may stand in a file, by their names in Python.
+
+    Examples
+    --------
+    >>> from cardan.drive.duty import Duty
+    >>> list(fields_of(Duty)["speed"].spellings)
+    ['speed_rpm', 'speed_rad_s', 'speed_deg_s']
+    """
+    return _fields_of(cls)
+
+
+@cache
+def _fields_of(cls: Any) -> dict[str, Field]:
+    hints = get_type_hints(cls)
+    foreign: frozenset[str] = getattr(cls, "foreign", frozenset())
+    return {
+        one.name: Field(
+            name=one.name,
+            key=one.metadata[KEY],
+            type=_without_none(hints[one.name]),
+            required=one.default is MISSING,
+            default=None if one.default is MISSING else one.default,
+        )
+        for one in fields(cls)
+        if KEY in one.metadata and one.name not in foreign
+    }
+
+
+def spellings_of(cls: Any) -> dict[str, tuple[str, float]]:
+    """Return every key a file may use for a class: key -> (name of the field, factor to SI)."""
+    return _spellings_of(cls)
+
+
+@cache
+def _spellings_of(cls: Any) -> dict[str, tuple[str, float]]:
+    return {
+        spelling: (field.name, factor)
+        for field in fields_of(cls).values()
+        for spelling, factor in field.spellings.items()
+    }
+
+
+def in_unit(value: float, factor: float) -> float:
+    """Return an SI value in a unit, as the shortest decimal that gives the value back, the nearest one if none does.
+
+    Examples
+    --------
+    >>> in_unit(0.3490658503988659, 0.017453292519943295), in_unit(0.3, 0.001)
+    (20.0, 300.0)
+    """
+    found = exact_in_unit(value, factor)
+    return value / factor if found is None else found
+
+
+def exact_in_unit(value: float, factor: float) -> float | None:
+    """Return the shortest decimal whose product with ``factor`` is ``value`` to the last bit, or None."""
+    near = value / factor
+    candidates = [float(f"{near:.{digits}g}") for digits in range(1, 18)]
+    candidates += [math.nextafter(near, math.inf), math.nextafter(near, -math.inf)]
+    return next((one for one in candidates if one * factor == value), None)
+
+
+def scaled(value: Any, factor: float) -> Any:
+    """Return a number, or nested tuples of numbers, times a factor; words and flags as they are."""
+    if isinstance(value, tuple | list):
+        return tuple(scaled(item, factor) for item in value)
+    if factor == 1.0 or isinstance(value, bool | str) or value is None:
+        return value
+    return value * factor
+
+
+def numbers_in(value: Any) -> Iterator[float]:
+    """Yield every number of nested lists."""
+    if isinstance(value, tuple | list):
+        for item in value:
+            yield from numbers_in(item)
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        yield float(value)
+
+
+def _without_none(hint: Any) -> Any:
+    if get_origin(hint) in (Union, UnionType):
+        kinds = [one for one in get_args(hint) if one is not type(None)]
+        return kinds[0] if len(kinds) == 1 else hint
+    return hint
