@@ -13,6 +13,9 @@ from cardan.units import Key, nearest
 from .fields import WORD_OR_FLAG
 from .ranges import in_range, out_of_range, range_code
 
+SCALARS = (float, int, bool, str, WORD_OR_FLAG)
+"""Types of one value."""
+
 ANY = Key("")
 """Key of a number of any size, which is no quantity of a drive."""
 
@@ -31,7 +34,7 @@ def scalar(kind: Any, value: Any, key: Key, factor: float = 1.0, unit: str = "")
     Parameters
     ----------
     kind : type
-        `float`, `int`, `bool`, `str` or `WORD_OR_FLAG`.
+        One of `SCALARS`.
     value : object
         As it stands in the file.
     key : Key

@@ -5,7 +5,6 @@ Indices count from 0; ``shafts[1]`` is shaft number 2. The same paths serve pose
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterator, Mapping
 from copy import copy
@@ -14,8 +13,8 @@ from typing import Any, TypeVar, get_args, get_origin
 
 from cardan.drive.described import Described
 from cardan.errors import InputError, Problem, check
-from cardan.reading.fields import WORD_OR_FLAG, Field, fields_of, in_unit, spellings_of
-from cardan.reading.ranges import in_range, out_of_range
+from cardan.reading.fields import Field, fields_of, in_unit, spellings_of
+from cardan.reading.scalar import SCALARS, Wrong, as_given, scalar
 from cardan.texts import _
 from cardan.units import DIMENSIONS, nearest
 
@@ -238,40 +237,18 @@ def _shaped(kind: Any, value: Any, there: Place, path: str) -> Any:
         parts = get_args(kind)
         items = value.tolist() if hasattr(value, "tolist") else value
         if not isinstance(items, list | tuple):
-            raise _misfit(value, path, _("a list"))
+            raise _lost(path, _("must be {wanted}, not {given}").format(wanted=_("a list"), given=as_given(value)))
         endless = parts[-1] is Ellipsis
         if not endless and len(items) != len(parts):
             message = _("{given} values given, {wanted} needed").format(given=len(items), wanted=len(parts))
             raise _lost(path, message)
         return tuple(_shaped(parts[0], item, there, f"{path}[{k}]") for k, item in enumerate(items))
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    if kind is float:
-        if not number:
-            raise _misfit(value, path, _("a number"))
-        try:
-            result = float(value) * there.factor + 0.0
-        except OverflowError:
-            result = math.inf
-        key = there.field.key
-        if not in_range(key, result):
-            unit = there.field.unit(there.spelling)
-            raise _lost(path, out_of_range(repr(value), key, result, unit, mirrored=there.factor < 0))
-        return result
-    if kind is int and not (number and isinstance(value, int)):
-        raise _misfit(value, path, _("a whole number"))
-    if kind is bool and not isinstance(value, bool):
-        raise _misfit(value, path, _("true or false"))
-    if kind is str and not isinstance(value, str):
-        raise _misfit(value, path, _("a text"))
-    if kind == WORD_OR_FLAG and not isinstance(value, bool | str):
-        raise _misfit(value, path, _("true, false or a word"))
-    return value
-
-
-def _misfit(value: Any, path: str, wanted: str) -> InputError:
-    text = repr(value)
-    shown = text if len(text) <= 40 else text[:37] + "..."
-    return _lost(path, _("{value} does not fit this field, which holds {wanted}").format(value=shown, wanted=wanted))
+    if kind not in SCALARS:
+        return value
+    found = scalar(kind, value, there.field.key, there.factor, there.field.unit(there.spelling))
+    if isinstance(found, Wrong):
+        raise _lost(path, found.message, found.code)
+    return found
 
 
 def _changed(here: Any, steps: tuple[str | int, ...], value: Any) -> Any:
@@ -298,8 +275,8 @@ def _no_index(here: Any, k: int) -> str:
     return _("there is no index {k}; the last one is {last}").format(k=k, last=len(here) - 1)
 
 
-def _lost(path: str, message: str) -> InputError:
-    return InputError([Problem(path, message)])
+def _lost(path: str, message: str, code: str = "") -> InputError:
+    return InputError([Problem(path, message, code)])
 
 
 def _unknown(path: str, before: list[str], name: str, known: Mapping[str, Any]) -> InputError:
