@@ -61,7 +61,7 @@ class Calculation:
         Outputs that may occur.
     answer : function
         From values in SI by name to the outputs in SI: one value, all in their order, those that there are by key, or
-        a thing that has them by the names declared; outputs that are None are left out.
+        a thing that has them by the names declared, with the others by key; outputs that are None are left out.
     check : function
         Yields what is wrong with values taken together; sees only inputs that are right by themselves.
     module : str
@@ -94,13 +94,14 @@ class Calculation:
         known = {output.key: output for output in self.returns}
         return {key: _plain(value, known[key].factor) for key, value in found.items() if value is not None}
 
-    def _by_key(self, found: Any) -> dict[str, Any]:
+    def _by_key(self, found: Any) -> Any:
         """Return what the formula found by the keys of the outputs."""
         keys = [one.key for one in self.returns]
         if isinstance(found, dict) and found.keys() <= set(keys):
             return found
         if any(one.of for one in self.returns):
-            return {one.key: getattr(found, one.of or one.key) for one in self.returns}
+            found, more = found if isinstance(found, tuple) and isinstance(found[-1], dict) else (found, {})
+            return {one.key: getattr(found, one.of) for one in self.returns if one.of} | more
         return dict(zip(keys, (found,) if len(keys) == 1 else found, strict=True))
 
 

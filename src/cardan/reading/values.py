@@ -42,6 +42,10 @@ class Values(dict[str, Any]):
         """Return what is wrong with a value, under its key."""
         return Problem(self.key(name), message, code)
 
+    def of(self, *names: str, **others: str) -> dict[str, Any]:
+        """Return some of the values as arguments of a function: under their names, and under others."""
+        return {name: self[name] for name in names} | {argument: self[name] for argument, name in others.items()}
+
     def but(self, **changed: Any) -> Values:
         """Return these values with some of them changed."""
         return Values(self | changed, self.spelled)

@@ -36,9 +36,9 @@ def _rate(v: Values) -> float:
     "journal_force_N: load of each journal",
     "couple_input_shaft_Nm: secondary couple on the input shaft",
     "couple_output_shaft_Nm: secondary couple on the output shaft",
-    "journal_force_max_N: largest load of a journal over the turn",
-    "couple_input_max_Nm: largest couple on the input shaft",
-    "couple_output_max_Nm: largest couple on the output shaft",
+    "journal_force_max_N = journal_max: largest load of a journal over the turn",
+    "couple_input_max_Nm = driving_couple_max: largest couple on the input shaft",
+    "couple_output_max_Nm = driven_couple_max: largest couple on the output shaft",
 )
 def _cross_loads(v: Values) -> Any:
     angle = np.atleast_1d(v.phi)
@@ -50,13 +50,10 @@ def _cross_loads(v: Values) -> Any:
         torque_at=v.torque_side,
     )
     at = ... if np.ndim(v.phi) else 0
-    return {
+    return found, {
         "journal_force_N": found.journal[at],
         "couple_input_shaft_Nm": found.driving_couple[at],
         "couple_output_shaft_Nm": found.driven_couple[at],
-        "journal_force_max_N": found.journal_max,
-        "couple_input_max_Nm": found.driving_couple_max,
-        "couple_output_max_Nm": found.driven_couple_max,
     }
 
 

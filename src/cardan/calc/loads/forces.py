@@ -185,26 +185,26 @@ def _kinetostatics(v: Values) -> Any:
     slide = v.cross_slides_on_pins
     whole = train_of(
         v,
-        inertia=v.J,
-        mass=v.mass,
         centre_of_mass=np.zeros(joints + 1) if v.cg_from_shaft_start is None else v.cg_from_shaft_start,
-        resisting_torque=v.extra_resisting_torque,
-        cross_inertia=v.cross_inertia_b_c_n,
-        cross_mass=v.cross_mass,
-        gravity=v.gravity,
         slides=((slide, slide),) * joints,
         splines=tuple(row.shaft - 1 for row in splines),
         cut=np.asarray([row.x_from_shaft_start for row in splines]),
         grip=np.asarray([spline_grip(row.mu, row.d) if row.mu else 0.0 for row in splines]),
         sliding=np.asarray([float(row.direction) for row in splines]),
+        **v.of(
+            "mass",
+            "cross_mass",
+            "gravity",
+            inertia="J",
+            resisting_torque="extra_resisting_torque",
+            cross_inertia="cross_inertia_b_c_n",
+        ),
     )
     found = kinetostatics(
         whole,
         np.atleast_1d(np.asarray(v.phi1, dtype=float)),
-        torque=v.M_out,
-        speed=v.omega1,
-        acceleration=v.eps1,
         field="bearings",
+        **v.of(torque="M_out", speed="omega1", acceleration="eps1"),
     )
     at = _each(v)
     return {
@@ -227,26 +227,14 @@ def _kinetostatics(v: Values) -> Any:
     "Book (121), (122) for any drive",
     (points(), START, YOKES, SPEED, ACCELERATION, LOAD),
     at_least_zero("J_kg_m2", "inertia of each shaft about its axis", axes=1),
-    "min_pin_couple_over_turn_Nm: least couple of each joint over a turn",
-    "phi1_at_min_deg: input angle where it occurs",
-    "min_M_out_for_closure_Nm: least load that keeps all joints closed",
-    "closed: whether all joints stay closed",
-    "open_share_of_turn: share of the turn in which the couple of each joint is reversed",
+    "min_pin_couple_over_turn_Nm = least_couple: least couple of each joint over a turn",
+    "phi1_at_min_deg = least_angle: input angle where it occurs",
+    "min_M_out_for_closure_Nm = load_needed: least load that keeps all joints closed",
+    "closed = closed: whether all joints stay closed",
+    "open_share_of_turn = open_share: share of the turn in which the couple of each joint is reversed",
     "phi1_at_sign_changes_deg: input angles where the couple of each joint turns about",
     check=chain_check,
 )
 def _gap_closure(v: Values) -> Any:
-    found = gap_closure(
-        train_of(v, inertia=v.J),
-        load=v.M_out,
-        speed=v.omega1,
-        acceleration=v.eps1,
-    )
-    return {
-        "min_pin_couple_over_turn_Nm": found.least_couple,
-        "phi1_at_min_deg": found.least_angle,
-        "min_M_out_for_closure_Nm": found.load_needed,
-        "closed": found.closed,
-        "open_share_of_turn": found.open_share,
-        "phi1_at_sign_changes_deg": list(found.openings),
-    }
+    found = gap_closure(train_of(v, inertia=v.J), **v.of(load="M_out", speed="omega1", acceleration="eps1"))
+    return found, {"phi1_at_sign_changes_deg": list(found.openings)}

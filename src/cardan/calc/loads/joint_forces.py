@@ -93,11 +93,9 @@ def _joint_reactions(v: Values) -> Any:
         v.alpha,
         v.phi1,
         v.M2,
-        span=v.d_pin_span,
-        bearing_span=v.a1_bearing_span,
-        overhang=v.c1_overhang,
         reach=v["b2_joint_to_bearing" if located else "a2_bearing_span"],
         located=located,
+        **v.of(span="d_pin_span", bearing_span="a1_bearing_span", overhang="c1_overhang"),
     )
 
 

@@ -176,14 +176,7 @@ def _joint_life(v: Values) -> Any:
     check=_still,
 )
 def _iso_life(v: Values) -> Any:
-    found = bearing_life(
-        v.C,
-        v.R,
-        v.torque,
-        speed=v.speed,
-        joint_angle=v.alpha,
-        torque_at=v.torque_side,
-    )
+    found = bearing_life(v.C, v.R, v.torque, **v.of("speed", joint_angle="alpha", torque_at="torque_side"))
     names = {"L10h_simple": found.simple, "L10h_driving_bearings": found.driving, "L10h_driven_bearings": found.driven}
     return {key: life / HOUR for key, life in names.items()}
 

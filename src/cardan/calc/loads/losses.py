@@ -75,12 +75,12 @@ def _parts(v: Values) -> Problems:
     at_least_zero("mu_bearing_reduced", "reduced coefficient of friction of the shafts' bearings", default=0.0),
     at_least_zero("bearing_diameter_m", "diameter of those bearings", default=None),
     positive("bearing_span_m", "distance of the two bearings of a shaft", default=None),
-    "pin_work_per_rev_over_torque: friction work of a turn in the journals over the torque",
-    "bearing_work_per_rev_over_torque: friction work of a turn in the bearings over the torque",
-    "eta_first_order: efficiency, friction not acting on itself",
-    "eta_pins_small_angle_137: efficiency of the journals by the rule for small angles",
-    "eta_pins_self_consistent: efficiency of the journals, friction acting on itself",
-    "mean_pin_force_times_span_over_torque: mean load of a journal times span over torque",
+    "pin_work_per_rev_over_torque = pin_work: friction work of a turn in the journals over the torque",
+    "bearing_work_per_rev_over_torque = bearing_work: friction work of a turn in the bearings over the torque",
+    "eta_first_order = first_order: efficiency, friction not acting on itself",
+    "eta_pins_small_angle_137 = small_angle: efficiency of the journals by the rule for small angles",
+    "eta_pins_self_consistent = exact: efficiency of the journals, friction acting on itself",
+    "mean_pin_force_times_span_over_torque = mean_pin_load: mean load of a journal times span over torque",
     check=_bearings,
 )
 def _efficiency_joint(v: Values) -> Any:
@@ -98,14 +98,7 @@ def _efficiency_joint(v: Values) -> Any:
         if np.any(found.status)
         else []
     )
-    return {
-        "pin_work_per_rev_over_torque": found.pin_work,
-        "bearing_work_per_rev_over_torque": found.bearing_work,
-        "eta_first_order": found.first_order,
-        "eta_pins_small_angle_137": found.small_angle,
-        "eta_pins_self_consistent": found.exact,
-        "mean_pin_force_times_span_over_torque": found.mean_pin_load,
-    }
+    return found
 
 
 @formula(

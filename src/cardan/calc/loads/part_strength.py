@@ -69,14 +69,7 @@ FORCE = at_least_zero("journal_force_N", "force on a journal")
 )
 def _spline(v: Values) -> Any:
     found = spline_stress(
-        v.torque,
-        outer=v.D,
-        root=v.d,
-        teeth=v.teeth,
-        tooth_width=v.tooth_width,
-        length=v.length,
-        chamfer=v.chamfer,
-        load_share=v.load_share,
+        v.torque, outer=v.D, root=v.d, **v.of("teeth", "tooth_width", "length", "chamfer", "load_share")
     )
     return found.mean_diameter, found.height, found.pressure, found.tooth_shear, found.core_shear
 

@@ -173,9 +173,9 @@ def _shaft_twist(v: Values) -> Any:
     given("Kf", "notch factor in bending", default=1.0, low=1.0),
     given("Kfs", "notch factor in torsion", default=1.0, low=1.0),
     given("reliability_percent", "share of parts that last", low=min(RELIABILITIES), high=max(RELIABILITIES)),
-    "Se_MPa: fatigue limit of the part",
-    "sigma_a_eq_MPa: equivalent amplitude",
-    "sigma_m_eq_MPa: equivalent mean stress",
+    "Se_MPa = endurance: fatigue limit of the part",
+    "sigma_a_eq_MPa = alternating: equivalent amplitude",
+    "sigma_m_eq_MPa = mean: equivalent mean stress",
     "n_goodman: safety against fatigue",
     "n_yield: safety against yielding",
     "life_cycles: cycles to failure; none when endless",
@@ -183,23 +183,22 @@ def _shaft_twist(v: Values) -> Any:
 )
 def _fatigue(v: Values) -> Any:
     found = shaft_fatigue(
-        mean_torque=v.T_mean,
-        swinging_torque=v.T_alt,
-        mean_bending=v.M_mean,
-        swinging_bending=v.M_alt,
-        outer=v.d_out,
-        inner=v.d_in,
-        ultimate=v.Sut,
-        yield_strength=v.Sy,
-        finish=v.finish,
-        bending_notch=v.Kf,
-        torsion_notch=v.Kfs,
-        reliability=v.reliability,
+        **v.of(
+            "finish",
+            "reliability",
+            mean_torque="T_mean",
+            swinging_torque="T_alt",
+            mean_bending="M_mean",
+            swinging_bending="M_alt",
+            outer="d_out",
+            inner="d_in",
+            ultimate="Sut",
+            yield_strength="Sy",
+            bending_notch="Kf",
+            torsion_notch="Kfs",
+        )
     )
-    return {
-        "Se_MPa": found.endurance,
-        "sigma_a_eq_MPa": found.alternating,
-        "sigma_m_eq_MPa": found.mean,
+    return found, {
         "n_goodman": _unless_endless(found.safety),
         "n_yield": _unless_endless(found.yield_safety),
         "life_cycles": _unless_endless(found.cycles),
@@ -227,13 +226,7 @@ def _fatigue(v: Values) -> Any:
     check=_plies,
 )
 def _composite_tube(v: Values) -> Any:
-    ply = Ply(
-        along=v.E1,
-        across=v.E2,
-        shear=v.G12,
-        poisson=v.nu12,
-        density=v.density,
-    )
+    ply = Ply(**v.of("density", along="E1", across="E2", shear="G12", poisson="nu12"))
     layup = Layup(angles=tuple(map(float, v.layup)), ply_thickness=v.ply_thickness, ply=ply)
     found = composite_tube(layup, v.mean_d)
     outer, inner = v.mean_d + found.thickness, v.mean_d - found.thickness

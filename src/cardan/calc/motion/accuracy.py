@@ -153,16 +153,16 @@ def _influence_coefficients(v: Values) -> Any:
     (JOINT_ANGLE, INPUT, WAYS, TURNS),
     positive("target_phi4_deg", "allowed error of the driven angle", default=None),
     positive("target_s4_mm", "allowed shift of the driven shaft", default=None),
-    "worst_s2_s3_s4_m: worst case of the slides",
-    "rss_s2_s3_s4_m: root of the sum of squares of the slides",
-    "worst_phi2_phi3_phi4_rad: worst case of the angles",
-    "rss_phi2_phi3_phi4_rad: root of the sum of squares of the angles",
+    "worst_s2_s3_s4_m = worst_slide: worst case of the slides",
+    "rss_s2_s3_s4_m = square_slide: root of the sum of squares of the slides",
+    "worst_phi2_phi3_phi4_rad = worst_angle: worst case of the angles",
+    "rss_phi2_phi3_phi4_rad = square_angle: root of the sum of squares of the angles",
     "max_over_turn_worst_phi4_rad: largest worst case of the driven angle",
     "max_over_turn_worst_s4_m: largest worst case of the driven shaft's shift",
     "max_over_turn_rss_phi4_rad: largest root of squares of the driven angle",
     "max_over_turn_rss_s4_m: largest root of squares of the driven shaft's shift",
-    gives("share_of_alpha1_4_in_phi2_phi3_phi4", "share of each tolerance in the sum of squares", None),
-    gives("share_of_s1_a1_4_in_s2_s3_s4", "share of each tolerance in the sum of squares", None),
+    gives("share_of_alpha1_4_in_phi2_phi3_phi4 = share_angle", "share of each tolerance in the sum of squares", None),
+    gives("share_of_s1_a1_4_in_s2_s3_s4 = share_slide", "share of each tolerance in the sum of squares", None),
     "required_alpha1_4_deg: tolerances of equal share that keep the target of the angle",
     "required_s1_a1_4_m: tolerances of equal share that keep the target of the shift",
 )
@@ -171,17 +171,11 @@ def _tolerance_stack(v: Values) -> Any:
     here = joint_stack(v.alpha, v.phi1, **tolerances)
     turn = stack_over_turn(v.alpha, **tolerances)
     angle, way = v.target_phi4, v.target_s4
-    return {
-        "worst_s2_s3_s4_m": here.worst_slide,
-        "rss_s2_s3_s4_m": here.square_slide,
-        "worst_phi2_phi3_phi4_rad": here.worst_angle,
-        "rss_phi2_phi3_phi4_rad": here.square_angle,
+    return here, {
         "max_over_turn_worst_phi4_rad": turn.worst_angle,
         "max_over_turn_worst_s4_m": turn.worst_slide,
         "max_over_turn_rss_phi4_rad": turn.square_angle,
         "max_over_turn_rss_s4_m": turn.square_slide,
-        "share_of_alpha1_4_in_phi2_phi3_phi4": here.share_angle,
-        "share_of_s1_a1_4_in_s2_s3_s4": here.share_slide,
         "required_alpha1_4_deg": None if angle is None else angle * turn.equal_turns,
         "required_s1_a1_4_m": None if way is None else way * turn.equal_ways,
     }
@@ -194,16 +188,16 @@ def _tolerance_stack(v: Values) -> Any:
     word("distribution", "law of the errors, the first word of a description", default=LAWS[0]),
     whole("samples", "how many joints to draw", low=128, high=10000000.0, default=65536),
     whole("seed", "start of the random numbers", low=0, default=1),
-    "std_phi2_phi3_phi4_rad: standard deviations of the angles",
-    "std_s2_s3_s4_m: standard deviations of the slides",
-    "mean_phi2_phi3_phi4_rad: means of what the errors add to the angles",
-    "mean_s2_s3_s4_m: means of the slides",
+    "std_phi2_phi3_phi4_rad = angle_deviation: standard deviations of the angles",
+    "std_s2_s3_s4_m = slide_deviation: standard deviations of the slides",
+    "mean_phi2_phi3_phi4_rad = angle_mean: means of what the errors add to the angles",
+    "mean_s2_s3_s4_m = slide_mean: means of the slides",
     "quantile_95_phi2_phi3_phi4_rad: lower and upper bounds of 95 % of the angles",
     "quantile_95_s2_s3_s4_m: lower and upper bounds of 95 % of the slides",
     "quantile_997_phi2_phi3_phi4_rad: lower and upper bounds of 99.7 % of the angles",
     "quantile_997_s2_s3_s4_m: lower and upper bounds of 99.7 % of the slides",
-    "samples: joints that could be assembled",
-    "not_assembled: joints that could not",
+    "samples = count: joints that could be assembled",
+    "not_assembled = lost: joints that could not",
     "seed: start of the random numbers",
     check=_law_check,
 )
@@ -216,17 +210,11 @@ def _tolerance_montecarlo(v: Values) -> Any:
         distribution=_law(v),
         method=MonteCarlo(samples=v.samples, seed=v.seed),
     )
-    return {
-        "std_phi2_phi3_phi4_rad": found.angle_deviation,
-        "std_s2_s3_s4_m": found.slide_deviation,
-        "mean_phi2_phi3_phi4_rad": found.angle_mean,
-        "mean_s2_s3_s4_m": found.slide_mean,
+    return found, {
         "quantile_95_phi2_phi3_phi4_rad": found.angle_levels[1:3],
         "quantile_95_s2_s3_s4_m": found.slide_levels[1:3],
         "quantile_997_phi2_phi3_phi4_rad": found.angle_levels[0::3],
         "quantile_997_s2_s3_s4_m": found.slide_levels[0::3],
-        "samples": found.count,
-        "not_assembled": found.lost,
         "seed": v.seed,
     }
 
@@ -246,10 +234,10 @@ def _tolerance_montecarlo(v: Values) -> Any:
     "delta_phi_out_linear_rad: error of the output angle to first order",
     "axial_shift_out_exact_m: shift of the output shaft",
     "axial_shift_out_linear_m: shift of the output shaft to first order",
-    "mean_over_turn_rad: part of the error of the angle that setting up takes away",
-    "peak_to_peak_over_turn_rad: change of the error of the angle over a turn",
-    "first_harmonic_rad: amplitude of the error of the angle once a turn",
-    "second_harmonic_rad: amplitude of the error of the angle twice a turn",
+    "mean_over_turn_rad = mean: part of the error of the angle that setting up takes away",
+    "peak_to_peak_over_turn_rad = peak_to_peak: change of the error of the angle over a turn",
+    "first_harmonic_rad = first: amplitude of the error of the angle once a turn",
+    "second_harmonic_rad = second: amplitude of the error of the angle twice a turn",
     check=_lists,
 )
 def _chain_with_errors(v: Values) -> Any:
@@ -268,13 +256,9 @@ def _chain_with_errors(v: Values) -> Any:
     if not (here.closes and turn.closes):
         raise refuse("angle_errors_alpha1_4_per_joint", _("a joint with such errors cannot be assembled all round"))
     parts = course(turn.error)
-    return {
+    return parts, {
         "delta_phi_out_exact_rad": here.error[0],
         "delta_phi_out_linear_rad": here.error_linear[0],
         "axial_shift_out_exact_m": here.output_shift[0],
         "axial_shift_out_linear_m": here.shift_linear[-1, 0],
-        "mean_over_turn_rad": parts.mean,
-        "peak_to_peak_over_turn_rad": parts.peak_to_peak,
-        "first_harmonic_rad": parts.first,
-        "second_harmonic_rad": parts.second,
     }

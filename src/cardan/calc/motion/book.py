@@ -76,32 +76,24 @@ def _blokh(v: Values) -> Any:
     word("amplitude", "amplitude of a joint: α²/4 or tan²(α/2)", "quarter", "tau", default="quarter"),
     word("phases", "phases of the joints", "exact", "mean", "without_theta", default="exact"),
     *_MOTION,
-    "theta_deg: constant Θ_n",
-    "a_n1: coefficient of sin 2φ [rad]",
-    "b_n1: coefficient of cos 2φ [rad]",
-    "a_n2: coefficient of sin 4φ [rad]",
-    "b_n2: coefficient of cos 4φ [rad]",
-    "s_n1: amplitude of the second order of the turn [rad]",
-    "delta_n1_mod180_deg: its phase",
-    "delta_80: speed fluctuation by (80)",
+    "theta_deg = constant: constant Θ_n",
+    "a_n1 = a1: coefficient of sin 2φ [rad]",
+    "b_n1 = b1: coefficient of cos 2φ [rad]",
+    "a_n2 = a2: coefficient of sin 4φ [rad]",
+    "b_n2 = b2: coefficient of cos 4φ [rad]",
+    "s_n1 = amplitude: amplitude of the second order of the turn [rad]",
+    "delta_n1_mod180_deg = phase: its phase",
+    "delta_80 = irregularity: speed fluctuation by (80)",
     check=_series_check,
 )
 def _book_series(v: Values) -> Any:
     found = book_series(drives(v), v.order, amplitude=v.amplitude, phases=v.phases)
     at, phi = _at(v), np.atleast_1d(v.phi1)
-    return {
+    return found, {
         "lead_deg": at(found.angle_error(phi)),
         "phi_out_deg": at(phi + found.angle_error(phi)),
         "ratio": at(found.ratio(phi)),
         "eps_over_omega1_sq": at(found.slope(phi)),
-        "theta_deg": found.constant,
-        "a_n1": found.a1,
-        "b_n1": found.b1,
-        "a_n2": found.a2,
-        "b_n2": found.b2,
-        "s_n1": found.amplitude,
-        "delta_n1_mod180_deg": found.phase,
-        "delta_80": found.speed_fluctuation,
     }
 
 

@@ -189,24 +189,19 @@ def _pin_stroke(v: Values) -> Any:
     positive("alpha_max_deg", "largest joint angle", below=RIGHT),
     positive("radius_m", "largest distance of the contact from the axes"),
     yoke_rotation("margin_deg", "how far the slant stays from both ends of its range", default=MARGIN),
-    "theta_deg: slant of the pins to their axes",
-    "a_m: distance from the crossing of the axes at which the pins start",
-    "stroke_m: way of the contact along a pin at the largest joint angle",
-    "length_m: length that a pin needs from its start",
+    "theta_deg = slant: slant of the pins to their axes",
+    "a_m = distance: distance from the crossing of the axes at which the pins start",
+    "stroke_m = stroke: way of the contact along a pin at the largest joint angle",
+    "length_m = length: length that a pin needs from its start",
     FORCE,
-    "lead_per_m_rad: largest lead for each metre by which the distances of both pins differ",
+    "lead_per_m_rad = lead: largest lead for each metre by which the distances of both pins differ",
     "theta_min_deg: slant above which the pins turn all the way round",
     "theta_max_deg: slant below which they do",
 )
 def _pin_geometry(v: Values) -> Any:
     found = best_pins(v.alpha_max, v.radius, margin=v.margin)
-    return {
-        "theta_deg": found.slant,
-        "a_m": found.distance,
-        "stroke_m": found.stroke,
-        "length_m": found.length,
+    return found, {
         "contact_force_per_torque_N_per_Nm": found.force,
-        "lead_per_m_rad": found.angle_error,
         "theta_min_deg": found.slant_range[0],
         "theta_max_deg": found.slant_range[1],
     }

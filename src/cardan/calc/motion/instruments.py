@@ -106,38 +106,40 @@ def _multi_drive(v: Values) -> Any:
     given("zF_m", "place of follower 4"),
     given("zP_m", "place of the driving force"),
     given("zG_m", "place of the centre of mass", default=0.0),
-    "R23E_N: force of follower 2",
-    "R43F_N: force of follower 4",
-    "P_N: driving force",
-    "RCm_N: reaction of the end plane",
-    "RCn_N: normal reaction at the rim of that end",
-    "RDn_N: normal reaction at the rim of the other end",
+    "R23E_N = first: force of follower 2",
+    "R43F_N = second: force of follower 4",
+    "P_N = drive: driving force",
+    "RCm_N = end: reaction of the end plane",
+    "RCn_N = rim: normal reaction at the rim of that end",
+    "RDn_N = far: normal reaction at the rim of the other end",
     "xC_m: place of the first, along the weight",
     "yC_m: place of the first, across the weight",
     "xD_m: place of the other, along the weight",
     "yD_m: place of the other, across the weight",
     "sign_zC: 1 or -1: end of the cam that is pushed against the housing",
-    "imbalance: largest of the six sums of forces and moments, as a share of the largest force",
+    "imbalance = imbalance: largest of the six sums of forces and moments, as a share of the largest force",
     check=_jams,
 )
 def _helical_cam(v: Values) -> Any:
     cam = SlotCam(
-        radius=v.r3,
-        length=v.l,
-        weight=v.G3,
-        first_slope=v.beta2,
-        second_slope=v.beta4,
-        first_place=v.zE,
-        second_place=v.zF,
-        drive_place=v.zP,
-        weight_place=v.zG,
-        first_friction=v.fE,
-        second_friction=v.fF,
-        first_guide_friction=v.fN,
-        second_guide_friction=v.fS,
-        rim_friction=v.fC,
-        end_friction=v.fC_end,
-        far_friction=v.fD,
+        **v.of(
+            radius="r3",
+            length="l",
+            weight="G3",
+            first_slope="beta2",
+            second_slope="beta4",
+            first_place="zE",
+            second_place="zF",
+            drive_place="zP",
+            weight_place="zG",
+            first_friction="fE",
+            second_friction="fF",
+            first_guide_friction="fN",
+            second_guide_friction="fS",
+            rim_friction="fC",
+            end_friction="fC_end",
+            far_friction="fD",
+        )
     )
     found = cam_forces(cam, v.Q2, v.Q4, v.psi)
     if found.status == Contact.UNSETTLED:
@@ -145,19 +147,12 @@ def _helical_cam(v: Values) -> Any:
     if found.status != Contact.BOTH_ENDS:
         text = _("no reactions at the rims of both ends hold the cam: it touches its housing in another way")
         raise refuse("psi", text, "singular")
-    return {
-        "R23E_N": found.first,
-        "R43F_N": found.second,
-        "P_N": found.drive,
-        "RCm_N": found.end,
-        "RCn_N": found.rim,
-        "RDn_N": found.far,
+    return found, {
         "xC_m": found.rim_point[..., 0],
         "yC_m": found.rim_point[..., 1],
         "xD_m": found.far_point[..., 0],
         "yD_m": found.far_point[..., 1],
         "sign_zC": int(found.end_side),
-        "imbalance": found.imbalance,
     }
 
 

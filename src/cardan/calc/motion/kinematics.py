@@ -224,30 +224,19 @@ def _chain(v: Values) -> Any:
     "the single joint that moves like the whole chain, and the speed fluctuation after each joint",
     "Book (78)-(80); exact by Möbius pairs",
     (joint_angles(default=None), twists(), points(default=None), YOKES, START),
-    "delta: speed fluctuation",
-    "ratio_max: largest speed ratio",
-    "ratio_min: smallest speed ratio",
-    "delta_of_each_shaft: speed fluctuation of shafts 2 to n+1",
+    "delta = irregularity: speed fluctuation",
+    "ratio_max = ratio_max: largest speed ratio",
+    "ratio_min = ratio_min: smallest speed ratio",
+    "delta_of_each_shaft = shaft_irregularity: speed fluctuation of shafts 2 to n+1",
     "book_first_order_delta_80_with_theta: speed fluctuation by the book's first order",
-    "tau_eq: tan² of half the equivalent angle",
-    "alpha_eq_deg: equivalent angle",
-    "psi_eq_mod180_deg: phase of the equivalent joint; None when synchronous",
-    "eps_max_over_omega1_sq: largest acceleration over the square of the input speed",
-    "lead_max_deg: largest angle error of the output about its mean",
+    "tau_eq = tau: tan² of half the equivalent angle",
+    "alpha_eq_deg = bend: equivalent angle",
+    "psi_eq_mod180_deg = phase: phase of the equivalent joint; None when synchronous",
+    "eps_max_over_omega1_sq = max_acceleration: largest acceleration over the square of the input speed",
+    "lead_max_deg = max_lead: largest angle error of the output about its mean",
     check=between,
 )
 def _equivalent_joint(v: Values) -> Any:
     whole = drives(v)
     joint = equivalent_joint(whole)
-    return {
-        "delta": joint.speed_fluctuation,
-        "ratio_max": joint.ratio_max,
-        "ratio_min": joint.ratio_min,
-        "delta_of_each_shaft": joint.shaft_speed_fluctuation,
-        "book_first_order_delta_80_with_theta": book_series(whole).speed_fluctuation,
-        "tau_eq": joint.tau,
-        "alpha_eq_deg": joint.joint_angle,
-        "psi_eq_mod180_deg": joint.phase,
-        "eps_max_over_omega1_sq": joint.max_acceleration,
-        "lead_max_deg": joint.max_angle_error,
-    }
+    return joint, {"book_first_order_delta_80_with_theta": book_series(whole).speed_fluctuation}

@@ -43,12 +43,7 @@ def _path(v: Values, times: Any) -> MovingMotion:
     path = harmonic_points(v.points0, v.amplitude, frequency=v.omega_motion, phase=v.phase)
     yokes = np.zeros(len(v.points0) - 3) if v.gamma is None else v.gamma
     return moving_centres(
-        path,
-        times,
-        yoke_angle=yokes,
-        speed=v.omega1,
-        acceleration=v.eps1,
-        start_phase=v.theta1_at_t0,
+        path, times, yoke_angle=yokes, **v.of(speed="omega1", acceleration="eps1", start_phase="theta1_at_t0")
     )
 
 
@@ -148,14 +143,14 @@ def _moving_centres(v: Values) -> Any:
     positive("overlap0_m", "engaged length in the middle position", default=None),
     positive("gap0_m", "way left to bottoming in the middle position", default=None),
     positive("overlap_min_allowed_m", "smallest engaged length allowed", default=None),
-    "length_min_m: shortest length",
-    "length_max_m: longest length",
-    "stroke_m: longest less shortest length",
-    "rate_max_m_s: largest sliding speed",
-    "acc_max_m_s2: largest sliding acceleration",
-    "slip_path_m: total way slid",
-    "engaged_min_m: shortest engaged length",
-    "gap_min_m: least way left to bottoming",
+    "length_min_m = length_min: shortest length",
+    "length_max_m = length_max: longest length",
+    "stroke_m = stroke: longest less shortest length",
+    "rate_max_m_s = max_rate: largest sliding speed",
+    "acc_max_m_s2 = max_acceleration: largest sliding acceleration",
+    "slip_path_m = slip_path: total way slid",
+    "engaged_min_m = engaged_min: shortest engaged length",
+    "gap_min_m = gap_min: least way left to bottoming",
     "flags: limits passed",
     check=_sliding_check,
 )
@@ -173,17 +168,7 @@ def _length_compensation(v: Values) -> Any:
         drawn=float(np.linalg.norm(v.points0[k + 1] - v.points0[k])),
         shaft=v.shaft,
     )
-    return {
-        "length_min_m": found.length_min,
-        "length_max_m": found.length_max,
-        "stroke_m": found.stroke,
-        "rate_max_m_s": found.max_rate,
-        "acc_max_m_s2": found.max_acceleration,
-        "slip_path_m": found.slip_path,
-        "engaged_min_m": found.engaged_min,
-        "gap_min_m": found.gap_min,
-        "flags": [told(flag.message, USUAL) for flag in found.flags],
-    }
+    return found, {"flags": [told(flag.message, USUAL) for flag in found.flags]}
 
 
 @formula(

@@ -8,7 +8,7 @@ from typing import Any
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import BalanceNorm, Lubrication, PartLimit
-from cardan.choices.selection import JointDuty, select_joint
+from cardan.choices.selection import Need, select_joint
 from cardan.errors import Problem
 from cardan.formulas.upkeep import lubrication_shares, shaft_sections
 from cardan.questions.bending.balance import allowed_unbalance
@@ -188,31 +188,26 @@ def _lubrication_due(v: Values) -> Any:
     "Book p. 230; see the source of each row",
     word("grade", "grade, or its name in another standard"),
     word("part", "part it is to be used for", default=None),
-    "heat_treatment: treatment",
+    "heat_treatment = treatment: treatment",
     "hardness_HB: Brinell hardness, from and to",
     "hardness_HRC: Rockwell C hardness, from and to",
-    "yield_MPa: yield strength",
-    "ultimate_MPa: tensile strength",
+    "yield_MPa = yield_strength: yield strength",
+    "ultimate_MPa = ultimate_strength: tensile strength",
     "en_equivalent: European grade, the same or the nearest",
     "aisi_equivalent: AISI grade, the same or the nearest",
     "used_for: parts it is used for",
-    "confidence: how sure the figures are",
-    "source: where they come from",
+    "confidence = confidence: how sure the figures are",
+    "source = source: where they come from",
     check=_uses,
 )
 def _material(v: Values) -> Any:
     row = catalogue().grade(v.grade, field="grade")
-    return {
-        "heat_treatment": row.treatment,
+    return row, {
         "hardness_HB": list(row.hardness_brinell) if row.hardness_brinell else None,
         "hardness_HRC": list(row.hardness_rockwell) if row.hardness_rockwell else None,
-        "yield_MPa": row.yield_strength,
-        "ultimate_MPa": row.ultimate_strength,
         "en_equivalent": row.european or None,
         "aisi_equivalent": row.american or None,
         "used_for": list(row.parts),
-        "confidence": row.confidence,
-        "source": row.source,
     }
 
 
@@ -232,14 +227,10 @@ def _material(v: Values) -> Any:
     "rejected: types that do not -> causes",
 )
 def _joint_selection(v: Values) -> Any:
-    need = JointDuty(
-        torque=v.torque,
+    need = Need(
         joint_angle=v.angle,
-        speed=v.speed,
-        synchronous=v.synchronous,
-        service_factor=v.service_factor,
-        continuous=v.continuous,
         outer=v.outer_diameter,
+        **v.of("torque", "speed", "synchronous", "service_factor", "continuous"),
     )
     found = select_joint(need, include_beyond=v.include_beyond_seeds)
     return {

@@ -151,34 +151,22 @@ def _planar_mobility(v: Values) -> Any:
     "true mobility and redundant constraints of a mechanism in its position, by the rank of its constraints",
     SOURCE,
     (FRAME, JOINTS, *LINKS),
-    "moving_links: moving links n",
-    "loops: independent loops k",
-    "sum_constraints: Σs",
-    "rank: how many constraints differ",
-    "W: true mobility",
-    "q: redundant constraints",
-    "W_formula: mobility by counting, W - q",
-    "local_mobilities: motions in which neither input nor output moves",
-    "parasitic_mobilities: other motions left while the input stands still",
-    "rank_certain: whether the singular values fall into two groups far apart",
+    "moving_links = links: moving links n",
+    "loops = loops: independent loops k",
+    "sum_constraints = constraints: Σs",
+    "rank = rank: how many constraints differ",
+    "W = mobility: true mobility",
+    "q = redundant: redundant constraints",
+    "W_formula = formula: mobility by counting, W - q",
+    "local_mobilities = local: motions in which neither input nor output moves",
+    "parasitic_mobilities = parasitic: other motions left while the input stands still",
+    "rank_certain = certain: whether the singular values fall into two groups far apart",
     "strained_joints: joints that parts which are off can strain",
     check=_two_links,
 )
 def _instantaneous_mobility(v: Values) -> Any:
     found = mobility(_mechanism(v))
-    return {
-        "moving_links": found.links,
-        "loops": found.loops,
-        "sum_constraints": found.constraints,
-        "rank": found.rank,
-        "W": found.mobility,
-        "q": found.redundant,
-        "W_formula": found.formula,
-        "local_mobilities": found.local,
-        "parasitic_mobilities": found.parasitic,
-        "rank_certain": found.certain,
-        "strained_joints": list(found.strained),
-    }
+    return found, {"strained_joints": list(found.strained)}
 
 
 @formula(
@@ -226,11 +214,7 @@ def _finite_mobility(v: Values) -> Any:
     mechanism = _mechanism(v)
     try:
         found = finite_mobility(
-            mechanism,
-            driven_joint=v.driven_joint,
-            angle=v.drive,
-            tolerance=v.closure_tolerance,
-            steps=v.steps,
+            mechanism, **v.of("driven_joint", "steps", angle="drive", tolerance="closure_tolerance")
         )
     except InputError as error:
         raise error.renamed(lambda field: names.get(field, field)) from None
@@ -254,9 +238,9 @@ def _finite_mobility(v: Values) -> Any:
         word("links", "the two links", axes=1),
         whole("constraints", "how many motions it holds", low=1.0, high=float(MOST)),
     ),
-    "W_formula: 6n - Σs",
-    "q_structural: constraints too many, whatever the geometry",
-    "W_structural: formula and these together",
+    "W_formula = formula: 6n - Σs",
+    "q_structural = redundant: constraints too many, whatever the geometry",
+    "W_structural = mobility: formula and these together",
     "overconstrained_links: links among which they are",
     "removed_groups: groups of links from the output end on, with their mobility",
     check=_two_links,
@@ -265,10 +249,7 @@ def _structural_partition(v: Values) -> Any:
     pairs = [Join(links=(row.links[0], row.links[1]), constraints=row.constraints) for row in v.pairs]
     found = partition(pairs, frame=v.frame, input_link=v.input_link)
     groups = found.groups
-    return {
-        "W_formula": found.formula,
-        "q_structural": found.redundant,
-        "W_structural": found.mobility,
+    return found, {
         "overconstrained_links": list(found.overconstrained),
         "removed_groups": None if groups is None else [{"links": list(g.links), "W": g.mobility} for g in groups],
     }

@@ -60,36 +60,30 @@ def _yokes(key: str, doc: str) -> Given:
     (twists(axes=1), points(default=None)),
     _yokes("gamma_deg", "present yoke angle of shafts 2 to n"),
     given("fixed_gamma_deg", "yoke angles that must stay, by shaft number", kind="table", default=None),
-    "delta_min: smallest speed fluctuation",
-    "delta_max: largest speed fluctuation",
-    "synchronous_feasible: whether the chain can be synchronous",
-    "alpha_eq_min_deg: smallest equivalent angle",
-    "alpha_eq_max_deg: largest equivalent angle",
+    "delta_min = irregularity_min: smallest speed fluctuation",
+    "delta_max = irregularity_max: largest speed fluctuation",
+    "synchronous_feasible = feasible: whether the chain can be synchronous",
+    "alpha_eq_min_deg = bend_min: smallest equivalent angle",
+    "alpha_eq_max_deg = bend_max: largest equivalent angle",
     "gamma_deg: best yoke angles",
     "gamma_deg_sets: best yoke angles and their mirror image",
     "delta: speed fluctuation that the best yoke angles leave",
     "delta_of_each_shaft: speed fluctuation of shafts 2 to n+1 then",
     "psi_mod180_deg: phase angle of each joint then",
     gives("delta_per_rad", "growth of the speed fluctuation for each yoke turned, per radian", None),
-    "limiting_joint: number of the joint that bends too much for the others",
+    "limiting_joint = limiting_joint: number of the joint that bends too much for the others",
     check=_check,
 )
 def _synthesis_continuous(v: Values) -> Any:
     found = phases(_drive(v, "gamma"), fixed=v.fixed_gamma)
     best = found.settings[0] if found.settings else found.as_built
-    return {
-        "delta_min": found.speed_fluctuation_min,
-        "delta_max": found.speed_fluctuation_max,
-        "synchronous_feasible": found.feasible,
-        "alpha_eq_min_deg": found.joint_angle_min,
-        "alpha_eq_max_deg": found.joint_angle_max,
+    return found, {
         "gamma_deg": best.yoke_angle,
         "gamma_deg_sets": [one.yoke_angle for one in found.settings],
         "delta": best.speed_fluctuation,
         "delta_of_each_shaft": best.shaft_speed_fluctuation,
         "psi_mod180_deg": np.remainder(best.initial_phase, np.pi),
         "delta_per_rad": best.sensitivity,
-        "limiting_joint": found.limiting_joint,
     }
 
 

@@ -56,13 +56,15 @@ def _random_check(v: Values) -> Problems:
 def _varying_angle_single(v: Values) -> Any:
     return swinging_joint(
         v.t,
-        mean=v.alpha_mean,
-        amplitude=v.alpha_amp,
-        frequency=v.alpha_omega,
-        phase=v.alpha_phase,
-        speed=v.omega1_at_t0,
-        acceleration=v.eps1,
-        start_phase=v.psi1,
+        **v.of(
+            mean="alpha_mean",
+            amplitude="alpha_amp",
+            frequency="alpha_omega",
+            phase="alpha_phase",
+            speed="omega1_at_t0",
+            acceleration="eps1",
+            start_phase="psi1",
+        ),
     )
 
 
@@ -109,10 +111,6 @@ def _varying_angle_double(v: Values) -> Any:
 )
 def _varying_angle_random(v: Values) -> Any:
     found = random_joint_angle(
-        v.phi1,
-        mean=v.alpha_mean,
-        deviation=v.alpha_std,
-        rate_deviation=v.alpha_rate_std,
-        speed=v.omega1,
+        v.phi1, **v.of(mean="alpha_mean", deviation="alpha_std", rate_deviation="alpha_rate_std", speed="omega1")
     )
     return found.mean, found.deviation, found.small

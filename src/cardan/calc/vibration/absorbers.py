@@ -93,11 +93,11 @@ def _absorber_optimum(v: Values) -> Any:
     at_least_zero("order", "order of the excitation, cycles a turn"),
     at_least_zero("rotor_inertia_kgm2", "inertia of the shaft", default=None),
     whole("count", "number of equal pendulums", low=1, default=1),
-    "tuning_order: order at which the shaft is held still",
-    "effective_inertia_kgm2: inertia felt at the order; None at antiresonance",
+    "tuning_order = tuned_order: order at which the shaft is held still",
+    "effective_inertia_kgm2 = inertia: inertia felt at the order; None at antiresonance",
     "total_inertia_kgm2: the same with that of the shaft",
-    "swing_over_shaft: amplitude of a pendulum over that of the shaft; None at antiresonance",
-    "antiresonance: whether the order is the tuned one: infinite inertia",
+    "swing_over_shaft = swing: amplitude of a pendulum over that of the shaft; None at antiresonance",
+    "antiresonance = antiresonance: whether the order is the tuned one: infinite inertia",
 )
 def _pendulum_absorber(v: Values) -> Any:
     found = pendulum(
@@ -108,10 +108,4 @@ def _pendulum_absorber(v: Values) -> Any:
         count=v.count,
     )
     rotor = v.rotor_inertia
-    return {
-        "tuning_order": found.tuned_order,
-        "effective_inertia_kgm2": found.inertia,
-        "total_inertia_kgm2": None if rotor is None else rotor + found.inertia,
-        "swing_over_shaft": found.swing,
-        "antiresonance": found.antiresonance,
-    }
+    return found, {"total_inertia_kgm2": None if rotor is None else rotor + found.inertia}

@@ -98,31 +98,21 @@ def _crack_breathing(v: Values) -> Any:
     given("speed_ratio", "speed over the critical one", low=SLOWEST, axes=(0, 1)),
     "speed_rad_s: speed",
     "order_amplitude_complex_m: size of each order; negative ones run backward",
-    "spectral_radius: what the worst disturbance is multiplied by in a turn",
-    "stable: whether disturbances die away",
-    "half_order_unstable: whether half orders grow",
+    "spectral_radius = spectral_radius: what the worst disturbance is multiplied by in a turn",
+    "stable = stable: whether disturbances die away",
+    "half_order_unstable = half_order: whether half orders grow",
 )
 def _cracked_rotor_response(v: Values) -> Any:
     stiffness, mass = v.k0, v.mass
     speed = v.speed_ratio * (stiffness / mass) ** 0.5
     found: CrackedRotor = cracked_rotor(
-        mass,
-        stiffness,
-        speed,
-        crack=_crack(v),
-        damping_ratio=v.damping_ratio,
-        unbalance=v.unbalance,
-        unbalance_phase=v.unbalance_phase,
-        gravity=v.gravity,
+        mass, stiffness, speed, crack=_crack(v), **v.of("damping_ratio", "unbalance", "unbalance_phase", "gravity")
     )
     text = _("a disturbance neither grows nor dies away here, so there is no steady motion; give some damping")
     check([Problem("speed_ratio", text, "singular")] if found.resonant.any() else [])
-    return {
+    return found, {
         "speed_rad_s": speed,
         "order_amplitude_complex_m": {str(n): found.order_amplitude(n) for n in ORDERS},
-        "spectral_radius": found.spectral_radius,
-        "stable": found.stable,
-        "half_order_unstable": found.half_order,
     }
 
 
@@ -185,12 +175,9 @@ def _cracked_two_shaft_model(v: Values) -> Any:
             v.alpha,
             v.speed,
             v.t_end,
-            phase=v.psi,
             crack=_crack(v),
-            drive_stiffness=v.K1T,
-            drive_damping=v.C1T,
-            gravity=v.gravity,
             time=[v.t_end],
+            **v.of("gravity", phase="psi", drive_stiffness="K1T", drive_damping="C1T"),
         )
     except InputError as error:
         raise error.renamed(lambda field: "t_end" if field == "end" else field) from None

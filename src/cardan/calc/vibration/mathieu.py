@@ -196,12 +196,7 @@ def _mathieu_stability(v: Values) -> Any:
 )
 def _mathieu_reduction(v: Values) -> Any:
     found = mathieu_reduction(
-        v.alpha,
-        v.psi,
-        v.stiffness,
-        first_inertia=v.J_first,
-        last_inertia=v.J_last,
-        speed=v.speed,
+        v.alpha, v.psi, v.stiffness, **v.of("speed", first_inertia="J_first", last_inertia="J_last")
     )
     answer: dict[str, Any] = {
         "A": found.forcing.real,

@@ -114,20 +114,20 @@ def _periodic_response(v: Values) -> Any:
     "whether steady torsional running is stable: multipliers of a period, growth, nearest zone of resonance",
     "exact equations of motion linearised about their periodic motion",
     (*MODEL, MEAN_SPEED),
-    gives("multiplier_period_rad", "shaft angle of a period", None),
+    gives("multiplier_period_rad = period", "shaft angle of a period", None),
     "multiplier_modulus_sorted: by what each disturbance is multiplied over a period",
     "multiplier_angle_deg: angle of these multipliers",
     "multipliers_removed: left out of a free drive: shift in time, and any speed being possible",
-    "spectral_radius: the largest of them",
+    "spectral_radius = spectral_radius: the largest of them",
     "stable: whether every disturbance decays",
     "verdict: stable, neutral, unstable or unknown",
     gives("growth_rate_1_per_s", "rate at which the largest disturbance grows", None),
     "kind: how a growing disturbance oscillates: repeating, doubling or combination",
-    "disturbance_order: lowest order at which it oscillates",
+    "disturbance_order = order: lowest order at which it oscillates",
     "nearest_zone: nearest zone of parametric resonance",
     gives("nearest_zone_rad_s", "its speed by the straight drive", None),
     "status: of the steady motion: converged, coarse or no_convergence",
-    "determinant_residual: what the product of the multipliers misses against the damping",
+    "determinant_residual = determinant_residual: what the product of the multipliers misses against the damping",
     "torques_left_out: numbers of torques whose order does not repeat within two turns",
     check=speed_problems,
 )
@@ -135,18 +135,14 @@ def _floquet_stability(v: Values) -> Any:
     model, loose = repeating(model_of(v))
     steady = _steady(model, v)
     found = floquet(steady)
-    return {
-        "multiplier_period_rad": found.period,
+    return found, {
         **_multipliers(found),
-        "spectral_radius": found.spectral_radius,
         "stable": bool(found.stable),
         "verdict": Verdict(int(found.verdict)).name.lower(),
         "growth_rate_1_per_s": np.where(np.isfinite(found.growth_rate), found.growth_rate, np.nan)[()],
         "kind": Kind(int(found.kind)).name.lower() if found.verdict == Verdict.UNSTABLE else None,
-        "disturbance_order": found.order,
         "nearest_zone": found.zone.name(),
         "nearest_zone_rad_s": found.zone.speed,
         "status": Status(int(steady.status)).name.lower(),
-        "determinant_residual": found.determinant_residual,
         "torques_left_out": [k + 1 for k in loose] or None,
     }
