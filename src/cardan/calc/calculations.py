@@ -12,10 +12,9 @@ from cardan.texts import _
 from cardan.units import nearest
 
 from .calculation import Calculation, Formulas, Values
-from .loads import assembly, bearings, forces, joint_forces, life, losses, part_strength, strength
+from .loads import assembly, forces, life, losses, strength
 from .motion import (
     accuracy,
-    angles,
     book,
     constant_velocity,
     couplings,
@@ -24,22 +23,12 @@ from .motion import (
     moving,
     practice,
     structure,
-    synthesis,
-    varying,
 )
-from .vibration import (
-    absorbers,
-    bending,
-    cracks,
-    diagnosis,
-    dynamic_book,
-    mathieu,
-    run_up,
-    simulation,
-    steady,
-    stepped,
-    straight_line,
-)
+from .vibration import bending, cracks, diagnosis, mathieu, simulation, straight_line, torsion
+
+MOTION = (kinematics, moving, accuracy, couplings, constant_velocity, instruments, structure, book)
+LOADS = (forces, losses, life, strength, assembly, practice)
+VIBRATION = (torsion, simulation, straight_line, bending, cracks, diagnosis, mathieu)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -52,42 +41,7 @@ class Call(Calculation):
         return find(str(inputs.get("call", "")), field="call")(rest)
 
 
-GROUPS = tuple(
-    part.formula
-    for part in (
-        kinematics,
-        synthesis,
-        varying,
-        moving,
-        forces,
-        joint_forces,
-        losses,
-        bearings,
-        life,
-        strength,
-        part_strength,
-        angles,
-        practice,
-        diagnosis,
-        assembly,
-        accuracy,
-        straight_line,
-        steady,
-        absorbers,
-        run_up,
-        simulation,
-        cracks,
-        bending,
-        stepped,
-        book,
-        mathieu,
-        dynamic_book,
-        couplings,
-        structure,
-        constant_velocity,
-        instruments,
-    )
-)
+GROUPS = tuple(part.formula for part in (*MOTION, *LOADS, *VIBRATION))
 """The formulas by subject."""
 
 other = Formulas("Any formula by its name")

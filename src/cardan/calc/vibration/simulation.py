@@ -13,7 +13,7 @@ from cardan.questions.torsion.transient.transient import simulate
 from cardan.reading.given import given, positive
 from cardan.texts import _, mark
 
-from .torsion_tables import MODEL, model_of, model_problems
+from .torsion import MODEL, model_of, model_problems
 
 formula = Formulas(__doc__)
 
