@@ -91,8 +91,8 @@ class Calculation:
             found = self._by_key(self.answer(values))
         except InputError as error:
             raise error.renamed(lambda name: _named(name, values.spelled)) from None
-        known = {output.key: output for output in self.returns}
-        return {key: _plain(value, known[key].factor) for key, value in found.items() if value is not None}
+        there = [one for one in self.returns if found.get(one.key) is not None]
+        return {one.key: _plain(found[one.key], one.factor) for one in there}
 
     def _by_key(self, found: Any) -> Any:
         """Return what the formula found by the keys of the outputs."""
@@ -101,6 +101,7 @@ class Calculation:
             return found
         if any(one.of for one in self.returns):
             found, more = found if isinstance(found, tuple) and isinstance(found[-1], dict) else (found, {})
+            assert more.keys() <= set(keys)
             return {one.key: getattr(found, one.of) for one in self.returns if one.of} | more
         return dict(zip(keys, (found,) if len(keys) == 1 else found, strict=True))
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
@@ -38,9 +39,30 @@ class Values(dict[str, Any]):
         """Return the key under which a value was given, or would be; with its path where it stands in a table."""
         return self.spelled[name]
 
-    def wrong(self, name: str, message: str, code: str = "") -> Problem:
-        """Return what is wrong with a value, under its key."""
-        return Problem(self.key(name), message, code)
+    def wrong(self, name: str, message: str, code: str = "", **parts: Any) -> Problem:
+        """Return what is wrong with a value, under its key; the parts stand in the message."""
+        return Problem(self.key(name), message.format(**parts) if parts else message, code)
+
+    def miscounted(self, wanted: int, *names: str, axis: int = -1, code: str = "") -> Iterator[Problem]:
+        """Yield the lists that have not as many values as wanted; those not given are no matter."""
+        for name in names:
+            value = self.get(name)
+            count = wanted if value is None or np.ndim(value) == 0 else np.shape(value)[axis]
+            if count != wanted:
+                text = _("{given} values given, {wanted} needed")
+                yield self.wrong(name, text, code, given=count, wanted=wanted)
+
+    def missing(self, why: str, *names: str, code: str = "") -> Iterator[Problem]:
+        """Yield what is not given of that which another key, or a word, needs."""
+        for name in names:
+            if name in self and self[name] is None:
+                yield self.wrong(name, _("missing; {other} needs it"), code, other=why)
+
+    def single(self, name: str, axis: int = -1) -> Callable[[Any], Any]:
+        """Return what takes an axis away from an array, or those of a result, where one value was given, no list."""
+        if np.ndim(self[name]):
+            return lambda found: found
+        return lambda found: np.take(found, 0, axis) if isinstance(found, np.ndarray) else _Single(found, axis)
 
     def of(self, *names: str, **others: str) -> dict[str, Any]:
         """Return some of the values as arguments of a function: under their names, and under others."""
@@ -49,6 +71,18 @@ class Values(dict[str, Any]):
     def but(self, **changed: Any) -> Values:
         """Return these values with some of them changed."""
         return Values(self | changed, self.spelled)
+
+
+@dataclass(frozen=True, slots=True)
+class _Single:
+    """A result whose arrays have lost an axis."""
+
+    found: Any
+    axis: int
+
+    def __getattr__(self, name: str) -> Any:
+        value = getattr(self.found, name)
+        return None if value is None else np.take(value, 0, self.axis)
 
 
 def read(takes: tuple[Given, ...], inputs: Mapping[str, Any], before: str = "") -> tuple[Values, list[Problem]]:

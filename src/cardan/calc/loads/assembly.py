@@ -44,8 +44,7 @@ BEARINGS = rows(
 
 def _two(v: Values) -> Problems:
     if "shafts" in v and len(v.shafts) != 2:
-        text = _("{given} values given, {wanted} needed")
-        yield v.wrong("shafts", text.format(given=len(v.shafts), wanted=2))
+        yield v.wrong("shafts", _("{given} values given, {wanted} needed"), given=len(v.shafts), wanted=2)
 
 
 def _stand(axis: Array, angle: Array) -> Crosses:

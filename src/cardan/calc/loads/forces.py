@@ -42,16 +42,6 @@ LOAD = given("M_out_Nm", "torque that resists the output")
 
 _FREE: dict[str, Any] = {"default": None, "axes": (1,)}
 
-_LENGTHS = {
-    "extra_resisting_torque": 1,
-    "J": 1,
-    "mass": 1,
-    "cg_from_shaft_start": 1,
-    "cross_inertia_b_c_n": 0,
-    "cross_mass": 0,
-}
-"""Lists with a value for each joint, and for how many shafts more."""
-
 
 def chain_check(v: Values) -> Problems:
     """Yield what is wrong with the points, and lists without a value for each shaft or joint."""
@@ -60,11 +50,8 @@ def chain_check(v: Values) -> Problems:
     if place is None:
         return
     joints = place.shape[0] - 2
-    for name, more in _LENGTHS.items():
-        value = v.get(name)
-        if value is not None and len(value) != joints + more:
-            text = _("{given} values given, {wanted} needed")
-            yield v.wrong(name, text.format(given=len(value), wanted=joints + more))
+    yield from v.miscounted(joints + 1, "extra_resisting_torque", "J", "mass", "cg_from_shaft_start")
+    yield from v.miscounted(joints, "cross_inertia_b_c_n", "cross_mass", axis=0)
     for name in ("bearings", "splines"):
         if v.get(name):
             yield from unknown_shafts(v[name], joints + 1, v.key(name))
@@ -88,7 +75,7 @@ def _bearing_problems(v: Values) -> Problems:
         yield v.wrong("bearings", _("an empty list holds no shaft"))
     for k, row in enumerate(v.bearings):
         if not (row.get("radial", True) or row.get("axial", True)):
-            yield v.wrong("bearings", _("row {row} holds nothing").format(row=k + 1))
+            yield v.wrong("bearings", _("row {row} holds nothing"), row=k + 1)
 
 
 def _spline_problems(v: Values) -> Problems:
@@ -96,7 +83,7 @@ def _spline_problems(v: Values) -> Problems:
     seen: set[int] = set()
     for k, row in enumerate(v.get("splines") or ()):
         if row.get("shaft") in seen:
-            yield v.wrong("splines", _("row {row}: shaft {number} has two").format(row=k + 1, number=row.shaft))
+            yield v.wrong("splines", _("row {row}: shaft {number} has two"), row=k + 1, number=row.shaft)
         seen.add(row.get("shaft", 0))
         if not row.get("mu"):
             continue
@@ -250,10 +237,9 @@ def _single_check(v: Values) -> Problems:
         return
     name, other = "a2_bearing_span", "b2_joint_to_bearing"
     needed, spare = (other, name) if variant == "located_cross" else (name, other)
-    if v.get(needed, 0.0) is None:
-        yield v.wrong(needed, _("missing; {variant} needs it").format(variant=variant))
+    yield from v.missing(variant, needed)
     if v.get(spare) is not None:
-        yield v.wrong(spare, _("{variant} has no use for it").format(variant=variant))
+        yield v.wrong(spare, _("{variant} has no use for it"), variant=variant)
 
 
 def _gyro_check(v: Values) -> Problems:
@@ -333,42 +319,25 @@ def _joint_reactions(v: Values) -> Any:
     given("phi1_deg", "angle of the driving yoke from the plane of joint 1", axes=(0, 1)),
     given("M3_Nm", "torque of the last shaft"),
     positive("l2_m", "length of the middle shaft"),
-    "M1_Nm: torque of the first shaft",
-    "M12_secondary_on_shaft1_Nm: secondary couple of joint 1 on shaft 1",
-    "M12_secondary_on_shaft2_Nm: secondary couple of joint 1 on shaft 2",
-    "M23_secondary_on_shaft2_Nm: secondary couple of joint 2 on shaft 2",
-    "M23_secondary_on_shaft3_Nm: secondary couple of joint 2 on shaft 3",
-    "M2_resultant_secondary_Nm: resultant on shaft 2",
-    "N_joint_radial_force_N: force in the joints that balances it",
-    "N_along_yoke_arm_N: its part along the driven arm on shaft 2",
-    "N_across_yoke_arm_N: its part across that arm",
-    "axial_on_shaft1_N: axial load of shaft 1",
-    "axial_on_shaft3_N: axial load of shaft 3",
+    "M1_Nm = driving_torque: torque of the first shaft",
+    "M12_secondary_on_shaft1_Nm = first_couple: secondary couple of joint 1 on shaft 1",
+    "M12_secondary_on_shaft2_Nm = middle_first: secondary couple of joint 1 on shaft 2",
+    "M23_secondary_on_shaft2_Nm = middle_second: secondary couple of joint 2 on shaft 2",
+    "M23_secondary_on_shaft3_Nm = last_couple: secondary couple of joint 2 on shaft 3",
+    "M2_resultant_secondary_Nm = middle_couple: resultant on shaft 2",
+    "N_joint_radial_force_N = pair_force: force in the joints that balances it",
+    "N_along_yoke_arm_N = along_arm: its part along the driven arm on shaft 2",
+    "N_across_yoke_arm_N = across_arm: its part across that arm",
+    "axial_on_shaft1_N = first_axial: axial load of shaft 1",
+    "axial_on_shaft3_N = last_axial: axial load of shaft 3",
     "M2_resultant_max_over_turn_Nm: largest resultant on shaft 2 over a turn",
 )
 def _double_joint_reactions(v: Values) -> Any:
     angles = {"plane_twist": v.beta13, "yoke_angle": v.gamma2, "torque": v.M3}
     joint_angles = v.alpha12, v.alpha23
     found = double_joint_forces(*joint_angles, np.atleast_1d(v.phi1), length=v.l2, **angles)
-    single = np.ndim(v.phi1) == 0
-
-    def at(table: Any) -> Any:
-        return table[0] if single else table
-
-    return {
-        "M1_Nm": at(found.driving_torque),
-        "M12_secondary_on_shaft1_Nm": at(found.first_couple),
-        "M12_secondary_on_shaft2_Nm": at(found.middle_first),
-        "M23_secondary_on_shaft2_Nm": at(found.middle_second),
-        "M23_secondary_on_shaft3_Nm": at(found.last_couple),
-        "M2_resultant_secondary_Nm": at(found.middle_couple),
-        "N_joint_radial_force_N": at(found.pair_force),
-        "N_along_yoke_arm_N": at(found.along_arm),
-        "N_across_yoke_arm_N": at(found.across_arm),
-        "axial_on_shaft1_N": at(found.first_axial),
-        "axial_on_shaft3_N": at(found.last_axial),
-        "M2_resultant_max_over_turn_Nm": largest_middle_couple(*joint_angles, **angles)[0],
-    }
+    largest = largest_middle_couple(*joint_angles, **angles)[0]
+    return v.single("phi1", 0)(found), {"M2_resultant_max_over_turn_Nm": largest}
 
 
 @formula(

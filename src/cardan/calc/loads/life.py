@@ -106,8 +106,9 @@ def _shares(v: Values) -> Problems:
         return
     whole = sum(regime.share for regime in regimes)
     if abs(whole - 1.0) > WHOLE + SLACK:
-        text = _("the shares add up to {whole:.6g} %, not to 100 %")
-        yield v.wrong("regimes", text.format(whole=100.0 * whole), "inconsistent")
+        yield v.wrong(
+            "regimes", _("the shares add up to {whole:.6g} %, not to 100 %"), "inconsistent", whole=100.0 * whole
+        )
 
 
 @formula(

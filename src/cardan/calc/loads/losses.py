@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.calc.motion.kinematics import START, YOKES, between, drives, joint_angles, points, twists
+from cardan.calc.motion.kinematics import START, YOKES, between, drives, joint_angles, joints_of, points, twists
 from cardan.errors import Problem, check
 from cardan.formulas.friction import branch_efficiency, joint_friction, reduced_friction, spline_efficiency
 from cardan.questions.losses.chain_friction import chain_friction
@@ -24,19 +24,15 @@ CONSTANT = word("constant_torque", "where the torque is constant", "output", "in
 def _bearings(v: Values) -> Problems:
     """Yield what misses beside the friction of the shafts' bearings."""
     if v.get("mu_bearing_reduced"):
-        for name in ("bearing_diameter", "bearing_span"):
-            if name in v and v[name] is None:
-                yield v.wrong(name, _("missing; {other} needs it").format(other=v.key("mu_bearing_reduced")))
+        yield from v.missing(v.key("mu_bearing_reduced"), "bearing_diameter", "bearing_span")
 
 
 def _frictions(v: Values) -> Problems:
     """Yield what is wrong with a chain, and a list that has not one coefficient for each joint."""
     yield from between(v)
-    place, alpha, drag = v.get("points"), v.get("alpha"), v.get("kappa_mu_dc_over_d")
-    joints = alpha.shape[-1] if alpha is not None else place.shape[0] - 2 if place is not None else None
-    if drag is not None and joints is not None and drag.shape[-1] != joints:
-        text = _("{given} values given, {wanted} needed")
-        yield v.wrong("kappa_mu_dc_over_d", text.format(given=drag.shape[-1], wanted=joints))
+    joints = joints_of(v)
+    if joints is not None:
+        yield from v.miscounted(joints, "kappa_mu_dc_over_d")
 
 
 _SPLINE = ("mu_spline", "stroke", "strokes_per_s", "spline_diameter", "rev_per_s")
@@ -50,18 +46,14 @@ def _parts(v: Values) -> Problems:
         there = [name for name in group if v.get(name) is not None]
         given_any |= bool(there) or any(name not in v for name in group)
         if there:
-            text = _("missing; {other} needs it")
-            yield from (
-                v.wrong(name, text.format(other=v.key(there[0]))) for name in group if name in v and v[name] is None
-            )
+            yield from v.missing(v.key(there[0]), *group)
     if not given_any:
         yield v.wrong("mu_spline", _("missing; give a spline, or branch_useful_work_J, or mu_material"))
     work, eta = (v.get(name) for name in _BRANCHES)
     if work is not None and not np.sum(work) > 0.0:
         yield v.wrong("branch_useful_work", _("no branch does any work"))
-    if work is not None and eta is not None and work.shape != eta.shape:
-        text = _("{given} values given, {wanted} needed")
-        yield v.wrong("branch_eta", text.format(given=eta.shape[-1], wanted=work.shape[-1]))
+    if work is not None and eta is not None:
+        yield from v.miscounted(work.shape[-1], "branch_eta")
 
 
 @formula(

@@ -82,16 +82,9 @@ def _lists(v: Values) -> Problems:
     if not count:
         yield v.wrong("alpha", _("an empty list has no joint"))
         return
-    wanted = {
-        "kappa_between_joints": count - 1,
-        "angle_errors_alpha1_4_per_joint": count,
-        "phase_errors_before_each_joint": count,
-        "linear_errors_s1_a1_4_per_joint": count,
-    }
-    for name, needed in wanted.items():
-        if v.get(name) is not None and len(v[name]) != needed:
-            text = _("{given} values given, {wanted} needed")
-            yield v.wrong(name, text.format(given=len(v[name]), wanted=needed))
+    yield from v.miscounted(count - 1, "kappa_between_joints")
+    rows = ("angle_errors_alpha1_4_per_joint", "phase_errors_before_each_joint", "linear_errors_s1_a1_4_per_joint")
+    yield from v.miscounted(count, *rows, axis=0)
 
 
 @formula(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -27,12 +26,8 @@ _MOTION = (
 )
 
 
-def _at(v: Values) -> Callable[[Any], Any]:
-    return (lambda array: array[..., 0]) if np.ndim(v.phi1) == 0 else (lambda array: array)
-
-
 def _curves(v: Values, moved: OutputMotion) -> dict[str, Any]:
-    at = _at(v)
+    at = v.single("phi1")
     return {
         "lead_deg": at(moved.angle_error),
         "phi_out_deg": at(moved.output_angle),
@@ -88,7 +83,7 @@ def _blokh(v: Values) -> Any:
 )
 def _book_series(v: Values) -> Any:
     found = book_series(drives(v), v.order, amplitude=v.amplitude, phases=v.phases)
-    at, phi = _at(v), np.atleast_1d(v.phi1)
+    at, phi = v.single("phi1"), np.atleast_1d(v.phi1)
     return found, {
         "lead_deg": at(found.angle_error(phi)),
         "phi_out_deg": at(phi + found.angle_error(phi)),

@@ -45,7 +45,7 @@ RATIOS = (
 def _between(v: Values) -> Problems:
     least, most = v.get("alpha_min"), v.get("alpha_max")
     if least is not None and most is not None and least >= most:
-        yield v.wrong("alpha_min", _("is not below {other}").format(other=v.key("alpha_max")), "inconsistent")
+        yield v.wrong("alpha_min", _("is not below {other}"), "inconsistent", other=v.key("alpha_max"))
 
 
 def _slants(v: Values) -> Problems:
@@ -70,7 +70,7 @@ def _support(v: Values) -> Problems:
         text = _("is not above {other}: the support would stand within the joint")
         yield v.wrong("support_distance", text.format(other=v.key("cross_offset")), "inconsistent")
     if v.get("cross_sign") not in (None, -1, 1):
-        yield v.wrong("cross_sign", _("{value} is neither 1 nor -1").format(value=v.cross_sign))
+        yield v.wrong("cross_sign", _("{value} is neither 1 nor -1"), value=v.cross_sign)
 
 
 def _profile(number: int) -> Given:

@@ -26,10 +26,8 @@ def _wheels(v: Values) -> Problems:
         text = _("{value:.6g} mm is above {other}, {limit:.6g} mm")
         text = text.format(value=1e3 * small, other=v.key("wheel_radius_max"), limit=1e3 * large)
         yield v.wrong("wheel_radius_min", text, "inconsistent")
-    share, count = v.get("torque_share"), v.get("axles")
-    if share is not None and count is not None and len(share) != count:
-        text = _("{given} values given, {wanted} needed").format(given=len(share), wanted=count)
-        yield v.wrong("torque_share", text, "inconsistent")
+    if v.get("axles") is not None:
+        yield from v.miscounted(v.axles, "torque_share", code="inconsistent")
 
 
 JAMS = mark("{value:.6g}° is not above {limit:.6g}°, the angles of friction of slot and guide: the follower jams")

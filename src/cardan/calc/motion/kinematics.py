@@ -51,31 +51,31 @@ SPEED = given("omega1_rad_s", "input speed", default=None)
 ACCELERATION = given("eps1_rad_s2", "input angular acceleration", default=0.0)
 
 
+def joints_of(v: Values) -> int | None:
+    """Return how many joints the joint angles, or the points, of a chain tell of."""
+    place, alpha = v.get("points"), v.get("alpha")
+    return alpha.shape[-1] if alpha is not None else place.shape[0] - 2 if place is not None else None
+
+
 def between(v: Values) -> Problems:
     """Yield what is wrong with points, and lists that do not have a value for each of the n-1 inner shafts."""
     place, alpha = v.get("points"), v.get("alpha")
     if "points" in v and "alpha" in v:
         if place is None and alpha is None:
-            yield v.wrong("alpha", _("missing; give it, or {points}").format(points=v.key("points")))
+            yield v.wrong("alpha", _("missing; give it, or {points}"), points=v.key("points"))
         if place is not None and alpha is not None:
-            yield v.wrong("points", _("given beside {alpha}; give one of them").format(alpha=v.key("alpha")))
+            yield v.wrong("points", _("given beside {alpha}; give one of them"), alpha=v.key("alpha"))
     if place is not None:
         if v.get("beta") is not None:
             yield v.wrong("beta", _("the points already give the plane twists"))
         for problem in point_problems(place.tolist()):
             named = v.key("points")
             yield Problem(problem.field.replace("points", named), problem.message.replace("points[", f"{named}["))
-    joints = alpha.shape[-1] if alpha is not None else place.shape[0] - 2 if place is not None else None
-    if joints is None:
-        return
-    if joints < 1 and alpha is not None:
+    joints = joints_of(v)
+    if joints is not None and joints < 1 and alpha is not None:
         yield v.wrong("alpha", _("an empty list has no joint"))
-        return
-    for name in ("beta", "gamma", "spline_teeth", "gamma_offset"):
-        wanted = max(joints - 1, 0)
-        value = v.get(name)
-        if value is not None and value.shape[-1] != wanted:
-            yield v.wrong(name, _("{given} values given, {wanted} needed").format(given=value.shape[-1], wanted=wanted))
+    elif joints is not None:
+        yield from v.miscounted(max(joints - 1, 0), "beta", "gamma", "spline_teeth", "gamma_offset")
 
 
 def drives(v: Values) -> Drives:
@@ -90,9 +90,7 @@ def drives(v: Values) -> Drives:
 
 def _motion(v: Values) -> tuple[Motion, Callable[[Any], Any]]:
     """Return the motion, and what takes the axis of angles away again where a single angle was given."""
-    moved = motion(drives(v), v.phi1, speed=v.omega1, acceleration=v.get("eps1", 0.0))
-    single = np.ndim(v.phi1) == 0
-    return moved, (lambda array: array[..., 0]) if single else (lambda array: array)
+    return motion(drives(v), v.phi1, speed=v.omega1, acceleration=v.get("eps1", 0.0)), v.single("phi1")
 
 
 @formula(
@@ -202,27 +200,21 @@ def _geometry_from_points(v: Values) -> Any:
     "angle, speed and acceleration of every shaft of a chain of joints",
     "Book (31)-(33), (38)",
     (joint_angles(), twists(), YOKES, START, ANGLE, SPEED, ACCELERATION),
-    "phi_deg: angle of each shaft from the start, continuous",
-    "ratio_to_input: speed ratio of each shaft to the input",
+    "phi_deg = shaft_angle: angle of each shaft from the start, continuous",
+    "ratio_to_input = shaft_ratio: speed ratio of each shaft to the input",
     "omega_rad_s: speed of each shaft",
     "eps_rad_s2: acceleration of each shaft",
     "psi_mod180_deg: phase angle of each joint",
-    "cross_vs_driving_yoke_deg: turn of each cross in its driving yoke",
-    "cross_vs_driven_yoke_deg: turn of each cross in its driven yoke",
+    "cross_vs_driving_yoke_deg = cross_driving: turn of each cross in its driving yoke",
+    "cross_vs_driven_yoke_deg = cross_driven: turn of each cross in its driven yoke",
     check=between,
 )
 def _chain(v: Values) -> Any:
     moved, at = _motion(v)
-    known = v.omega1 is not None
-    return {
-        "phi_deg": at(moved.shaft_angle),
-        "ratio_to_input": at(moved.shaft_ratio),
-        "omega_rad_s": at(moved.shaft_speed) if known else None,
-        "eps_rad_s2": at(moved.shaft_acceleration) if known else None,
-        "psi_mod180_deg": np.remainder(initial_phases(drives(v)), np.pi),
-        "cross_vs_driving_yoke_deg": at(moved.cross_driving),
-        "cross_vs_driven_yoke_deg": at(moved.cross_driven),
-    }
+    found = {"psi_mod180_deg": np.remainder(initial_phases(drives(v)), np.pi)}
+    if v.omega1 is not None:
+        found |= {"omega_rad_s": at(moved.shaft_speed), "eps_rad_s2": at(moved.shaft_acceleration)}
+    return at(moved), found
 
 
 @formula(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -35,11 +34,6 @@ MOVED = ("joints[1]", "output")
 """What a hitch or an arm carries in a double joint."""
 
 
-def _axis_of_time(v: Values) -> Callable[[Any], Any]:
-    """Return what takes the axis of instants away again where a single time was given."""
-    return (lambda array: array[0]) if np.ndim(v.t) == 0 else (lambda array: array)
-
-
 def _path(v: Values, times: Any) -> MovingMotion:
     path = harmonic_points(v.points0, v.amplitude, frequency=v.omega_motion, phase=v.phase)
     yokes = np.zeros(len(v.points0) - 3) if v.gamma is None else v.gamma
@@ -56,16 +50,14 @@ def _path_check(v: Values) -> Problems:
     for problem in point_problems(v.points0.tolist()):
         yield Problem(problem.field.replace("points", named), problem.message.replace("points[", f"{named}["))
     count = len(v.points0)
-    for name, wanted in (("amplitude", count), ("phase", count), ("gamma", max(count - 3, 0))):
-        value = v.get(name)
-        if value is not None and np.ndim(value) and len(value) != wanted:
-            yield v.wrong(name, _("{given} values given, {wanted} needed").format(given=len(value), wanted=wanted))
+    yield from v.miscounted(count, "amplitude", "phase", axis=0)
+    yield from v.miscounted(max(count - 3, 0), "gamma")
 
 
 def _sliding_check(v: Values) -> Problems:
     yield from _path_check(v)
     if "points0" in v and "shaft" in v and not 1 <= v.shaft < len(v.points0):
-        yield v.wrong("shaft", _("there is no shaft {number}").format(number=v.shaft))
+        yield v.wrong("shaft", _("there is no shaft {number}"), number=v.shaft)
 
 
 def _standing(points: Any, movement: Movement) -> Any:
@@ -124,7 +116,7 @@ def _moving_centres(v: Values) -> Any:
     moved = _path(v, np.atleast_1d(v.t))
     if np.any(moved.shafts.joint_angle >= RIGHT):
         raise refuse("points0", _("at a given time a joint bends 90° or more"))
-    at = _axis_of_time(v)
+    at = v.single("t", 0)
     return {
         "spin_rad_s": at(moved.spins.spin),
         "spin_acc_rad_s2": at(moved.spins.spin_acceleration),

@@ -66,8 +66,9 @@ def _uses(v: Values) -> Problems:
     parts = {part for row in catalogue().tables["materials"].values() for part in row.parts}  # type: ignore[attr-defined]
     part = v.get("part")
     if part is not None and part not in parts:
-        text = _("{part} is none of {known}")
-        yield v.wrong("part", text.format(part=repr(part), known=", ".join(sorted(parts))), "out_of_range")
+        yield v.wrong(
+            "part", _("{part} is none of {known}"), "out_of_range", part=repr(part), known=", ".join(sorted(parts))
+        )
 
 
 MEASURE = {

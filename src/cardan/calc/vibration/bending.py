@@ -41,13 +41,6 @@ def mode_count(default: int) -> Given:
     return whole("modes", "how many, lowest first", low=1, high=MOST, default=default)
 
 
-def _lacking(v: Values, names: tuple[str, ...], needs: str) -> Problems:
-    """Yield what is not given of a group that belongs together."""
-    for name in names:
-        if name in v and v[name] is None:
-            yield v.wrong(name, _("missing; {other} needs it").format(other=needs), "missing")
-
-
 TUBE = ("length", "outer_diameter", "inner_diameter")
 SI_MATERIAL = ("E", "density")
 BOOK_MATERIAL = ("E_kgf_cm2", "specific_weight_gf_cm3")
@@ -58,10 +51,10 @@ def _book_check(v: Values) -> Problems:
     for group in (("length", "outer_diameter"), SI_MATERIAL, BOOK_MATERIAL):
         there = [name for name in group if v.get(name) is not None]
         if there:
-            yield from _lacking(v, group, v.key(there[0]))
+            yield from v.missing(v.key(there[0]), *group, code="missing")
     for given_last, first in ((BOOK_MATERIAL[0], SI_MATERIAL[0]), ("lambda_", "end_condition")):
         if v.get(given_last) is not None and v.get(first) is not None:
-            yield v.wrong(given_last, _("{other} gives the same already").format(other=v.key(first)), "inconsistent")
+            yield v.wrong(given_last, _("{other} gives the same already"), "inconsistent", other=v.key(first))
     if all(v.get(name, 0.0) is None for name in ("length", SI_MATERIAL[0], BOOK_MATERIAL[0])):
         yield v.wrong("length", _("missing; give a shaft, or the material of the constant"), "missing")
 
@@ -72,8 +65,7 @@ def _simple_check(v: Values) -> Problems:
     names = needed.get(v.get("method", ""), ("n_reference", "length_ratio"))
     for name in names if "method" in v else ():
         if name in v and v[name] is None:
-            text = _("missing; the method {method} needs it")
-            yield v.wrong(name, text.format(method=v.method), "missing")
+            yield v.wrong(name, _("missing; the method {method} needs it"), "missing", method=v.method)
 
 
 LENGTH = positive(

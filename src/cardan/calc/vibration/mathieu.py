@@ -98,10 +98,8 @@ def _fits(v: Values) -> Problems:
         return
     if not alpha.size:
         yield v.wrong("alpha", _("an empty list has no joint"))
-    for name, wanted in (("psi", alpha.size), ("stiffness", alpha.size + 1)):
-        if v.get(name) is not None and v[name].size != wanted:
-            text = _("{given} values given, {wanted} needed")
-            yield v.wrong(name, text.format(given=v[name].size, wanted=wanted))
+    yield from v.miscounted(alpha.size, "psi")
+    yield from v.miscounted(alpha.size + 1, "stiffness")
 
 
 @formula(

@@ -34,15 +34,10 @@ def fitting(*names: str) -> Callable[[Values], Problems]:
         if not inertia.size or not np.any(inertia):
             yield v.wrong("inertia", _("no station has inertia"))
             return
-        for name in ("stiffness", *names):
-            listed = v.get(name)
-            if listed is not None and listed.size != inertia.size - 1:
-                text = _("{given} values given, {wanted} needed")
-                yield v.wrong(name, text.format(given=listed.size, wanted=inertia.size - 1))
+        yield from v.miscounted(inertia.size - 1, "stiffness", *names)
         station = v.get("torque_station")
         if station is not None and station > inertia.size:
-            text = _("station {given} of {count}")
-            yield v.wrong("torque_station", text.format(given=station, count=inertia.size))
+            yield v.wrong("torque_station", _("station {given} of {count}"), given=station, count=inertia.size)
 
     return problems
 
@@ -211,13 +206,13 @@ def _forms(v: Values) -> Problems:
     wanted = _SWEEP if begun and not other else _JOINT if other and not begun else ()
     for name in wanted:
         if name in v and v[name] is None:
-            yield v.wrong(name, _("missing; {other} needs it").format(other=v.key((begun or other)[0])))
+            yield v.wrong(name, _("missing; {other} needs it"), other=v.key((begun or other)[0]))
     if begun and other:
         text = _("not together with {other}: a run-up is that of an oscillator or that behind a joint")
         yield v.wrong(other[0], text.format(other=v.key(begun[0])))
     time, end = v.get("t"), v.get("t_max")
     if other and time is not None and end is not None and (time > end).any():
-        yield v.wrong("t", _("later than {end}").format(end=v.key("t_max")))
+        yield v.wrong("t", _("later than {end}"), end=v.key("t_max"))
 
 
 @formula(

@@ -167,8 +167,7 @@ def _length_problems(shaft: Values) -> Problems:
 def _station_problems(row: Values, counts: list[int]) -> Problems:
     shaft, station = row.shaft, row.station
     if not 1 <= shaft <= len(counts):
-        text = _("shaft {given} given; there are {count}")
-        yield row.wrong("station", text.format(given=shaft, count=len(counts)))
+        yield row.wrong("station", _("shaft {given} given; there are {count}"), given=shaft, count=len(counts))
     elif counts[shaft - 1] and not 1 <= station <= counts[shaft - 1]:
         text = _("station {given} given; shaft {shaft} has {count}")
         yield row.wrong("station", text.format(given=station, shaft=shaft, count=counts[shaft - 1]))
@@ -240,7 +239,7 @@ def speed_problems(v: Values) -> Problems:
             "input_speed", _("missing; give it, or {other} for a free drive").format(other=v.key("mean_speed"))
         )
     elif len(there) > 1:
-        yield v.wrong("mean_speed", _("given beside {other}; give one of them").format(other=v.key("input_speed")))
+        yield v.wrong("mean_speed", _("given beside {other}; give one of them"), other=v.key("input_speed"))
     for name in there:
         if speeds[name] == 0.0:
             yield v.wrong(name, _("0 given; steady running needs a speed"))
