@@ -102,7 +102,8 @@ class Calculation:
         if any(one.of for one in self.returns):
             found, more = found if isinstance(found, tuple) and isinstance(found[-1], dict) else (found, {})
             assert more.keys() <= set(keys)
-            return {one.key: getattr(found, one.of) for one in self.returns if one.of} | more
+            own = [one for one in self.returns if one.of or hasattr(found, one.key)]
+            return {one.key: getattr(found, one.of or one.key) for one in own} | more
         return dict(zip(keys, (found,) if len(keys) == 1 else found, strict=True))
 
 

@@ -221,7 +221,7 @@ def _kinetostatics(v: Values) -> Any:
     "min_pin_couple_over_turn_Nm = least_couple: least couple of each joint over a turn",
     "phi1_at_min_deg = least_angle: input angle where it occurs",
     "min_M_out_for_closure_Nm = load_needed: least load that keeps all joints closed",
-    "closed = closed: whether all joints stay closed",
+    "closed: whether all joints stay closed",
     "open_share_of_turn = open_share: share of the turn in which the couple of each joint is reversed",
     "phi1_at_sign_changes_deg: input angles where the couple of each joint turns about",
     check=chain_check,

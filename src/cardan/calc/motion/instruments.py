@@ -115,7 +115,7 @@ def _multi_drive(v: Values) -> Any:
     "xD_m: place of the other, along the weight",
     "yD_m: place of the other, across the weight",
     "sign_zC: 1 or -1: end of the cam that is pushed against the housing",
-    "imbalance = imbalance: largest of the six sums of forces and moments, as a share of the largest force",
+    "imbalance: largest of the six sums of forces and moments, as a share of the largest force",
     check=_jams,
 )
 def _helical_cam(v: Values) -> Any:

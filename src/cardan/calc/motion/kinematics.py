@@ -222,8 +222,8 @@ def _chain(v: Values) -> Any:
     "Book (78)-(80); exact by Möbius pairs",
     (joint_angles(default=None), twists(), points(default=None), YOKES, START),
     "delta = irregularity: speed fluctuation",
-    "ratio_max = ratio_max: largest speed ratio",
-    "ratio_min = ratio_min: smallest speed ratio",
+    "ratio_max: largest speed ratio",
+    "ratio_min: smallest speed ratio",
     "delta_of_each_shaft = shaft_irregularity: speed fluctuation of shafts 2 to n+1",
     "book_first_order_delta_80_with_theta: speed fluctuation by the book's first order",
     "tau_eq = tau: tan² of half the equivalent angle",
@@ -289,7 +289,7 @@ def _yokes(key: str, doc: str) -> Given:
     "delta_of_each_shaft: speed fluctuation of shafts 2 to n+1 then",
     "psi_mod180_deg: phase angle of each joint then",
     gives("delta_per_rad", "growth of the speed fluctuation for each yoke turned, per radian", None),
-    "limiting_joint = limiting_joint: number of the joint that bends too much for the others",
+    "limiting_joint: number of the joint that bends too much for the others",
     check=_check,
 )
 def _synthesis_continuous(v: Values) -> Any:

@@ -194,8 +194,8 @@ def _lubrication_due(v: Values) -> Any:
     "en_equivalent: European grade, the same or the nearest",
     "aisi_equivalent: AISI grade, the same or the nearest",
     "used_for: parts it is used for",
-    "confidence = confidence: how sure the figures are",
-    "source = source: where they come from",
+    "confidence: how sure the figures are",
+    "source: where they come from",
     check=_uses,
 )
 def _material(v: Values) -> Any:

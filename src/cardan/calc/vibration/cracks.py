@@ -98,8 +98,8 @@ def _crack_breathing(v: Values) -> Any:
     given("speed_ratio", "speed over the critical one", low=SLOWEST, axes=(0, 1)),
     "speed_rad_s: speed",
     "order_amplitude_complex_m: size of each order; negative ones run backward",
-    "spectral_radius = spectral_radius: what the worst disturbance is multiplied by in a turn",
-    "stable = stable: whether disturbances die away",
+    "spectral_radius: what the worst disturbance is multiplied by in a turn",
+    "stable: whether disturbances die away",
     "half_order_unstable = half_order: whether half orders grow",
 )
 def _cracked_rotor_response(v: Values) -> Any:

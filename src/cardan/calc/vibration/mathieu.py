@@ -329,7 +329,7 @@ def _dynamic_torque_engineering(v: Values) -> Any:
     "Book (206), (207), (237); harmonic balance",
     (STIFFNESS, WAVE),
     at_least_zero("forcing_orders", "orders of the forcing", axes=1, entries=True),
-    "stable = stable: whether steady running is stable",
+    "stable: whether steady running is stable",
     "beta: characteristic exponent, where it is",
     "distance_to_resonance: distance of each order from the nearest ±β + 2r",
     "book_237_satisfied = rule: whether Book (237) is met, orders 0, 1 and 2 included",

@@ -175,7 +175,7 @@ def _absorber_optimum(v: Values) -> Any:
     "effective_inertia_kgm2 = inertia: inertia felt at the order; None at antiresonance",
     "total_inertia_kgm2: the same with that of the shaft",
     "swing_over_shaft = swing: amplitude of a pendulum over that of the shaft; None at antiresonance",
-    "antiresonance = antiresonance: whether the order is the tuned one: infinite inertia",
+    "antiresonance: whether the order is the tuned one: infinite inertia",
 )
 def _pendulum_absorber(v: Values) -> Any:
     found = pendulum(

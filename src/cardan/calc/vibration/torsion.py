@@ -318,7 +318,7 @@ def _periodic_response(v: Values) -> Any:
     "multiplier_modulus_sorted: by what each disturbance is multiplied over a period",
     "multiplier_angle_deg: angle of these multipliers",
     "multipliers_removed: left out of a free drive: shift in time, and any speed being possible",
-    "spectral_radius = spectral_radius: the largest of them",
+    "spectral_radius: the largest of them",
     "stable: whether every disturbance decays",
     "verdict: stable, neutral, unstable or unknown",
     gives("growth_rate_1_per_s", "rate at which the largest disturbance grows", None),
@@ -327,7 +327,7 @@ def _periodic_response(v: Values) -> Any:
     "nearest_zone: nearest zone of parametric resonance",
     gives("nearest_zone_rad_s", "its speed by the straight drive", None),
     "status: of the steady motion: converged, coarse or no_convergence",
-    "determinant_residual = determinant_residual: what the product of the multipliers misses against the damping",
+    "determinant_residual: what the product of the multipliers misses against the damping",
     "torques_left_out: numbers of torques whose order does not repeat within two turns",
     check=speed_problems,
 )
