@@ -16,7 +16,7 @@ from babel.messages.extract import extract_from_dir
 from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
-from cardan.calc import CALCULATIONS, Given
+from cardan.calc import CALCULATIONS, GROUPS, Given
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import TABLES
 from cardan.catalogue.telling import SENTENCES, WORDS
@@ -85,6 +85,8 @@ def _declared() -> Iterator[tuple[str, str]]:
             yield name, one.key.doc
     for name in (*example_names(), *mechanism_names(), *recording_names()):
         yield f"examples/{name}", about(example_text(name))
+    for group in GROUPS:
+        yield "calc", group.title
     for one in CALCULATIONS.values():
         name = one.module.removeprefix("cardan.").replace(".", "/") + ".py"
         docs = [one.doc, one.source, *_meant(one.takes), *(output.doc for output in one.returns)]

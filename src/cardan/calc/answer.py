@@ -10,8 +10,8 @@ from cardan.answers.quantity import Joined, Quantity, Text
 from cardan.reading.given import Given
 from cardan.texts import _
 
-from .calculation import Calculation
-from .calculations import CALCULATIONS
+from .calculation import Calculation, Formulas
+from .calculations import CALCULATIONS, GROUPS
 
 LONG = 32
 """Forms of a key longer than this are told beside its meaning."""
@@ -26,6 +26,7 @@ WORDY = 60
 def answer_of_all() -> Answer:
     """Return the names of all formulas, each with what it answers and its source."""
     every = CALCULATIONS.values()
+    groups = [group for group in GROUPS for _item in group.calculations]
     return Answer(
         name="calc",
         title=_("Formulas"),
@@ -34,18 +35,33 @@ def answer_of_all() -> Answer:
             Table(
                 name="capabilities",
                 records=True,
-                fixed=0,
+                depth="data",
                 columns=(
-                    Column(key="capability", heading=_("formula"), values=list(CALCULATIONS)),
-                    Column(key="doc", heading=_("what it answers"), values=[_(item.doc) for item in every], wrap=True),
-                    Column(key="source", values=[_(item.source) for item in every], depth="data"),
+                    Column(key="capability", values=list(CALCULATIONS)),
+                    Column(key="group", values=[_(group.title) for group in groups]),
+                    Column(key="doc", values=[_(item.doc) for item in every]),
+                    Column(key="source", values=[_(item.source) for item in every]),
                 ),
             ),
+            *(_group(group) for group in GROUPS),
         ),
         remarks=(
             Remark(
                 text=_("The keys of one:"), command=("cardan", "calc", "--list", next(iter(CALCULATIONS))), tone="next"
             ),
+        ),
+    )
+
+
+def _group(group: Formulas) -> Table:
+    """Return the formulas of a subject, for people."""
+    names, docs = zip(*((item.name, _(item.doc)) for item in group.calculations), strict=True)
+    return Table(
+        title=_(group.title),
+        fixed=0,
+        columns=(
+            Column(key="", heading=_("formula"), values=names),
+            Column(key="", heading=_("what it answers"), values=docs, wrap=True),
         ),
     )
 

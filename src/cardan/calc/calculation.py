@@ -111,8 +111,13 @@ class Calculation:
 class Formulas:
     """The formulas of one subject; called, it declares another one: what it answers, its source, one line a key."""
 
-    title: str
+    subject: str
     calculations: list[Calculation] = field(default_factory=list)
+
+    @property
+    def title(self) -> str:
+        """What it is about, in a few words; the subject is the first line of a module."""
+        return self.subject.partition(":")[0].removesuffix(".")
 
     def __call__(
         self, doc: str, source: str, *keys: Given | Gives | str | tuple[Any, ...], kind: Any = Calculation, **more: Any

@@ -41,10 +41,9 @@ class Call(Calculation):
         return find(str(inputs.get("call", "")), field="call")(rest)
 
 
-GROUPS = tuple(part.formula for part in (*MOTION, *LOADS, *VIBRATION))
-"""The formulas by subject."""
+SUBJECTS = tuple(part.formula for part in (*MOTION, *LOADS, *VIBRATION))
 
-other = Formulas("Any formula by its name")
+other = Formulas("Any formula by its name.")
 
 
 @other(
@@ -57,7 +56,10 @@ def _errors(v: Values) -> Any:
     return dict(v)
 
 
-CALCULATIONS: dict[str, Calculation] = {one.name: one for group in (*GROUPS, other) for one in group.calculations}
+GROUPS = (*SUBJECTS, other)
+"""The formulas by subject."""
+
+CALCULATIONS: dict[str, Calculation] = {one.name: one for group in GROUPS for one in group.calculations}
 """Name of the capability -> its calculation."""
 
 

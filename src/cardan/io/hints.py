@@ -116,13 +116,9 @@ def _near(cls: type, key: str, cutoff: float = 0.0) -> str:
     """Return the known key most like an unknown one; letter case does not count."""
     lower = {known.lower(): known for known in spellings_of(cls)}
     near = nearest(key.lower(), lower)
-    if near is None or _alike(key.lower(), near) < cutoff:
+    if near is None or SequenceMatcher(None, key.lower(), near).ratio() < cutoff:
         return ""
     return lower[near]
-
-
-def _alike(one: str, two: str) -> float:
-    return SequenceMatcher(None, one, two).ratio()
 
 
 def _owners(cls: type, key: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""Held too much: forces of assembly in a joint, reactions of bearings that give way."""
+"""Assembly: forces in a joint that is held too much, reactions of bearings that give way."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The book, by name, to be compared with the exact ones."""
+"""Formulas of the book, to be compared with the exact ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Several driven axles and of instruments: slot cam, friction drive, disc and roller."""
+"""Several driven axles, and instruments: slot cam, friction drive, disc and roller."""
 
 from __future__ import annotations
 
