@@ -33,11 +33,16 @@ PYTHON = {
     "joint_angle": ("alpha",),
     "plane_twist": ("beta", "beta2"),
     "yoke_angle": ("gamma", "gamma2"),
-    "angle": ("phi1",),
+    "angle": ("phi1", "drive"),
     "deviation": ("alpha_std",),
     "times": ("t",),
     "time": ("t",),
-    "end": ("t_max",),
+    "end": ("t_max", "t_end"),
+    "tolerance": ("closure_tolerance",),
+    "constraints": ("pair_constraints",),
+    "speed": ("mean_speed",),
+    "torque": ("drive_torque",),
+    "order": ("forcing_orders",),
     "shafts": ("spline_teeth",),
 }
 """What the functions call an input -> its names here, where they differ."""

@@ -210,14 +210,8 @@ def _release_analysis(v: Values) -> Any:
     check=_two_links,
 )
 def _finite_mobility(v: Values) -> Any:
-    names = {"angle": "drive", "tolerance": "closure_tolerance"}
     mechanism = _mechanism(v)
-    try:
-        found = finite_mobility(
-            mechanism, **v.of("driven_joint", "steps", angle="drive", tolerance="closure_tolerance")
-        )
-    except InputError as error:
-        raise error.renamed(lambda field: names.get(field, field)) from None
+    found = finite_mobility(mechanism, **v.of("driven_joint", "steps", angle="drive", tolerance="closure_tolerance"))
     return {
         "closes": found.closes,
         "max_residual": float(np.max(found.residual)),
@@ -290,9 +284,5 @@ def _minus_groups(v: Values) -> Any:
     "net_constraints: constraints that it imposes, -W",
 )
 def _classify_group(v: Values) -> Any:
-    names = {"constraints": "pair_constraints"}
-    try:
-        found = group(v.pair_constraints.tolist())
-    except InputError as error:
-        raise error.renamed(lambda f: f.replace("constraints", names["constraints"], 1)) from None
+    found = group(v.pair_constraints.tolist())
     return found.links, found.mobility, found.kind, found.net

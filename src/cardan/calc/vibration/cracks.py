@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from cardan.calc.calculation import Formulas, Values
-from cardan.errors import InputError, Problem, check
+from cardan.errors import Problem, check
 from cardan.formulas.unbalance_behind_joint import unbalance_behind_joint
 from cardan.questions.bending.crack import MOST_POWER, Crack, breathing_law, crack_section
 from cardan.questions.bending.cracked_rotor import GRAVITY, SLOWEST, CrackedRotor, cracked_rotor
@@ -168,18 +168,15 @@ def _unbalance_behind_joint(v: Values) -> Any:
     "energy_residual: what the account of energy misses",
 )
 def _cracked_two_shaft_model(v: Values) -> Any:
-    try:
-        found = cracked_shafts(
-            _shaft(v, 1),
-            _shaft(v, 2),
-            v.alpha,
-            v.speed,
-            v.t_end,
-            crack=_crack(v),
-            time=[v.t_end],
-            **v.of("gravity", phase="psi", drive_stiffness="K1T", drive_damping="C1T"),
-        )
-    except InputError as error:
-        raise error.renamed(lambda field: "t_end" if field == "end" else field) from None
+    found = cracked_shafts(
+        _shaft(v, 1),
+        _shaft(v, 2),
+        v.alpha,
+        v.speed,
+        v.t_end,
+        crack=_crack(v),
+        time=[v.t_end],
+        **v.of("gravity", phase="psi", drive_stiffness="K1T", drive_damping="C1T"),
+    )
     first, second = found.deflection[-1]
     return found.angle[-1, 0], first.real, first.imag, second.real, second.imag, found.rate[-1, 0], found.residual

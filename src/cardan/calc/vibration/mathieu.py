@@ -217,13 +217,12 @@ def _mathieu_reduction(v: Values) -> Any:
         if slow > 1.0:
             text = _("too slow for Mathieu's equation of this drive: {least:.4g} rpm are the least")
             raise refuse("speed", text.format(least=found.speed * np.sqrt(slow) / rpm))
-        with fields_named({"torque": "drive_torque"}):
-            traces = exponents(found.a, np.asarray([found.q_book, found.q])).half_trace
-            answer |= {
-                "half_trace_exact": steady_twist(found, v.drive_torque).half_trace,
-                "half_trace_mathieu_q_book": traces[0],
-                "half_trace_mathieu_q_corrected": traces[1],
-            }
+        traces = exponents(found.a, np.asarray([found.q_book, found.q])).half_trace
+        answer |= {
+            "half_trace_exact": steady_twist(found, v.drive_torque).half_trace,
+            "half_trace_mathieu_q_book": traces[0],
+            "half_trace_mathieu_q_corrected": traces[1],
+        }
     return answer
 
 
@@ -342,8 +341,7 @@ def _dynamic_torque_engineering(v: Values) -> Any:
     ),
 )
 def _validity_check(v: Values) -> Any:
-    with fields_named({"order": "forcing_orders[]"}):
-        found = validity(v.a, v.q, v.forcing_orders)
+    found = validity(v.a, v.q, v.forcing_orders)
     turning = np.isfinite(found.beta)
     return found, {
         "beta": told(found.beta),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.errors import InputError, Problem
+from cardan.errors import Problem
 from cardan.maths.arrays import Array
 from cardan.maths.periodic.harmonics import Status
 from cardan.questions.torsion.model.torques import Asynchronous, Constant, Falling, History, Law, SpeedTable, Swinging
@@ -16,7 +16,7 @@ from cardan.questions.torsion.model.torsional_batch import repeating
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
 from cardan.questions.torsion.steady.run_stability import Floquet, Kind, Verdict, floquet
 from cardan.questions.torsion.steady.steady import periodic_response
-from cardan.questions.torsion.steady.steady_result import Orders, SteadyResponse
+from cardan.questions.torsion.steady.steady_result import Orders
 from cardan.reading.given import Given, at_least_zero, given, gives, positive, rows, whole, yoke_rotation
 from cardan.texts import _
 
@@ -245,13 +245,6 @@ def speed_problems(v: Values) -> Problems:
             yield v.wrong(name, _("0 given; steady running needs a speed"))
 
 
-def _steady(model: TorsionalModel, v: Values) -> SteadyResponse:
-    try:
-        return periodic_response(model, speed=v.mean_speed)
-    except InputError as error:
-        raise error.renamed(lambda field: "mean_speed" if field == "speed" else field) from None
-
-
 def _multipliers(found: Floquet) -> dict[str, Any]:
     left = found.multipliers[np.isfinite(found.multipliers)]
     return {
@@ -282,7 +275,7 @@ def _table(orders: list[str], curves: Orders) -> list[dict[str, Array]]:
     check=speed_problems,
 )
 def _periodic_response(v: Values) -> Any:
-    found = _steady(model_of(v), v)
+    found = periodic_response(model_of(v), speed=v.mean_speed)
     model, steadiness = found.model, floquet(found)
     orders = [f"{order:g}" for order in found.order]
     free = model.free
@@ -333,7 +326,7 @@ def _periodic_response(v: Values) -> Any:
 )
 def _floquet_stability(v: Values) -> Any:
     model, loose = repeating(model_of(v))
-    steady = _steady(model, v)
+    steady = periodic_response(model, speed=v.mean_speed)
     found = floquet(steady)
     return found, {
         **_multipliers(found),
