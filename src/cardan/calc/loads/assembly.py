@@ -25,7 +25,6 @@ from .forces import SHAFT, unknown_shafts
 
 formula = Formulas(__doc__)
 
-
 SLIDES = ("pin_B", "pin_C", "shaft_2")
 TURN = np.linspace(0.0, 2.0 * np.pi, 361)
 

@@ -37,7 +37,6 @@ SLACK = 1e-12
 
 WARNINGS = "warnings: what to mind, in alphabetical order"
 
-
 CAPACITY = positive("C_N", "dynamic capacity of one bearing")
 ARM = positive("R_mm", "from the axis of the shaft to the middle of a bearing, half the span")
 SPEED = positive("speed_rpm", "speed of the shaft")

@@ -16,7 +16,6 @@ from cardan.texts import _
 
 formula = Formulas(__doc__)
 
-
 CONSTANT = word("constant_torque", "where the torque is constant", "output", "input", default="output")
 """Where the torque is constant."""
 

@@ -265,7 +265,6 @@ def _flanks(v: Values) -> Problems:
 
 SHAPES = {"rect": "rectangle", "ellipse": "ellipse"}
 
-
 FORCE = at_least_zero("journal_force_N", "force on a journal")
 
 

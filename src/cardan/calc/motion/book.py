@@ -16,7 +16,6 @@ from .kinematics import ANGLE, START, YOKES, between, drives, joint_angles, poin
 
 formula = Formulas(__doc__)
 
-
 _CHAIN = (joint_angles(default=None), twists(), points(default=None), YOKES, START)
 _MOTION = (
     "lead_deg: output angle minus input angle, continuous",

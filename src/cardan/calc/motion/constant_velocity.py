@@ -18,7 +18,6 @@ from cardan.units import deg
 
 formula = Formulas(__doc__)
 
-
 JOINT_ANGLE = yoke_rotation("alpha_deg", "joint angle, the angle between the shafts")
 LEVER_JOINT_ANGLE = yoke_rotation("alpha12_deg", "joint angle, the angle between the shafts")
 DIVISION = positive("b_over_a", "part of the lever on the side of the fixed ball end over the other part")

@@ -17,10 +17,8 @@ from cardan.units import deg
 
 formula = Formulas(__doc__)
 
-
 EDGE = 1e-12
 """Slants this near an end of their range [rad] stand on it, whatever rounding says."""
-
 
 JOINT_ANGLE = yoke_rotation("alpha_deg", "joint angle between the outer shafts")
 TURN = given("phi1_deg", "input angle from the inner side of the joint angle", axes=(0, 1))

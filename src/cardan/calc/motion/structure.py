@@ -20,9 +20,7 @@ from cardan.texts import _
 
 formula = Formulas(__doc__)
 
-
 SOURCE = "structure of mechanisms by screws; Book p. 11-16, 74-77; tmm (1.1)-(1.5)"
-
 
 TYPE = word("type", "kind of pair", *PAIRS)
 

@@ -15,7 +15,6 @@ from cardan.texts import _
 
 formula = Formulas(__doc__)
 
-
 LAW = "cos^(2m)(theta/2)"
 
 ORDERS = range(-3, 5)

@@ -14,7 +14,6 @@ from cardan.texts import _
 
 formula = Formulas(__doc__)
 
-
 FIRST = 4
 """Causes that are told."""
 

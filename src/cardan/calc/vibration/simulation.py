@@ -17,7 +17,6 @@ from .torsion import MODEL, model_of, model_problems
 
 formula = Formulas(__doc__)
 
-
 _NAMES = {"angle": "initial_angles", "speed": "initial_speed", "span": "t_end"}
 
 _CAUSES = {
