@@ -210,13 +210,15 @@ def gives(key: str, doc: str, dimension: str | None = BY_UNIT) -> Gives:
 LEAST = "min"
 """A word of keys that is not the unit of its name."""
 
+_UNITS = {unit: name for name, units in reversed(DIMENSIONS.items()) for unit in units if unit != LEAST}
+"""Unit -> the first dimension that has it."""
+
 
 @cache
 def _dimension(key: str) -> str | None:
     """Return the first dimension that has the unit in a key: the one it ends in, else one amid it."""
-    every = {unit: name for name, units in reversed(DIMENSIONS.items()) for unit in units if unit != LEAST}
-    last = [unit for unit in every if key.endswith(f"_{unit}")] or [unit for unit in every if f"_{unit}_" in key]
-    return every[max(last, key=len)] if last else None
+    found = [unit for unit in _UNITS if key.endswith(f"_{unit}")] or [unit for unit in _UNITS if f"_{unit}_" in key]
+    return _UNITS[max(found, key=len)] if found else None
 
 
 def without_unit(key: str, dimension: str | None) -> str:
