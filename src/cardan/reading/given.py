@@ -161,7 +161,7 @@ def at_least_zero(key: str, doc: str, dimension: str | None = BY_UNIT, **options
     return given(key, doc, dimension, low=0.0, **options)
 
 
-def yoke_rotation(key: str, doc: str, **options: Any) -> Given:
+def joint_angle(key: str, doc: str, **options: Any) -> Given:
     """Declare an input that is the angle of a joint: at least 0, less than 90°."""
     return given(key, doc, low=0.0, below=RIGHT, **options)
 

@@ -17,7 +17,7 @@ from cardan.maths.kernel import frames
 from cardan.questions.forces.forces import kinetostatics
 from cardan.questions.forces.held import Hold, Layout, actions, shaft_flexibility
 from cardan.questions.forces.misfit import Crosses, crosses, joint_gap, misfit
-from cardan.reading.given import at_least_zero, flag, given, positive, rows, word, yoke_rotation
+from cardan.reading.given import at_least_zero, flag, given, joint_angle, positive, rows, word
 from cardan.texts import _
 from cardan.units import mm
 
@@ -74,8 +74,8 @@ def _holds(bearing: Values) -> tuple[Hold, ...]:
 
 @formula(
     "force in a joint whose slides are blocked, from its errors of length",
-    "Book p. 190, (171)",
-    yoke_rotation("alpha_deg", "joint angle of the joint"),
+    "Kozhevnikov & Perfil'ev (1978), p. 190, (171)",
+    joint_angle("alpha_deg", "joint angle of the joint"),
     given("phi1_deg", "angle of the driving yoke from the plane of the joint"),
     given("errors_mm_s1_a1_a2_a3_a4", "errors s1, a1, a2, a3, a4 in mm", None, axes=1, width=5),
     word("free_slides", "what slides freely", *SLIDES, axes=1, default=()),
@@ -142,7 +142,7 @@ def _assembly_forces(v: Values) -> Any:
 
 @formula(
     "reactions of bearings that give way, under torque and in housings that are off",
-    "least complementary energy; Book p. 190 for the idea",
+    "least complementary energy; Kozhevnikov & Perfil'ev (1978), p. 190 for the idea",
     (points(), START, YOKES),
     given("phi1_deg", "input angle from the start position"),
     given("M_out_Nm", "torque that resists the output", default=0.0),

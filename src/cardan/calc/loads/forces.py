@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from cardan.book.double_joint_forces import double_joint_forces, largest_middle_couple
-from cardan.book.gap_closure import gap_closure
 from cardan.book.single_joint_forces import single_joint_forces
 from cardan.book.spline_thrust import spline_thrust
 from cardan.calc.calculation import Formulas, Problems, Values
@@ -19,8 +18,9 @@ from cardan.errors import Problem
 from cardan.maths.curves import paths
 from cardan.maths.kernel import frames
 from cardan.questions.forces.forces import kinetostatics
+from cardan.questions.forces.gap_closure import gap_closure
 from cardan.questions.forces.swing_couple import parallel_ends, swing_couple
-from cardan.reading.given import RIGHT, at_least_zero, flag, given, positive, rows, whole, word, yoke_rotation
+from cardan.reading.given import RIGHT, at_least_zero, flag, given, joint_angle, positive, rows, whole, word
 from cardan.texts import _
 
 formula = Formulas(__doc__)
@@ -129,7 +129,7 @@ def _each(v: Values) -> Callable[[Any], Any]:
 
 @formula(
     "torques, secondary couples, joint forces and bearing reactions of any drive, with inertia and weight",
-    "Book pp. 129-150",
+    "Kozhevnikov & Perfil'ev (1978), pp. 129–150",
     (points(), START, YOKES, ANGLE, SPEED, ACCELERATION),
     replace(LOAD, default=0.0),
     given("extra_resisting_torque_Nm", "torque that resists each shaft", **_FREE),
@@ -215,7 +215,7 @@ def _kinetostatics(v: Values) -> Any:
 
 @formula(
     "whether the load keeps the clearances of all joints closed against inertia over a turn",
-    "Book (121), (122) for any drive",
+    "Kozhevnikov & Perfil'ev (1978), eq. 121, 122 for any drive",
     (points(), START, YOKES, SPEED, ACCELERATION, LOAD),
     at_least_zero("J_kg_m2", "inertia of each shaft about its axis", axes=1),
     "min_pin_couple_over_turn_Nm = least_couple: least couple of each joint over a turn",
@@ -252,8 +252,8 @@ IN_THE_JOINT = Formulas("the friction thrust of a spline and its parts in the jo
 
 @IN_THE_JOINT(
     "friction thrust of the spline of the driven shaft and its parts in the joint",
-    "Book (123), (124), corrected",
-    yoke_rotation("alpha_deg", "joint_angle"),
+    "Kozhevnikov & Perfil'ev (1978), eq. 123, 124, corrected",
+    joint_angle("alpha_deg", "joint angle"),
     given("phi1_deg", "angle of the driving yoke from the plane of the joint", axes=(0, 1)),
     given("M2_Nm", "torque at the spline"),
     at_least_zero("mu", "coefficient of friction of the spline"),
@@ -274,9 +274,9 @@ def _spline_axial_force(v: Values) -> Any:
 
 @formula(
     "torques, journal loads and bearing loads of a single joint at constant torque of the driven shaft",
-    "Book (100)-(112), corrected",
+    "Kozhevnikov & Perfil'ev (1978), eq. 100–112, corrected",
     word("variant", "how the cross is held", "sliding_cross", "located_cross"),
-    yoke_rotation("alpha_deg", "joint_angle"),
+    joint_angle("alpha_deg", "joint angle"),
     given("phi1_deg", "angle of the driving yoke from the plane of the joint", axes=(0, 1)),
     given("M2_Nm", "torque of the driven shaft"),
     positive("d_pin_span_m", "span of the cross"),
@@ -311,9 +311,9 @@ def _joint_reactions(v: Values) -> Any:
 
 @formula(
     "secondary couples of a double joint and the pair of forces that balances those of the middle shaft",
-    "Book (113)-(120), corrected",
-    yoke_rotation("alpha12_deg", "joint angle of joint 1"),
-    yoke_rotation("alpha23_deg", "joint angle of joint 2"),
+    "Kozhevnikov & Perfil'ev (1978), eq. 113–120, corrected",
+    joint_angle("alpha12_deg", "joint angle of joint 1"),
+    joint_angle("alpha23_deg", "joint angle of joint 2"),
     given("beta13_deg", "plane twist of joint 2", default=0.0),
     given("gamma2_deg", "yoke angle of shaft 2", default=0.0),
     given("phi1_deg", "angle of the driving yoke from the plane of joint 1", axes=(0, 1)),
@@ -342,7 +342,7 @@ def _double_joint_reactions(v: Values) -> Any:
 
 @formula(
     "gyroscopic couple and couple of transverse inertia of the middle shaft of a swinging double joint",
-    "Book (125), completed",
+    "Kozhevnikov & Perfil'ev (1978), eq. 125, completed",
     word("description", "words on the case; not used", default=None),
     given("phi1_rad", "angle of the driving yoke from the plane of the joints"),
     given("omega1_rad_s", "spin of the input shaft"),

@@ -25,7 +25,7 @@ from cardan.formulas.needle_bearing import book_load, critical_swing, needle_con
 from cardan.questions.life.bearing_life import CONVENTIONS, bearing_life, maker_life
 from cardan.questions.life.duty_cycle import WHOLE, combined_life
 from cardan.questions.life.life_cautions import clamped, extrapolated
-from cardan.reading.given import at_least_zero, given, gives, positive, rows, whole, word, yoke_rotation
+from cardan.reading.given import at_least_zero, given, gives, joint_angle, positive, rows, whole, word
 from cardan.texts import _
 from cardan.units import deg, rpm
 
@@ -40,7 +40,7 @@ WARNINGS = "warnings: what to mind, in alphabetical order"
 CAPACITY = positive("C_N", "dynamic capacity of one bearing")
 ARM = positive("R_mm", "from the axis of the shaft to the middle of a bearing, half the span")
 SPEED = positive("speed_rpm", "speed of the shaft")
-JOINT_ANGLE = yoke_rotation("alpha_deg", "joint angle of the joint")
+JOINT_ANGLE = joint_angle("alpha_deg", "joint angle of the joint")
 TORQUE = positive("torque_Nm", "torque of the shaft")
 SHOCK = given("shock_factor", "factor for shocks, 1 for moderate to 1.38 for strong ones", low=1.0, default=1.0)
 SIDE = word("torque_side", "shaft on which the torque is constant", "input", "output", default="input")
@@ -112,7 +112,7 @@ def _shares(v: Values) -> Problems:
 
 @formula(
     "factor of life of the book's rating",
-    "Book, table 6",
+    "Kozhevnikov & Perfil'ev (1978), table 6",
     positive("life_h", "life"),
     METHOD,
     gives("f_h", "factor", None),
@@ -126,7 +126,7 @@ def _f_h(v: Values) -> Any:
 
 @formula(
     "factor of speed times bend of the book's rating",
-    "Book, table 7",
+    "Kozhevnikov & Perfil'ev (1978), table 7",
     positive("n_alpha_rpm_deg", "speed times bend"),
     METHOD,
     "f_na: factor",
@@ -140,7 +140,7 @@ def _f_na(v: Values) -> Any:
 
 @formula(
     "torque that a joint may carry for a life, by the book",
-    "Book (267), restored",
+    "Kozhevnikov & Perfil'ev (1978), eq. 267, restored",
     (CAPACITY, ARM, SPEED, JOINT_ANGLE),
     positive("life_h", "life"),
     SHOCK,
@@ -156,7 +156,7 @@ def _joint_rating(v: Values) -> Any:
 
 @formula(
     "life of a joint, by the book",
-    "Book (267), restored, solved for the life",
+    "Kozhevnikov & Perfil'ev (1978), eq. 267, restored, solved for the life",
     (CAPACITY, ARM, SPEED, JOINT_ANGLE, TORQUE, SHOCK),
     "life_h: life",
     WARNINGS,
@@ -198,7 +198,7 @@ def _catalogue_life(v: Values) -> Any:
 
 @formula(
     "life of a joint in a duty cycle, by the book",
-    "Book (268), (269), restored",
+    "Kozhevnikov & Perfil'ev (1978), eq. 268, 269, restored",
     (CAPACITY, ARM, SHOCK),
     rows(
         "regimes",
@@ -237,7 +237,7 @@ def _rate(v: Values) -> float:
 
 @formula(
     "load of the journals and secondary couples of a joint over the turn, and their largest values",
-    "Book (100), (114); balance of the cross",
+    "Kozhevnikov & Perfil'ev (1978), eq. 100, 114; balance of the cross",
     at_least_zero("torque_Nm", "torque, constant on one shaft"),
     (SIDE, JOINT_ANGLE, ARM),
     given("phi_deg", "angle of the driving yoke from the plane of the shafts", axes=(0, 1)),
@@ -267,7 +267,7 @@ def _cross_loads(v: Values) -> Any:
 
 @formula(
     "load that the book allows on a needle bearing; ISO 76 limits it at low speeds",
-    "Book (266)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 266",
     (NEEDLES, NEEDLE_LENGTH, NEEDLE),
     positive("cycles_per_min", "oscillations a minute; one for every turn of the shaft", None),
     "load_allow_N: load allowed on one bearing",

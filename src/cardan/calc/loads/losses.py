@@ -11,7 +11,7 @@ from cardan.calc.motion.kinematics import START, YOKES, between, drives, joint_a
 from cardan.errors import Problem, check
 from cardan.formulas.friction import branch_efficiency, joint_friction, reduced_friction, spline_efficiency
 from cardan.questions.losses.chain_friction import chain_friction
-from cardan.reading.given import at_least_zero, positive, word, yoke_rotation
+from cardan.reading.given import at_least_zero, joint_angle, positive, word
 from cardan.texts import _
 
 formula = Formulas(__doc__)
@@ -57,8 +57,8 @@ def _parts(v: Values) -> Problems:
 
 @formula(
     "friction work of a turn and efficiency of one Hooke joint: exact, first order, and by the small angle",
-    "Book (127)-(137), restored",
-    yoke_rotation("alpha_deg", "joint angle of the joint", axes=(0, 1)),
+    "Kozhevnikov & Perfil'ev (1978), eq. 127–137, restored",
+    joint_angle("alpha_deg", "joint angle of the joint", axes=(0, 1)),
     at_least_zero("mu_pin_reduced", "reduced coefficient of friction of the journals"),
     positive("pin_diameter_m", "diameter of the journals"),
     positive("pin_span_m", "span of the cross"),
@@ -94,7 +94,7 @@ def _efficiency_joint(v: Values) -> Any:
 
 @formula(
     "efficiency of a chain of joints with friction in their journals, exact and as a product of joints",
-    "Book (139); exact by couples of the crosses",
+    "Kozhevnikov & Perfil'ev (1978), eq. 139; exact by couples of the crosses",
     (joint_angles(default=None), twists(), points(default=None), YOKES, START),
     at_least_zero(
         "kappa_mu_dc_over_d",
@@ -118,7 +118,7 @@ def _efficiency_chain(v: Values) -> Any:
 
 @formula(
     "efficiency of a sliding spline, of parallel branches, and reduced coefficients of plain journals",
-    "Book (138), (140), restored",
+    "Kozhevnikov & Perfil'ev (1978), eq. 138, 140, restored",
     at_least_zero("mu_spline", "coefficient of friction of the spline", default=None),
     at_least_zero("stroke_m", "mean way of one displacement, one way", default=None),
     at_least_zero("strokes_per_s", "displacements a second", None, default=None),

@@ -123,7 +123,7 @@ def _wheel_load_max(v: Values) -> Any:
 
 @formula(
     "stresses of a round shaft under torque and bending",
-    "Book (261)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 261",
     TORQUE,
     at_least_zero("bending_Nm", "bending moment", default=0.0),
     (OUTER, INNER),
@@ -140,7 +140,7 @@ def _shaft_stress(v: Values) -> Any:
 
 @formula(
     "outer diameter of a shaft that carries a torque",
-    "Book (261)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 261",
     TORQUE,
     at_least_zero("bore_ratio", "inner over outer diameter", default=0.0, below=1.0),
     positive("tau_allow_MPa", "shear stress allowed"),
@@ -152,7 +152,7 @@ def _shaft_diameter(v: Values) -> Any:
 
 @formula(
     "twist of a stepped shaft under torque",
-    "Book (262), with the torque alone",
+    "Kozhevnikov & Perfil'ev (1978), eq. 262, with the torque alone",
     given("torque_Nm", "torque"),
     positive("G_GPa", "shear modulus"),
     rows("segments", "segments along the shaft", *SEGMENT),
@@ -270,7 +270,7 @@ FORCE = at_least_zero("journal_force_N", "force on a journal")
 
 @formula(
     "stresses of a straight-sided spline",
-    "Book p. 228, pressure and shear of the teeth, torsion at the smallest diameter",
+    "Kozhevnikov & Perfil'ev (1978), p. 228, pressure and shear of the teeth, torsion at the smallest diameter",
     positive("D_mm", "outer diameter"),
     positive("d_mm", "root diameter"),
     positive("teeth", "number of teeth", kind="whole"),
@@ -295,7 +295,7 @@ def _spline(v: Values) -> Any:
 
 @formula(
     "stresses of the arm of a yoke",
-    "Book (263); Saint-Venant's torsion",
+    "Kozhevnikov & Perfil'ev (1978), eq. 263; Saint-Venant's torsion",
     FORCE,
     at_least_zero("bending_arm_mm", "arm of the force for bending"),
     at_least_zero("torsion_arm_mm", "arm of the force for torsion"),
@@ -325,7 +325,7 @@ def _yoke(v: Values) -> Any:
 
 @formula(
     "stresses at the root of a journal of the cross",
-    "Book (264), (265), with the grease bore",
+    "Kozhevnikov & Perfil'ev (1978), eq. 264, 265, with the grease bore",
     FORCE,
     positive("length_mm", "length of the journal"),
     positive("d_mm", "diameter"),
@@ -361,7 +361,7 @@ def _journal(v: Values) -> Any:
         Calculation(
             name="spline_axial_force",
             doc="friction thrust of a spline",
-            source="Book (123)",
+            source="Kozhevnikov & Perfil'ev (1978), eq. 123",
             takes=thrust_keys,
             returns=(gives("axial_force_N", "friction thrust"),),
             answer=lambda v: spline_grip(v.friction, v.d_m, v.pressure_angle) * v.torque,

@@ -14,7 +14,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.kernel import loops
 from cardan.questions.accuracy.accuracy import course, one_turn, transmission_error
 from cardan.questions.accuracy.sampling import MonteCarlo
-from cardan.reading.given import RIGHT, at_least_zero, given, gives, positive, whole, word, yoke_rotation
+from cardan.reading.given import RIGHT, at_least_zero, given, gives, joint_angle, positive, whole, word
 from cardan.texts import _
 from cardan.units import deg
 
@@ -28,7 +28,7 @@ LAWS = ("normal", "uniform", "triangular")
 LENGTHS = ("s1", "a1", "a2", "a3", "a4")
 ANGLES = ("alpha1", "alpha2", "alpha3", "alpha4")
 
-JOINT_ANGLE = yoke_rotation("alpha_deg", "joint angle of the joint")
+JOINT_ANGLE = joint_angle("alpha_deg", "joint angle of the joint")
 INPUT = given("phi1_deg", "angle of the driving yoke from the plane of the shafts")
 WAYS = at_least_zero("tol_s1_a1_a2_a3_a4_mm", "tolerances ± of the five lengths of the loop", axes=1, width=5)
 TURNS = at_least_zero("tol_alpha1_2_3_4_deg", "tolerances ± of the four angles of the loop", axes=1, width=4)
@@ -89,7 +89,7 @@ def _lists(v: Values) -> Problems:
 
 @formula(
     "both positions of a closed loop of one revolute and three cylindrical pairs, and its range",
-    "Book (141)-(156)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 141–156",
     given("alpha_deg", "angles between neighbouring axes", axes=1, width=4),
     given("a_m", "lengths between neighbouring axes", axes=1, width=4),
     given("s1_m", "way along axis 1"),
@@ -126,7 +126,7 @@ def _rccc(v: Values) -> Any:
 
 @formula(
     "by how much angles and slides of a joint follow the errors of its loop",
-    "Book (171), (180)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 171, 180",
     (JOINT_ANGLE, INPUT),
     word("branch", "assembly of the joint", IDEAL, OTHER, default=IDEAL),
     "rows: numbers of the axes",
@@ -142,7 +142,7 @@ def _influence_coefficients(v: Values) -> Any:
 
 @formula(
     "what the tolerances of one joint add up to, at worst and as root of the sum of squares",
-    "Book (171), (180), pp. 186-190",
+    "Kozhevnikov & Perfil'ev (1978), eq. 171, 180, pp. 186-190",
     (JOINT_ANGLE, INPUT, WAYS, TURNS),
     positive("target_phi4_deg", "allowed error of the driven angle", default=None),
     positive("target_s4_mm", "allowed shift of the driven shaft", default=None),
@@ -176,7 +176,7 @@ def _tolerance_stack(v: Values) -> Any:
 
 @formula(
     "what errors drawn at random within the tolerances of one joint do, by the exact loop",
-    "Book pp. 186-190; random samples",
+    "Kozhevnikov & Perfil'ev (1978), pp. 186–190; random samples",
     (JOINT_ANGLE, INPUT, WAYS, TURNS),
     word("distribution", "law of the errors, the first word of a description", default=LAWS[0]),
     whole("samples", "how many joints to draw", low=128, high=10000000.0, default=65536),
@@ -214,7 +214,7 @@ def _tolerance_montecarlo(v: Values) -> Any:
 
 @formula(
     "what errors of every joint do to the output of a chain, exactly and to first order",
-    "Book (171), (180), chained",
+    "Kozhevnikov & Perfil'ev (1978), eq. 171, 180, chained",
     joint_angles(axes=1),
     given("kappa_deg_between_joints", "angle added to that of the yokes between joints", axes=1),
     given("phi1_deg", "angle of the first driving yoke from the plane of its joint"),

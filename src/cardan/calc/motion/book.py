@@ -9,7 +9,7 @@ import numpy as np
 from cardan.book.comparison import book_comparison, book_series, collinear_joint_angle, rule_of_practice
 from cardan.book.forms import OutputMotion, arrangement_phase, blokh, double_joint, double_joint_law
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.reading.given import given, whole, word, yoke_rotation
+from cardan.reading.given import given, joint_angle, whole, word
 from cardan.texts import _
 
 from .kinematics import ANGLE, START, YOKES, between, drives, joint_angles, points, twists
@@ -54,7 +54,7 @@ def _series_check(v: Values) -> Problems:
 
 @formula(
     "output motion by Blokh's closed form, freed of its poles",
-    "Book (35)-(37)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 35–37",
     (*_CHAIN, ANGLE, *_MOTION),
     check=between,
 )
@@ -64,7 +64,7 @@ def _blokh(v: Values) -> Any:
 
 @formula(
     "output motion by the book's series of first or second order",
-    "Book (47)-(74)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 47–74",
     (*_CHAIN, ANGLE),
     whole("order", "order of the series", low=1, high=2, default=1),
     word("amplitude", "amplitude of a joint: α²/4 or tan²(α/2)", "quarter", "tau", default="quarter"),
@@ -77,7 +77,7 @@ def _blokh(v: Values) -> Any:
     "b_n2 = b2: coefficient of cos 4φ [rad]",
     "s_n1 = amplitude: amplitude of the second order of the turn [rad]",
     "delta_n1_mod180_deg = phase: its phase",
-    "delta_80 = irregularity: speed fluctuation by (80)",
+    "delta_80 = speed_fluctuation: speed fluctuation by (80)",
     check=_series_check,
 )
 def _book_series(v: Values) -> Any:
@@ -93,15 +93,15 @@ def _book_series(v: Values) -> Any:
 
 @formula(
     "what the book's approximations say of a chain, beside the exact answer",
-    "Book (59)-(80)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 59–80",
     *_CHAIN,
-    "delta = irregularity: speed fluctuation, exact",
-    "delta_80 = irregularity_80: speed fluctuation by (80), exact phases",
-    "delta_80_mean_phases = irregularity_mean_phases: speed fluctuation by (80), mean phases",
-    "delta_80_without_theta = irregularity_without_theta: speed fluctuation by (80), phases without Θ",
+    "delta = speed_fluctuation: speed fluctuation, exact",
+    "delta_80 = speed_fluctuation_80: speed fluctuation by (80), exact phases",
+    "delta_80_mean_phases = speed_fluctuation_mean_phases: speed fluctuation by (80), mean phases",
+    "delta_80_without_theta = speed_fluctuation_without_theta: speed fluctuation by (80), phases without Θ",
     "worst_first_order_deg = worst_first_order: largest angle error of the first order over a turn",
     "worst_second_order_deg = worst_second_order: largest angle error of the second order over a turn",
-    "alpha_eq_deg = bend: equivalent angle, exact",
+    "alpha_eq_deg = joint_angle: equivalent angle, exact",
     "alpha_eq_rule_deg = rule_of_practice: equivalent angle by the rule of practice",
     check=between,
 )
@@ -111,9 +111,9 @@ def _book_comparison(v: Values) -> Any:
 
 @formula(
     "double joint in one of the four arrangements of Fig. 62",
-    "Book (26)-(30), Fig. 62",
-    yoke_rotation("alpha12_deg", "joint angle of joint 1"),
-    yoke_rotation("alpha23_deg", "joint angle of joint 2"),
+    "Kozhevnikov & Perfil'ev (1978), eq. 26–30, Fig. 62",
+    joint_angle("alpha12_deg", "joint angle of joint 1"),
+    joint_angle("alpha23_deg", "joint angle of joint 2"),
     word("arrangement", "letter of the arrangement", "a", "b", "c", "d"),
     given("beta2_deg", "plane twist, arrangements c and d", default=None),
     given("gamma2_deg", "yoke angle of shaft 2, arrangements b and d", default=None),

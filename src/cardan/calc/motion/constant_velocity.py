@@ -12,14 +12,14 @@ from cardan.drive.joints.laws import offset_grooves, pilot_lever, tilted_plane, 
 from cardan.errors import InputError, refuse
 from cardan.formulas.groove_offset import groove_offset
 from cardan.formulas.pilot_lever import lever_choice
-from cardan.reading.given import RIGHT, at_least_zero, given, positive, whole, word, yoke_rotation
+from cardan.reading.given import RIGHT, at_least_zero, given, joint_angle, positive, whole, word
 from cardan.texts import _
 from cardan.units import deg
 
 formula = Formulas(__doc__)
 
-JOINT_ANGLE = yoke_rotation("alpha_deg", "joint angle, the angle between the shafts")
-LEVER_JOINT_ANGLE = yoke_rotation("alpha12_deg", "joint angle, the angle between the shafts")
+JOINT_ANGLE = joint_angle("alpha_deg", "joint angle, the angle between the shafts")
+LEVER_JOINT_ANGLE = joint_angle("alpha12_deg", "joint angle, the angle between the shafts")
 DIVISION = positive("b_over_a", "part of the lever on the side of the fixed ball end over the other part")
 LENGTH = positive("c_over_a", "distance of the fixed ball end from the centre of the joint over the same part")
 
@@ -59,7 +59,7 @@ ANGLE = given("phi1_deg", "input angle from the inner side of the plane of the s
 
 @formula(
     "how far the pilot lever of a Rzeppa joint holds its cage off the bisecting plane",
-    "Book (13), (14)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 13, 14",
     (LEVER_JOINT_ANGLE, DIVISION, LENGTH),
     "alpha2_rad: angle of the cage's normal to the axis of the sliding ball end",
     "plane_error_rad: the same less half the joint angle",
@@ -74,7 +74,7 @@ def _rzeppa_lever(v: Values) -> Any:
 
 @formula(
     "length of the pilot lever that halves one joint angle exactly",
-    "Book (15), (16)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 15, 16",
     (LEVER_JOINT_ANGLE, DIVISION),
     "c_over_a: distance of the fixed ball end over the part of the lever beside the other",
 )
@@ -88,14 +88,14 @@ def _rzeppa_lever_ratio(v: Values) -> Any:
 
 @formula(
     "length of the pilot lever that errs least over a range of joint angles",
-    "minimax of the exact error of Book (13)",
+    "minimax of the exact error of Kozhevnikov & Perfil'ev (1978), eq. 13",
     DIVISION,
-    yoke_rotation("alpha_max_deg", "largest joint angle"),
-    yoke_rotation("alpha_min_deg", "smallest joint angle", default=0.0),
+    joint_angle("alpha_max_deg", "largest joint angle"),
+    joint_angle("alpha_min_deg", "smallest joint angle", default=0.0),
     "c_over_a: distance of the fixed ball end over the part of the lever beside the other",
     "plane_error_max_rad: largest error of the cage, of either sign",
-    "bend_of_largest_lag_deg: bend at which the cage leans too little by most",
-    "bend_of_largest_lead_deg: bend at which the cage leans too much by most",
+    "bend_of_largest_lag_deg: joint angle at which the cage leans too little by most",
+    "bend_of_largest_lead_deg: joint angle at which the cage leans too much by most",
     "exact_bend_deg: bend that is halved exactly",
     check=_range,
 )
@@ -129,7 +129,7 @@ def _ball_plane_error(v: Values) -> Any:
 
 @formula(
     "plane of balls in offset grooves, and how uneven unequal offsets make the output",
-    "ball as far from one groove centre as from the other, exact; corrects Book p. 69",
+    "ball as far from one groove centre as from the other, exact; corrects Kozhevnikov & Perfil'ev (1978), p. 69",
     JOINT_ANGLE,
     positive("c1_m", "distance of the groove centre of shaft 1 from the centre of the joint"),
     positive("c2_m", "the same of shaft 2"),
@@ -155,7 +155,7 @@ def _offset_groove_plane(v: Values) -> Any:
 @formula(
     "offset of ball grooves with which an axial play tilts the plane of the balls no more than allowed",
     "tilt of the plane of the balls with one centre shifted, exact",
-    yoke_rotation("alpha_deg", "largest joint angle"),
+    joint_angle("alpha_deg", "largest joint angle"),
     positive("plane_tilt_deg", "largest tilt allowed", below=RIGHT),
     at_least_zero("axial_play_m", "shift of one shaft along its axis, to either side"),
     "c_m: offset of both groove centres",

@@ -11,7 +11,7 @@ from cardan.drive.joints.laws import double_cardan, offset_cross, pin_coupling, 
 from cardan.errors import refuse
 from cardan.formulas.centring import best_centring
 from cardan.formulas.pin_geometry import MARGIN, best_pins
-from cardan.reading.given import RIGHT, Given, at_least_zero, given, gives, positive, record, whole, word, yoke_rotation
+from cardan.reading.given import RIGHT, Given, at_least_zero, given, gives, joint_angle, positive, record, whole, word
 from cardan.texts import _
 from cardan.units import deg
 
@@ -20,7 +20,7 @@ formula = Formulas(__doc__)
 EDGE = 1e-12
 """Slants this near an end of their range [rad] stand on it, whatever rounding says."""
 
-JOINT_ANGLE = yoke_rotation("alpha_deg", "joint angle between the outer shafts")
+JOINT_ANGLE = joint_angle("alpha_deg", "joint angle between the outer shafts")
 TURN = given("phi1_deg", "input angle from the inner side of the joint angle", axes=(0, 1))
 
 
@@ -88,11 +88,11 @@ FORCE = gives("contact_force_per_torque_N_per_Nm", "contact force without fricti
 
 @formula(
     "joint angles of a double cardan joint centred by a ball on one shaft, and how uneven it is",
-    "triangle of the centres, exact; Book (8)-(12)",
+    "triangle of the centres, exact; Kozhevnikov & Perfil'ev (1978), eq. 8–12",
     JOINT_ANGLE,
     positive("lambda_", "distance of the ball from the first centre over that of the centres", below=1.0),
-    "alpha12_rad: bend of the first joint",
-    "alpha23_rad: bend of the second joint",
+    "alpha12_rad: joint angle of the first joint",
+    "alpha23_rad: joint angle of the second joint",
     "Delta_rad: by how much the joint angle is not halved",
     "Delta_book12_rad: the same by the book's approximation",
     "x_over_l: distance of the ball from the second centre over that of the centres",
@@ -115,7 +115,7 @@ def _double_cardan_centring(v: Values) -> Any:
     "centring ratio of a double cardan joint that is most even over a range of joint angles",
     "minimax of the exact speed fluctuation",
     positive("alpha_max_deg", "largest joint angle", below=RIGHT),
-    yoke_rotation("alpha_min_deg", "smallest joint angle", default=0.0),
+    joint_angle("alpha_min_deg", "smallest joint angle", default=0.0),
     "lambda_minimax: best centring ratio",
     "irregularity_max: largest speed fluctuation with it",
     "lambda_sync_at_alpha_max: centring ratio that is exact at the largest joint angle",
@@ -130,18 +130,18 @@ def _centring_optimum(v: Values) -> Any:
 @formula(
     "speed fluctuation of two joints whose three axes lie in one plane",
     "Möbius product; the equivalent joint in closed form",
-    yoke_rotation("alpha12_deg", "joint angle of the first joint"),
-    yoke_rotation("alpha23_deg", "joint angle of the second joint"),
+    joint_angle("alpha12_deg", "joint angle of the first joint"),
+    joint_angle("alpha23_deg", "joint angle of the second joint"),
     word("yokes", "how the inner yokes stand to each other", "in_plane", "crossed", default="in_plane"),
     *RATIOS,
 )
-def _double_cardan_speed_fluctuation(v: Values) -> Any:
+def _double_cardan_irregularity(v: Values) -> Any:
     return _ratios(v.alpha12, v.alpha23, crossed=v.yokes == "crossed")
 
 
 @formula(
     "where the straight pins of a pin coupling touch, and how uneven it runs",
-    "line and cone, exact; completes Book (3)-(7)",
+    "line and cone, exact; completes Kozhevnikov & Perfil'ev (1978), eq. 3–7",
     JOINT_ANGLE,
     positive("a_m", "distance from the crossing of the axes at which pin 1 starts"),
     positive("b_m", "distance from the crossing of the axes at which pin 2 starts"),
@@ -186,13 +186,13 @@ def _pin_stroke(v: Values) -> Any:
     "smallest largest contact force of the exact contact",
     positive("alpha_max_deg", "largest joint angle", below=RIGHT),
     positive("radius_m", "largest distance of the contact from the axes"),
-    yoke_rotation("margin_deg", "how far the slant stays from both ends of its range", default=MARGIN),
+    joint_angle("margin_deg", "how far the slant stays from both ends of its range", default=MARGIN),
     "theta_deg = slant: slant of the pins to their axes",
     "a_m = distance: distance from the crossing of the axes at which the pins start",
     "stroke_m = stroke: way of the contact along a pin at the largest joint angle",
     "length_m = length: length that a pin needs from its start",
     FORCE,
-    "lead_per_m_rad = lead: largest lead for each metre by which the distances of both pins differ",
+    "lead_per_m_rad = angle_error: largest lead for each metre by which the distances of both pins differ",
     "theta_min_deg: slant above which the pins turn all the way round",
     "theta_max_deg: slant below which they do",
 )
@@ -225,8 +225,8 @@ def _profile_coupling(v: Values) -> Any:
 
 @formula(
     "turn and wobble of the output shaft of a joint whose cross axes do not meet",
-    "loop of the joint, exact; Book Fig. 6",
-    yoke_rotation("alpha_deg", "angle between shaft 1 and the line from pin 1 to the support"),
+    "loop of the joint, exact; Kozhevnikov & Perfil'ev (1978), Fig. 6",
+    joint_angle("alpha_deg", "angle between shaft 1 and the line from pin 1 to the support"),
     at_least_zero("cross_offset_m", "distance of the axes of the cross"),
     positive("support_distance_m", "distance of the output support from pin 1"),
     given("phi1_deg", "input angle of pin 1 from the plane of the shafts", axes=(0, 1)),

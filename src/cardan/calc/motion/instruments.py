@@ -45,7 +45,7 @@ def _jams(v: Values) -> Problems:
 
 @formula(
     "differentials of several driven axles, and how axles wind one another up without them",
-    "Book pp. 84-85",
+    "Kozhevnikov & Perfil'ev (1978), pp. 84–85",
     whole("axles", "number of driven axles", low=1, high=100),
     positive("wheel_radius_max_m", "largest rolling radius"),
     positive("wheel_radius_min_m", "smallest rolling radius"),

@@ -21,7 +21,7 @@ from cardan.questions.motion.motion import Motion, initial_phases, motion
 from cardan.questions.phases.phases import phases
 from cardan.questions.phases.setting import settings
 from cardan.questions.phases.spline_pitch import best_pitched, steps
-from cardan.reading.given import Given, given, gives, whole, yoke_rotation
+from cardan.reading.given import Given, given, gives, joint_angle, whole
 from cardan.texts import _
 
 formula = Formulas(__doc__)
@@ -30,7 +30,7 @@ formula = Formulas(__doc__)
 def joint_angles(**options: Any) -> Given:
     """Declare the joint angles of a chain."""
     doc = _("joint angle of each joint")
-    return yoke_rotation("alpha_deg", doc, **{"axes": (1, 2)} | options)
+    return joint_angle("alpha_deg", doc, **{"axes": (1, 2)} | options)
 
 
 def twists(**options: Any) -> Given:
@@ -95,8 +95,8 @@ def _motion(v: Values) -> tuple[Motion, Callable[[Any], Any]]:
 
 @formula(
     "angle, speed and acceleration of the shaft driven by one Hooke joint, and the turns of its cross",
-    "Book (17)-(25), (103)",
-    yoke_rotation("alpha_deg", "joint angle of the joint", axes=(0, 1)),
+    "Kozhevnikov & Perfil'ev (1978), eq. 17–25, 103",
+    joint_angle("alpha_deg", "joint angle of the joint", axes=(0, 1)),
     (START, ANGLE, SPEED, ACCELERATION),
     "phi2_deg: angle of the driven shaft from the start, continuous",
     "ratio_21: speed ratio",
@@ -120,13 +120,13 @@ def _single_joint(v: Values) -> Any:
 
 @formula(
     "largest and smallest ratio, lead and acceleration of one Hooke joint",
-    "Book Table 4, recomputed",
-    yoke_rotation("alpha_deg", "joint angle of the joint", axes=(0, 1)),
+    "Kozhevnikov & Perfil'ev (1978), Table 4, recomputed",
+    joint_angle("alpha_deg", "joint angle of the joint", axes=(0, 1)),
     "ratio_max: largest speed ratio",
     "ratio_min: smallest speed ratio",
-    "delta = irregularity: speed fluctuation",
-    "lead_max_deg = lead: largest lead of the driven shaft",
-    "phi1_at_lead_max_deg = angle_of_lead: input angle of that lead",
+    "delta = speed_fluctuation: speed fluctuation",
+    "lead_max_deg = angle_error: largest lead of the driven shaft",
+    "phi1_at_lead_max_deg = angle_of_error: input angle of that lead",
     "eps_max_over_omega1_sq = acceleration: largest acceleration over the square of the input speed",
     "phi1_at_first_negative_eps_extreme_deg = angle_of_acceleration: input angle of that acceleration",
 )
@@ -136,8 +136,8 @@ def _single_joint_extremes(v: Values) -> Any:
 
 @formula(
     "Fourier amplitudes of the angle error of one Hooke joint, exact and by the book's series",
-    "Book (39)-(46)",
-    yoke_rotation("alpha_deg", "joint angle of the joint", axes=(0, 1)),
+    "Kozhevnikov & Perfil'ev (1978), eq. 39–46",
+    joint_angle("alpha_deg", "joint angle of the joint", axes=(0, 1)),
     whole("kmax", "how many amplitudes", low=1, high=10000, default=5),
     "c_exact: amplitudes of orders 2, 4 … 2 kmax [rad]",
     "c11_book_alpha2_over_4: first amplitude, α²/4",
@@ -153,14 +153,14 @@ def _fourier_single(v: Values) -> Any:
 
 @formula(
     "joint angles, plane twists and lengths from joint centres, and the motion of the output",
-    "Book (87)-(89)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 87–89",
     (points(), YOKES, START),
     given("phi1_deg", "input angle from the start position", axes=(0, 1), default=None),
     (SPEED, ACCELERATION),
     "axis: direction of each shaft",
     "normal: normal of each joint's plane",
     "length_m: length of each shaft",
-    "alpha_deg: bend of each joint",
+    "alpha_deg: joint angle of each joint",
     "beta_deg: plane twist of joints 2 to n",
     "delta: speed fluctuation",
     "ratio_max: largest speed ratio",
@@ -198,7 +198,7 @@ def _geometry_from_points(v: Values) -> Any:
 
 @formula(
     "angle, speed and acceleration of every shaft of a chain of joints",
-    "Book (31)-(33), (38)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 31–33, 38",
     (joint_angles(), twists(), YOKES, START, ANGLE, SPEED, ACCELERATION),
     "phi_deg = shaft_angle: angle of each shaft from the start, continuous",
     "ratio_to_input = shaft_ratio: speed ratio of each shaft to the input",
@@ -219,18 +219,18 @@ def _chain(v: Values) -> Any:
 
 @formula(
     "the single joint that moves like the whole chain, and the speed fluctuation after each joint",
-    "Book (78)-(80); exact by Möbius pairs",
+    "Kozhevnikov & Perfil'ev (1978), eq. 78–80; exact by Möbius pairs",
     (joint_angles(default=None), twists(), points(default=None), YOKES, START),
-    "delta = irregularity: speed fluctuation",
+    "delta = speed_fluctuation: speed fluctuation",
     "ratio_max: largest speed ratio",
     "ratio_min: smallest speed ratio",
-    "delta_of_each_shaft = shaft_irregularity: speed fluctuation of shafts 2 to n+1",
+    "delta_of_each_shaft = shaft_speed_fluctuation: speed fluctuation of shafts 2 to n+1",
     "book_first_order_delta_80_with_theta: speed fluctuation by the book's first order",
     "tau_eq = tau: tan² of half the equivalent angle",
-    "alpha_eq_deg = bend: equivalent angle",
+    "alpha_eq_deg = joint_angle: equivalent angle",
     "psi_eq_mod180_deg = phase: phase of the equivalent joint; None when synchronous",
     "eps_max_over_omega1_sq = max_acceleration: largest acceleration over the square of the input speed",
-    "lead_max_deg = max_lead: largest angle error of the output about its mean",
+    "lead_max_deg = max_angle_error: largest angle error of the output about its mean",
     check=between,
 )
 def _equivalent_joint(v: Values) -> Any:
@@ -273,16 +273,16 @@ def _yokes(key: str, doc: str) -> Given:
 
 @formula(
     "yoke angles that make a chain synchronous or as even as can be, and what they can reach",
-    "hyperbolic polygon; Book (77)-(86) is its first order",
+    "hyperbolic polygon; Kozhevnikov & Perfil'ev (1978), eq. 77–86 is its first order",
     joint_angles(axes=1, default=None),
     (twists(axes=1), points(default=None)),
     _yokes("gamma_deg", "present yoke angle of shafts 2 to n"),
     given("fixed_gamma_deg", "yoke angles that must stay, by shaft number", kind="table", default=None),
-    "delta_min = irregularity_min: smallest speed fluctuation",
-    "delta_max = irregularity_max: largest speed fluctuation",
+    "delta_min = speed_fluctuation_min: smallest speed fluctuation",
+    "delta_max = speed_fluctuation_max: largest speed fluctuation",
     "synchronous_feasible = feasible: whether the chain can be synchronous",
-    "alpha_eq_min_deg = bend_min: smallest equivalent angle",
-    "alpha_eq_max_deg = bend_max: largest equivalent angle",
+    "alpha_eq_min_deg = joint_angle_min: smallest equivalent angle",
+    "alpha_eq_max_deg = joint_angle_max: largest equivalent angle",
     "gamma_deg: best yoke angles",
     "gamma_deg_sets: best yoke angles and their mirror image",
     "delta: speed fluctuation that the best yoke angles leave",

@@ -22,7 +22,7 @@ from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.length import length_compensation
 from cardan.questions.motion.moving_chain import MovingMotion, harmonic_points, moving_centres
 from cardan.questions.motion.moving_points import moving_points
-from cardan.reading.given import RIGHT, at_least_zero, given, positive, vector, whole, yoke_rotation
+from cardan.reading.given import RIGHT, at_least_zero, given, joint_angle, positive, vector, whole
 from cardan.texts import _
 
 from .kinematics import ACCELERATION
@@ -97,7 +97,7 @@ _POINTS = (
 
 @formula(
     "exact spin of every shaft, and lengths, while the joint centres oscillate along lines",
-    "rigid crosses; contains Book (97)-(99)",
+    "rigid crosses; contains Kozhevnikov & Perfil'ev (1978), eq. 97–99",
     *_POINTS,
     given("gamma_deg", "yoke angle of shafts 2 to n", axes=1, default=None),
     given("omega1_rad_s", "spin of the input shaft at time zero"),
@@ -106,7 +106,7 @@ _POINTS = (
     TIME,
     "spin_rad_s: spin of each shaft",
     "spin_acc_rad_s2: its time derivative",
-    "alpha_deg: bend of each joint",
+    "alpha_deg: joint angle of each joint",
     "length_m: length of each shaft",
     "length_rate_m_s: sliding speed of each shaft",
     "length_acc_m_s2: sliding acceleration of each shaft",
@@ -166,14 +166,14 @@ def _length_compensation(v: Values) -> Any:
 
 @formula(
     "double joint over a hitch pin that both end shafts point at",
-    "Book Figs 56, 57",
+    "Kozhevnikov & Perfil'ev (1978), Figs 56, 57",
     at_least_zero("l1_m", "distance of joint 1 before the pin"),
     at_least_zero("l2_m", "distance of joint 2 behind the pin"),
     given("yaw_deg", "yaw of the drawn body", default=0.0),
     given("pitch_deg", "pitch of the drawn body", default=0.0),
     given("gamma2_deg", "yoke angle of shaft 2", default=0.0),
-    "alpha12_deg: bend of joint 1",
-    "alpha23_deg: bend of joint 2",
+    "alpha12_deg: joint angle of joint 1",
+    "alpha23_deg: joint angle of joint 2",
     "length2_m: length of the shaft between",
     "beta2_deg: plane twist",
     "delta: speed fluctuation",
@@ -248,7 +248,7 @@ def _random_check(v: Values) -> Problems:
 
 @formula(
     "one joint whose joint angle oscillates harmonically, the plane of the shafts at rest",
-    "Book (96)-(98), completed",
+    "Kozhevnikov & Perfil'ev (1978), eq. 96–98, completed",
     given("alpha_mean_deg", "mean joint angle"),
     given("alpha_amp_deg", "amplitude of the joint angle"),
     given("alpha_omega_rad_s", "angular frequency of the joint angle"),
@@ -257,9 +257,9 @@ def _random_check(v: Values) -> Problems:
     ACCELERATION,
     given("psi1_deg", "phase angle of the joint at time zero", default=0.0),
     TIME,
-    "alpha_deg = bend: bend",
-    "alpha_rate_rad_s = bend_rate: rate of the joint angle",
-    "alpha_acc_rad_s2 = bend_acceleration: acceleration of the joint angle",
+    "alpha_deg = joint_angle: joint angle",
+    "alpha_rate_rad_s = joint_angle_rate: rate of the joint angle",
+    "alpha_acc_rad_s2 = joint_angle_acceleration: acceleration of the joint angle",
     "phi1_rad = angle: input angle",
     "omega2_rad_s = driven_speed: speed of the driven shaft",
     "eps2_rad_s2 = driven_acceleration: acceleration of the driven shaft",
@@ -282,7 +282,7 @@ def _varying_angle_single(v: Values) -> Any:
 
 @formula(
     "planar double joint whose joint angles oscillate, one as a sine, the other as a cosine",
-    "Book (99)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 99",
     given("alpha12_mean_deg", "mean joint angle of joint 1"),
     given("alpha12_sin_amp_deg", "amplitude of the joint angle of joint 1"),
     given("alpha23_mean_deg", "mean joint angle of joint 2"),
@@ -310,8 +310,8 @@ def _varying_angle_double(v: Values) -> Any:
 
 @formula(
     "mean and standard deviation of the driven speed of a joint with a random joint angle",
-    "expectations of Book (97) over the normal law",
-    yoke_rotation("alpha_mean_deg", "mean joint angle"),
+    "expectations of Kozhevnikov & Perfil'ev (1978), eq. 97 over the normal law",
+    joint_angle("alpha_mean_deg", "mean joint angle"),
     at_least_zero("alpha_std_deg", "standard deviation of the joint angle"),
     at_least_zero("alpha_rate_std_rad_s", "standard deviation of its rate"),
     given("omega1_rad_s", "input speed"),

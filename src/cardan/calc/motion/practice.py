@@ -8,12 +8,12 @@ from typing import Any
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import AnglePair, BalanceNorm, Lubrication, PartLimit, SpeedAngleLimit
-from cardan.choices.selection import Need, select_joint
+from cardan.choices.selection import JointDuty, select_joint
 from cardan.errors import Problem
 from cardan.formulas.upkeep import lubrication_shares, shaft_sections
 from cardan.questions.bending.balance import allowed_unbalance
 from cardan.questions.motion.angle_limits import TABLE_INERTIA, angle_limits, broken_rules, compound_angle
-from cardan.reading.given import RIGHT, at_least_zero, flag, given, gives, positive, word, yoke_rotation
+from cardan.reading.given import RIGHT, at_least_zero, flag, given, gives, joint_angle, positive, word
 from cardan.texts import _
 from cardan.units import DIMENSIONS
 
@@ -112,7 +112,7 @@ def _unbalance_convert(v: Values) -> Any:
 
 @formula(
     "whether an unbalance keeps the book's norm of a vehicle",
-    "Book p. 247",
+    "Kozhevnikov & Perfil'ev (1978), p. 247",
     word("vehicle_class", "vehicle", *catalogue().rows(BalanceNorm)),
     at_least_zero("unbalance_Ncm", "unbalance [N cm]"),
     "ok: whether it does",
@@ -125,7 +125,7 @@ def _balance_norm_book(v: Values) -> Any:
 
 @formula(
     "whether the measures of a yoke or a cross keep their limits",
-    "GOST 2752-74, by the Book",
+    "GOST 2752-74, by Kozhevnikov & Perfil'ev (1978)",
     word("part", "part", *MEASURES),
     *MEASURE.values(),
     "ok: whether they do",
@@ -157,7 +157,7 @@ def _shaft_layout(v: Values) -> Any:
 
 @formula(
     "whether lubrication is due, and by which counter",
-    "Book pp. 248-249; half the intervals in water, mud or dust is a rule of this program",
+    "Kozhevnikov & Perfil'ev (1978), pp. 248–249; half the intervals in water, mud or dust is a rule of this program",
     word("item", "what is lubricated", *catalogue().rows(Lubrication)),
     at_least_zero("hours", "hours run since the last time", default=None),
     at_least_zero("km", "kilometres run since the last time", default=None),
@@ -183,7 +183,7 @@ def _lubrication_due(v: Values) -> Any:
 
 @formula(
     "what the catalogue says of a grade",
-    "Book p. 230; see the source of each row",
+    "Kozhevnikov & Perfil'ev (1978), p. 230; see the source of each row",
     word("grade", "grade, or its name in another standard"),
     word("part", "part it is to be used for", default=None),
     "heat_treatment = treatment: treatment",
@@ -211,9 +211,9 @@ def _material(v: Values) -> Any:
 
 @formula(
     "types of joints that do a job, under conditions or not, and why not",
-    "catalogue of types; Book, chapter 1",
+    "catalogue of types; Kozhevnikov & Perfil'ev (1978), chapter 1",
     positive("torque_Nm", "torque"),
-    yoke_rotation("angle_deg", "joint angle of the joint"),
+    joint_angle("angle_deg", "joint angle of the joint"),
     at_least_zero("speed_rpm", "speed"),
     flag("synchronous", "whether the output must turn evenly"),
     positive("service_factor", "factor on the torque", default=1.0),
@@ -225,7 +225,7 @@ def _material(v: Values) -> Any:
     "rejected: types that do not -> causes",
 )
 def _joint_selection(v: Values) -> Any:
-    need = Need(
+    need = JointDuty(
         joint_angle=v.angle,
         outer=v.outer_diameter,
         **v.of("torque", "speed", "synchronous", "service_factor", "continuous"),
@@ -246,8 +246,8 @@ SLACK = 1e-12
     "angular accelerations of two joints, and the second angle that keeps the torsional limit",
     "small angles as in shop practice, and exactly by the equivalent joint",
     positive("speed_rpm", "input speed"),
-    yoke_rotation("theta1_deg", "angle of joint 1"),
-    yoke_rotation("theta2_deg", "angle of joint 2"),
+    joint_angle("theta1_deg", "angle of joint 1"),
+    joint_angle("theta2_deg", "angle of joint 2"),
     flag("phased", "whether the joints are set to cancel", default=True),
     positive("limit_torsional_rad_s2", "largest acceleration", default=400.0),
     "theta_residual_deg = residual: angle of one joint as uneven",
@@ -272,7 +272,7 @@ def _joint_angle_limits(v: Values) -> Any:
     "largest second angle beside a first one, the articles' table as a formula",
     "θ_2 = √(θ_1² + 400/ω²), which gives the table of the web articles, section 26.1, to one digit",
     positive("speed_rpm", "input speed"),
-    yoke_rotation("theta1_deg", "angle of joint 1"),
+    joint_angle("theta1_deg", "angle of joint 1"),
     "theta2_max_deg: largest angle of joint 2",
     "warnings: extrapolated: not a speed of the table; inertia_limit: beyond its rows",
 )
@@ -290,8 +290,8 @@ def _joint_angle_table(v: Values) -> Any:
 @formula(
     "whether two angles keep the rule of 6° each and 1.5° difference",
     "web articles on drive shafts",
-    yoke_rotation("theta1_deg", "angle of joint 1"),
-    yoke_rotation("theta2_deg", "angle of joint 2"),
+    joint_angle("theta1_deg", "angle of joint 1"),
+    joint_angle("theta2_deg", "angle of joint 2"),
     "ok: whether they do",
     "violated: angle, difference",
 )
@@ -302,9 +302,9 @@ def _angle_rule_6_1p5(v: Values) -> Any:
 
 @formula(
     "product of speed and bend against the limit of a joint",
-    "Book pp. 64-65 for ball joints; Dana catalogue for its sizes",
+    "Kozhevnikov & Perfil'ev (1978), pp. 64–65 for ball joints; Dana catalogue for its sizes",
     positive("speed_rpm", "speed"),
-    yoke_rotation("alpha_deg", "joint_angle"),
+    joint_angle("alpha_deg", "joint angle"),
     word("joint", "row of the catalogue", *catalogue().rows(SpeedAngleLimit)),
     "n_alpha_rpm_deg: product",
     "limit_rpm_deg: its limit",

@@ -20,7 +20,7 @@ from cardan.texts import _
 
 formula = Formulas(__doc__)
 
-SOURCE = "structure of mechanisms by screws; Book p. 11-16, 74-77; tmm (1.1)-(1.5)"
+SOURCE = "structure of mechanisms by screws; Kozhevnikov & Perfil'ev (1978), pp. 11–16, 74-77; tmm (1.1)-(1.5)"
 
 TYPE = word("type", "kind of pair", *PAIRS)
 
@@ -84,13 +84,13 @@ def _mechanism(v: Values) -> Mechanism:
 
 @formula(
     "freedoms and constraints of a kind of kinematic pair",
-    "Book p. 11, Table 1; tmm Table 1",
+    "Kozhevnikov & Perfil'ev (1978), p. 11, Table 1; tmm Table 1",
     TYPE,
     vector("axis", "its axis, looked at if given", default=None),
     vector("axis2", "second axis of U and L4, looked at if given", default=None),
     "freedoms: relative freedoms f",
     "constraints: constraints s = 6 - f",
-    "genus: genus of the pair, as the Book counts it: f",
+    "genus: genus of the pair, as Kozhevnikov & Perfil'ev (1978) count it: f",
 )
 def _pair_class(v: Values) -> Any:
     kind = PAIRS[v.type]
@@ -112,7 +112,7 @@ def _pair_class(v: Values) -> Any:
 
 @formula(
     "mobility by counting, and the redundant constraints that a wanted mobility implies",
-    "Book (1); tmm (1.3)-(1.5), Somov and Malyshev",
+    "Kozhevnikov & Perfil'ev (1978), eq. 1; tmm (1.3)-(1.5), Somov and Malyshev",
     whole("moving_links", "moving links", low=1.0),
     whole("p1", "pairs with 1 freedom", low=0, default=0),
     whole("p2", "pairs with 2 freedoms", low=0, default=0),
@@ -221,7 +221,7 @@ def _finite_mobility(v: Values) -> Any:
 
 @formula(
     "what counting alone tells of a graph of links: where it is held too much, and its groups",
-    "Book p. 12-14, 76-77; minimum over sets of links",
+    "Kozhevnikov & Perfil'ev (1978), pp. 12–14, 76-77; minimum over sets of links",
     FRAME,
     word("input_link", "link that is driven"),
     rows(
@@ -249,7 +249,7 @@ def _structural_partition(v: Values) -> Any:
 
 @formula(
     "all zero groups that are simple chains of so many links",
-    "Book Table 2, restored by enumeration",
+    "Kozhevnikov & Perfil'ev (1978), Table 2, restored by enumeration",
     whole("links", "links of the group", low=1.0, high=100.0),
     "count: how many there are",
     "formulas: their strings of constraints, in descending order",
@@ -261,7 +261,7 @@ def _zero_groups(v: Values) -> Any:
 
 @formula(
     "all simple chains that impose so many constraints",
-    "Book Table 3, restored by enumeration",
+    "Kozhevnikov & Perfil'ev (1978), Table 3, restored by enumeration",
     whole("constraints", "constraints imposed", low=1.0, high=float(MOST)),
     "count_by_links: how many there are by number of links",
     "formulas: their strings of constraints by number of links",
@@ -274,7 +274,7 @@ def _minus_groups(v: Values) -> Any:
 
 @formula(
     "what a chain of pairs is: zero, minus or plus group",
-    "Book (2)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 2",
     whole("pair_constraints", "constraints of each pair along the chain", axes=1),
     "links: links",
     "W: 6m - Σs",

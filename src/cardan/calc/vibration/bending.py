@@ -106,7 +106,7 @@ def _ends(key: str, default: str | None) -> Given:
 
 @formula(
     "critical speeds of a uniform shaft in bending, without shear and rotary inertia",
-    "Book (253)-(256)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 253–256",
     _ends("end_condition", "pinned-pinned"),
     (LENGTH, OUTER, INNER, YOUNGS, DENSITY, mode_count(3)),
     "lambda_: roots of the frequency equation",
@@ -123,7 +123,7 @@ def _critical_speed_closed_form(v: Values) -> Any:
 
 @formula(
     "critical speed of a shaft between joints by the book's formula, its constant, and the 60 percent rule",
-    "Book (257)-(260)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 257–260",
     replace(LENGTH, default=None),
     replace(OUTER, default=None),
     (INNER, WEAR),
@@ -175,7 +175,7 @@ def _critical_speed_book(v: Values) -> Any:
 
 @formula(
     "first critical speed of a uniform shaft: exactly, by the book's sizes alone, or from a similar shaft",
-    "Book (256)-(260)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 256–260",
     word("method", "way", "exact", "book", "scale", default="exact"),
     *(replace(one, default=None) if one.required else one for one in MILLIMETRES),
     _ends("ends", "pinned-pinned"),

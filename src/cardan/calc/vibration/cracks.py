@@ -10,7 +10,7 @@ from cardan.formulas.unbalance_behind_joint import unbalance_behind_joint
 from cardan.questions.bending.crack import MOST_POWER, Crack, breathing_law, crack_section
 from cardan.questions.bending.cracked_rotor import GRAVITY, SLOWEST, CrackedRotor, cracked_rotor
 from cardan.questions.bending.cracked_shafts import WhirlingShaft, cracked_shafts
-from cardan.reading.given import Given, at_least_zero, given, positive, whole, word, yoke_rotation
+from cardan.reading.given import Given, at_least_zero, given, joint_angle, positive, whole, word
 from cardan.texts import _
 
 formula = Formulas(__doc__)
@@ -118,7 +118,7 @@ def _cracked_rotor_response(v: Values) -> Any:
 @formula(
     "orders of the force of an unbalance on a shaft behind a joint",
     "exact series of the joint",
-    yoke_rotation("alpha_deg", "joint angle of the joint", axes=(0, 1)),
+    joint_angle("alpha_deg", "joint angle of the joint", axes=(0, 1)),
     given("psi_deg", "angle of the driving yoke from the plane of the shafts", default=0.0),
     "force_order_over_meOmega2: size of each order over mass times radius times square of the input speed; "
     "negative ones backward",
@@ -131,7 +131,7 @@ def _unbalance_behind_joint(v: Values) -> Any:
 @formula(
     "two unbalanced shafts joined by a Hooke joint, the first cracked: where they are after a time",
     "article on the cracked shaft (6)-(25), restored; integrated with an account of energy",
-    yoke_rotation("alpha_deg", "joint angle of the joint"),
+    joint_angle("alpha_deg", "joint angle of the joint"),
     given("psi_deg", "angle of the driving yoke from the plane of the shafts", default=0.0),
     positive("speed_rad_s", "speed of the motor"),
     _power("breathing_m", default=1),

@@ -17,7 +17,7 @@ from cardan.calc.calculation import Calculation, Formulas, Problems, Values
 from cardan.errors import InputError, refuse
 from cardan.maths.periodic.mathieu import LARGEST_A, LARGEST_Q, LEAST_A, boundaries, damped_zone, exponents
 from cardan.maths.periodic.mathieu_forced import forced
-from cardan.reading.given import Given, at_least_zero, given, gives, positive, rows, whole, yoke_rotation
+from cardan.reading.given import Given, at_least_zero, given, gives, joint_angle, positive, rows, whole
 from cardan.texts import _
 from cardan.units import rpm
 
@@ -104,7 +104,7 @@ def _fits(v: Values) -> Problems:
 
 @formula(
     "exponent, growth and boundaries of y'' + 2n y' + (a - 2q cos 2z) y = 0",
-    "Hill's determinant; Book (197), (208), (221), (225) beside it",
+    "Hill's determinant; Kozhevnikov & Perfil'ev (1978), eq. 197, 208, 221, 225 beside it",
     given("a", "parameter a of the equation, (ω_e/ω_1)²", low=LEAST_A, high=LARGEST_A, default=None),
     (WAVE, DAMPING),
     whole(
@@ -125,14 +125,14 @@ def _fits(v: Values) -> Problems:
     "beta: characteristic exponent, where the undamped equation is stable",
     gives("growth_rate_per_rad", "rate of growth per radian of shaft angle", None),
     "stable: whether nothing grows",
-    "half_trace_book208: cos πβ by Book (208), for small q",
-    "beta_book225: characteristic exponent by Book (225), for 0 < a < 1 and small q",
+    "half_trace_book208: cos πβ by Kozhevnikov & Perfil'ev (1978), eq. 208, for small q",
+    "beta_book225: characteristic exponent by Kozhevnikov & Perfil'ev (1978), eq. 225, for 0 < a < 1 and small q",
     gives("a_0_to_N", "boundaries a_0 … a_N of the undamped equation", None),
     gives("b_1_to_N", "boundaries b_1 … b_N of the undamped equation", None),
     "a_lower: lower edge of the zone; undefined where damping leaves nothing of it",
     "a_upper: upper edge of the zone",
-    "a_lower_book221: lower edge of the principal zone by Book (221)",
-    "a_upper_book221: upper edge of the principal zone by Book (221)",
+    "a_lower_book221: lower edge of the principal zone by Kozhevnikov & Perfil'ev (1978), eq. 221",
+    "a_upper_book221: upper edge of the principal zone by Kozhevnikov & Perfil'ev (1978), eq. 221",
     check=_asked,
     kind=UpToOrder,
 )
@@ -164,17 +164,17 @@ def _mathieu_stability(v: Values) -> Any:
 
 @formula(
     "parameters of Mathieu's equation of a drive with massless joints between two inertias",
-    "Book (187)-(196), the parametric term put right; exact: shooting and variational equations",
-    yoke_rotation("alpha_deg", "joint angles of the joints", axes=1, entries=True),
+    "Kozhevnikov & Perfil'ev (1978), eq. 187–196, parametric term put right; exact: shooting, variational equations",
+    joint_angle("alpha_deg", "joint angles of the joints", axes=1, entries=True),
     given("psi_deg", "phase angles of the joints", axes=1, entries=True),
     positive("stiffness_Nm_per_rad", "stiffness before, between and behind the joints", axes=1, entries=True),
     (FIRST, LAST),
     positive("speed_rpm", "mean speed"),
     given("drive_torque_Nm", "constant drive torque, and load; asks for the exact drive as well", default=None),
-    "A: forcing by sin 2φ, Book (195) [rad]",
-    "B: forcing by cos 2φ, Book (195) [rad]",
-    "D: change of the compliance by cos 2φ, Book (195) [rad/(N·m)]",
-    "F: change of the compliance by sin 2φ, Book (195) [rad/(N·m)]",
+    "A: forcing by sin 2φ, Kozhevnikov & Perfil'ev (1978), eq. 195 [rad]",
+    "B: forcing by cos 2φ, Kozhevnikov & Perfil'ev (1978), eq. 195 [rad]",
+    "D: change of the compliance by cos 2φ, Kozhevnikov & Perfil'ev (1978), eq. 195 [rad/(N·m)]",
+    "F: change of the compliance by sin 2φ, Kozhevnikov & Perfil'ev (1978), eq. 195 [rad/(N·m)]",
     "s_n1: amplitude √(A² + B²) [rad]",
     "delta1_rad: its phase δ_1",
     "c_Nm_per_rad: stiffness of all springs in a row",
@@ -183,7 +183,7 @@ def _mathieu_stability(v: Values) -> Any:
     "a: parameter a = c/(J_0 ω_1²)",
     "kappa: place of each joint from the node of the elastic mode, a share of the twist",
     "principal_zone_speeds_rpm: speeds between which steady running is unstable without damping",
-    "q_book: parametric term by Book (196), half of what it should be",
+    "q_book: parametric term by Kozhevnikov & Perfil'ev (1978), eq. 196, half of what it should be",
     "q_corrected: parametric term",
     "delta0_rad: its phase δ_0",
     "half_trace_exact: half the trace of the elastic multipliers over half a turn, exact drive",
@@ -228,7 +228,7 @@ def _mathieu_reduction(v: Values) -> Any:
 
 @formula(
     "steady solution of y'' + 2n y' + (a - 2q cos 2z) y = Σ Q sin(νz + δ): mean and amplitude of each order",
-    "harmonic balance; Book (200)-(204), (223), (236), (243)",
+    "harmonic balance; Kozhevnikov & Perfil'ev (1978), eq. 200–204, 223, 236, 243",
     (STIFFNESS, WAVE, DAMPING),
     rows(
         "forcing",
@@ -285,7 +285,7 @@ def _harmonic_rows(key: str, doc: str) -> Given:
 
 @formula(
     "torque in the last shaft by the book's formula for sizing: mean, second order, orders of drive and load",
-    "Book (246)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 246",
     positive("c_Nm_per_rad", "stiffness of all springs in a row"),
     at_least_zero("s_n1", "amplitude of the joints' second order [rad]"),
     positive("a", "parameter a = c/(J_0 ω_1²)"),
@@ -325,13 +325,13 @@ def _dynamic_torque_engineering(v: Values) -> Any:
 
 @formula(
     "whether the parametric term may be neglected: the book's rule, and what that costs when solved",
-    "Book (206), (207), (237); harmonic balance",
+    "Kozhevnikov & Perfil'ev (1978), eq. 206, 207, 237; harmonic balance",
     (STIFFNESS, WAVE),
     at_least_zero("forcing_orders", "orders of the forcing", axes=1, entries=True),
     "stable: whether steady running is stable",
     "beta: characteristic exponent, where it is",
     "distance_to_resonance: distance of each order from the nearest ±β + 2r",
-    "book_237_satisfied = rule: whether Book (237) is met, orders 0, 1 and 2 included",
+    "book_237_satisfied = rule: whether Kozhevnikov & Perfil'ev (1978), eq. 237 is met, orders 0, 1 and 2 included",
     "solved_amplitude: amplitude of each order under a unit forcing of it, solved",
     "simplified_amplitude: the same, the parametric term neglected",
     "largest_side_band: largest amplitude at another order, solved",
@@ -355,7 +355,7 @@ def _validity_check(v: Values) -> Any:
 
 @formula(
     "the book's worked example, the power unit of a truck, computed anew",
-    "Book pp. 210-216",
+    "Kozhevnikov & Perfil'ev (1978), pp. 210–216",
     positive("speed_rpm", "speed", default=TRUCK["speed"]),
     positive("a", "parameter a", high=LARGEST_A, default=TRUCK["a"]),
     given("Q2", "forcing of second order, a s_41", default=TRUCK["sway"]),

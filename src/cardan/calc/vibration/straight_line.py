@@ -16,7 +16,7 @@ from cardan.formulas.absorbers import absorber_response
 from cardan.formulas.joint_run_up import joint_run_up
 from cardan.formulas.pendulum import pendulum
 from cardan.formulas.run_up import run_up
-from cardan.reading.given import Given, at_least_zero, given, gives, positive, whole, word, yoke_rotation
+from cardan.reading.given import Given, at_least_zero, given, gives, joint_angle, positive, whole, word
 from cardan.texts import _
 
 formula = Formulas(__doc__)
@@ -117,7 +117,7 @@ def _setting(found: Tuning) -> dict[str, Any]:
 
 @formula(
     "amplification of one mode with a tuned absorber, with or without damping, over the frequency",
-    "Book (248), (249)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 248, 249",
     RATIO,
     positive("frequency_ratio_absorber", "frequency of the absorber over the system's, f"),
     XI,
@@ -135,7 +135,7 @@ def _absorber_response(v: Values) -> Any:
 
 @formula(
     "amplification of one mode with a viscous damper, an inertia without spring, over the frequency",
-    "Book (252)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 252",
     (RATIO, XI, _definition(SYSTEM), BETA),
     "amplification: amplitude over static angle; None at a resonance without damping",
 )
@@ -145,7 +145,7 @@ def _viscous_damper_response(v: Values) -> Any:
 
 @formula(
     "best tuning and damping of an absorber by fixed points and exactly, and of a viscous damper",
-    "Book (250), (251); exact H∞ optimum (Nishihara, Asami)",
+    "Kozhevnikov & Perfil'ev (1978), eq. 250, 251; exact H∞ optimum (Nishihara, Asami)",
     replace(RATIO, axes=(0, 1)),
     "den_hartog: setting by fixed points, with the true peak",
     "h_infinity: setting with the smallest peak",
@@ -222,7 +222,7 @@ def _forms(v: Values) -> Problems:
     positive("damping_ratio", "its damping ratio", below=1.0, default=None),
     positive("sweep_acceleration_rad_s2", "rise of the frequency of its force", default=None),
     word("equation", "the oscillator's equation", EQUATION, default=EQUATION),
-    yoke_rotation("alpha_deg", "joint angle of the joint", default=None),
+    joint_angle("alpha_deg", "joint angle of the joint", default=None),
     positive("stiffness_Nm_per_rad", "stiffness of the driven shaft", default=None),
     positive("inertia_kgm2", "inertia at its end", default=None),
     at_least_zero("damping_Nms_per_rad", "damping of the driven shaft", default=0.0),

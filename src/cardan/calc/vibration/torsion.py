@@ -17,7 +17,7 @@ from cardan.questions.torsion.model.torsional_model import Torque, TorsionalMode
 from cardan.questions.torsion.steady.run_stability import Floquet, Kind, Verdict, floquet
 from cardan.questions.torsion.steady.steady import periodic_response
 from cardan.questions.torsion.steady.steady_result import Orders
-from cardan.reading.given import Given, at_least_zero, given, gives, positive, rows, whole, yoke_rotation
+from cardan.reading.given import Given, at_least_zero, given, gives, joint_angle, positive, rows, whole
 from cardan.texts import _
 
 formula = Formulas(__doc__)
@@ -41,7 +41,7 @@ SHAFTS = rows(
 JOINTS = rows(
     "joints",
     "joints between the shafts",
-    yoke_rotation("alpha_deg", "joint_angle"),
+    joint_angle("alpha_deg", "joint angle"),
     given("psi_deg", "phase of the driving yoke at the start position", default=0.0),
 )
 """Joints between the shafts."""
