@@ -24,5 +24,5 @@ from .formulas.pin_geometry import best_pins as best_pins
 from .formulas.pin_geometry import pin_choices as pin_choices
 from .questions.motion.joint_law import JointAngles as JointAngles
 from .questions.motion.joint_law import JointTurn as JointTurn
-from .questions.motion.joint_law import joint_angles as joint_angles
+from .questions.motion.joint_law import joint_over_angles as joint_over_angles
 from .questions.motion.joint_law import joint_turn as joint_turn

@@ -30,7 +30,7 @@ def work(**settings):
             "max speed_fluctuation by joints[0].joint_angle_deg",
             "p90 alpha_eq_deg",
             "mean speed_fluctuation",
-            "argmax speed fluctuation",
+            "argmax speed_fluctuation",
         ],
         "constraints": ["alpha_eq_deg <= 15"],
     }
@@ -131,12 +131,12 @@ def test_everything_wrong_is_told_at_once():
         work_of(
             DRIVE,
             {"joints[7].joint_angle_deg": [1.0], "joints[0].joint_angle_deg": 3, "joints[1].joint_angle_deg": []},
-            ["iregularity"],
+            ["speed_fluctation"],
             reduce=["most x"],
             constraints=["x is 3"],
         )
     text = str(error.value)
-    for part in ("no index 7", "a list of values", "empty list", "iregularity", "most x", "x is 3"):
+    for part in ("no index 7", "a list of values", "empty list", "speed_fluctation", "most x", "x is 3"):
         assert part in text
 
 
@@ -174,4 +174,4 @@ def test_the_order_of_columns_is_part_of_the_name():
 
 def test_constraints_are_on_columns():
     with pytest.raises(InputError, match="speed_fluctuation"):
-        work_of(DRIVE, AXES, ["speed_fluctuation"], constraints=["irregularit <= 3"])
+        work_of(DRIVE, AXES, ["speed_fluctuation"], constraints=["speed_fluctuatio <= 3"])

@@ -311,8 +311,8 @@ def test_what_is_missing_is_named_with_its_path():
 
 
 def test_a_check_that_is_not_known_is_refused():
-    with pytest.raises(InputError, match="the nearest is bend"):
-        check(Drive.from_angles([0.1]), only=["bent"])
+    with pytest.raises(InputError, match="the nearest is joint_angle"):
+        check(Drive.from_angles([0.1]), only=["joint_angel"])
 
 
 @pytest.mark.parametrize("sense", ["at_most", "at_least", "within", "outside"])

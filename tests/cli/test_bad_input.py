@@ -28,7 +28,7 @@ FILES = {
         'format = 1\nname = "\\u001b[2J"\n[[joints]]\njoint_angle_deg = 5\n',
         ["name: holds", "\\x1b"],
     ),
-    "missing unit": ("format = 1\n[[joints]]\nbend = 5\n", ["joints[0].joint_angle", "joint_angle_deg"]),
+    "missing unit": ("format = 1\n[[joints]]\njoint_angle = 5\n", ["joints[0].joint_angle", "joint_angle_deg"]),
     "wrong dimension": ("format = 1\n[[joints]]\njoint_angle_mm = 5\n", ["joints[0].joint_angle_mm"]),
     "not a number": ("format = 1\n[[joints]]\njoint_angle_deg = nan\n", ["joints[0].joint_angle", "nan"]),
     "infinite": ("format = 1\n[[joints]]\njoint_angle_deg = inf\n", ["joints[0].joint_angle", "inf"]),
@@ -77,7 +77,9 @@ def test_a_bad_drive_file_is_refused_by_every_command(cardan, drive_file, tmp_pa
 
 
 def test_all_problems_come_at_once(cardan, drive_file):
-    path = drive_file("format = 1\ncolour = 1\n[[joints]]\nbend = 5\n[[joints]]\njoint_angle_deg = 95\nsize = 3\n")
+    path = drive_file(
+        "format = 1\ncolour = 1\n[[joints]]\njoint_angle = 5\n[[joints]]\njoint_angle_deg = 95\nsize = 3\n"
+    )
     refused(
         cardan("motion", path),
         "4 problems",
@@ -93,7 +95,7 @@ def test_all_problems_come_at_once(cardan, drive_file):
 
 
 def test_very_many_problems_are_counted(cardan, drive_file):
-    path = drive_file("format = 1\n" + "[[joints]]\nbend = 5\n" * 100)
+    path = drive_file("format = 1\n" + "[[joints]]\njoint_angle = 5\n" * 100)
     done = cardan("motion", path)
     refused(done, "100 problems", "and 60 more")
     assert len(done.err.splitlines()) == 42

@@ -135,7 +135,7 @@ def test_joints_without_figures_are_left_out_in_words(cardan, drive_file):
 
 
 def test_a_straight_or_idle_drive_wears_nothing(cardan, drive_file):
-    path = drive_file(TEXT + STEADY.replace("700", "0"))
+    path = drive_file(re.sub(r"joint_angle_deg = \d+", "joint_angle_deg = 0", TEXT) + STEADY)
     done = cardan("life", path)
     assert "nothing wears" in done.out
     assert cardan("life", path, "--json").content["life_h"] == "∞"

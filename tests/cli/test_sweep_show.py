@@ -104,7 +104,7 @@ def test_exports(cardan, folder, tmp_path, suffix):
 @pytest.mark.parametrize(
     ("options", "titles"),
     [
-        ((), ["SpeedFluctuation of the output over", "How often"]),
+        ((), ["Speed fluctuation of the output over", "How often"]),
         (GOALS, ["Pareto front", "Every point as a line"]),
         (("--kind", "tornado", "--of", "joint_angle_deg[1]"), ["What it goes with: joint_angle_deg[1]"]),
         (("--kind", "map", "--over", "supplier", "--over", "duty.speed_rpm"), ["over duty.speed_rpm and supplier"]),
@@ -132,7 +132,7 @@ def test_a_table_of_many_fields_is_drawn_as_lines(cardan, folder, tmp_path, monk
         (("--best", "min speed_fluctuation", *GOALS), "choose one of --best, --pareto"),
         (("--pareto", "min speed_fluctuation"), "two goals or more"),
         (("--best", "speed_fluctuation"), "not a goal"),
-        (("--best", "min iregularity"), "the nearest is speed fluctuation"),
+        (("--best", "min speed_fluctation"), "the nearest is speed_fluctuation"),
         (("--limit", "x"), "not a limit"),
         (("--where", "nothing > 1"), "cannot be answered"),
         (("--query", "DROP TABLE sweep"), "only one SELECT"),

@@ -137,7 +137,7 @@ def test_what_is_no_drive_is_refused_by_name(make, wanted):
 
 def test_messages_carry_the_value_and_what_is_allowed():
     with pytest.raises(
-        InputError, match=r"joints\[0\]\.bend: 94° is not allowed; allowed is at least 0° and less than 90°"
+        InputError, match=r"joints\[0\]\.joint_angle: 94° is not allowed; allowed is at least 0° and less than 90°"
     ):
         Drive.from_angles([94 * deg])
 

@@ -11,10 +11,9 @@ from cardan import Drive, example
 from cardan.catalogue.catalogue import catalogue
 from cardan.catalogue.completion import completed, shortened
 from cardan.catalogue.rows import JointSize
-from cardan.drive.body import Lump
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
-from cardan.drive.shaft import Shaft
+from cardan.drive.shaft import Lump, Shaft
 from cardan.drive.support import Support
 from cardan.drive.yokes import unweighed, with_yokes, yoke_mass
 from cardan.questions.bending.shaft_balance import balance

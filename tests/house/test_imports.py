@@ -8,7 +8,6 @@ import pytest
 from .imports import borrowed, circles, hidden, imports
 
 LATER = {
-    "cardan": {"if"},  # names of the package, each imported on its first use; type checkers read them
     "cardan.answers.question": {"if"},  # the register of questions is light: help must not load numpy
     "cardan.batch.table.store": {"try"},  # `fcntl` is not on every system
 }

@@ -285,7 +285,5 @@ def test_a_table_movement_takes_its_rows_along_and_overwrites_none(tmp_path: Pat
 
 
 def test_an_old_key_is_met_by_the_new_one():
-    with pytest.raises(
-        InputError, match=r"bend_deg: unknown key; the nearest known one is joint_angle_deg"
-    ):
+    with pytest.raises(InputError, match=r"bend_deg: unknown key; the nearest known one is joint_angle_deg"):
         loads("format = 1\n[[joints]]\nbend_deg = 12")

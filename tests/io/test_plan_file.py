@@ -174,7 +174,7 @@ def test_what_is_wrong_with_the_drive_file_is_told():
 
 
 def test_questions_and_paths_are_held_against_the_drive():
-    text = HEAD.replace('"irregularity"', '"irregularty"')
+    text = HEAD.replace('"speed_fluctuation"', '"speed_fluctation"')
     found = wrong(text + '[[vary]]\nkey = "joints[5].centre_mm[0]"\nfrom = 0\nto = 1\ncount = 2\n')
     assert "no index 5" in found["vary[0]: joints[5].centre_mm[0]"]
     assert "speed_fluctuation" in found["ask"]

@@ -12,6 +12,7 @@ from cardan.drive.fields.paths import place
 from cardan.errors import InputError
 from cardan.io import example, example_names, example_text, loads
 from cardan.io.edit import edit
+from cardan.questions.gathering import principal
 from cardan.register import QUESTIONS, groups
 from cardan.report import subject as subjects
 from cardan.report.answers import answered, subject
@@ -62,7 +63,7 @@ def test_no_answer_is_silent_and_keys_named_are_keys_of_the_file(name):
     drive = example(name)
     on = subject(drive)
     for one, asked in QUESTIONS.items():
-        missing = asked.lacking(drive)
+        missing = asked.lacking(principal(asked, drive))
         if missing:
             assert answered(one, on).answer == told(missing)
         for path in (path for some in missing for path in some):

@@ -170,7 +170,7 @@ class Subject:
         Parameters
         ----------
         share : float
-            SpeedFluctuation of this drive at some setting of its yokes.
+            Speed fluctuation of this drive at some setting of its yokes.
         """
         return is_rounding(self.drive, share, self.closing.length)
 

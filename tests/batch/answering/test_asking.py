@@ -249,7 +249,7 @@ def test_questions_about_the_whole_drive_are_answered(name):
         (["joints[0].joint_angle"], ["speed_fluctuation"], "needs a unit"),
         (["joints[9].joint_angle_deg"], ["speed_fluctuation"], "no index 9"),
         (["joints[0].joint_angle_deg", "joints[0].joint_angle_rad"], ["speed_fluctuation"], "varies twice"),
-        (["joints[0].joint_angle_deg"], ["irregularty"], "nearest is speed fluctuation"),
+        (["joints[0].joint_angle_deg"], ["speed_fluctation"], "nearest is speed_fluctuation"),
         (["joints[0].joint_angle_deg"], [], "nothing is asked"),
         (["joints[0].joint_angle_deg"], ["length"], "joint centres"),
     ],

@@ -21,6 +21,7 @@ from cardan.batch.engine.cluster import Cluster
 from cardan.batch.engine.engines import Done
 from cardan.batch.engine.running import run
 from cardan.errors import InputError, MissingExtraError
+from cardan.version import VERSION
 from tests.batch import works
 from tests.batch.truth import undisturbed
 from tests.batch.works import Numbers, Trouble
@@ -244,7 +245,7 @@ def test_chunks_come_back_once_whatever_becomes_of_them_on_the_way():
 
 def test_a_worker_of_another_version_that_comes_late_does_nothing(monkeypatch):
     (chunk,) = Chunks("a sweep", 3, 3)
-    assert cluster._work(pickle.dumps((works.size_of, "en", cluster.__version__)), chunk) == (3, None)
+    assert cluster._work(pickle.dumps((works.size_of, "en", VERSION)), chunk) == (3, None)
     value, failure = cluster._work(pickle.dumps((works.size_of, "en", "0.0.9")), chunk)
     assert value is None
     assert "has cardan" in failure

@@ -54,7 +54,7 @@ def test_a_goal_to_be_great_costs_the_less_the_greater_it_is():
 def test_unknown_columns_are_named_all_at_once():
     columns = [Column(name=name, unit="", role="answer", text="") for name in ("speed_fluctuation", "life_h")]
     with pytest.raises(InputError) as refused:
-        check_names([Goal(name="iregularity"), Limit(name="zzz", high=1.0), Goal(name="life_h")], columns)
-    assert "the nearest is speed fluctuation" in str(refused.value)
-    assert "known: speed fluctuation, life_h" in str(refused.value)
+        check_names([Goal(name="speed_fluctation"), Limit(name="zzz", high=1.0), Goal(name="life_h")], columns)
+    assert "the nearest is speed_fluctuation" in str(refused.value)
+    assert "known: speed_fluctuation, life_h" in str(refused.value)
     assert len(refused.value.problems) == 2

@@ -53,7 +53,7 @@ def test_some_columns_of_some_rows(found):
 
 def test_what_has_no_answer_is_null_and_not_the_greatest(found):
     """SQL takes nan for greater than all numbers."""
-    rows = found.query(f"SELECT max(speed fluctuation) AS most, count({JOINT_ANGLE}) AS answered FROM sweep")
+    rows = found.query(f"SELECT max(speed_fluctuation) AS most, count({JOINT_ANGLE}) AS answered FROM sweep")
     assert rows["most"][0] == pytest.approx(1e-6 * 100.0**2 + 1e-3)
     assert rows["answered"][0] == 200
     assert np.isnan(found.table(["speed_fluctuation"], where=f"{HEIGHT} > 90")["speed_fluctuation"]).all()
@@ -144,10 +144,10 @@ def test_equal_ones_are_told_in_the_order_of_their_points(found):
 
 
 def test_a_question_that_has_no_answer_is_told_in_words(found):
-    with pytest.raises(InputError, match=r"cannot be answered.*irregularitty"):
-        found.query("SELECT irregularitty FROM sweep")
-    with pytest.raises(InputError, match=r"columns: irregularitty.*nearest is speed fluctuation"):
-        found.table(["irregularitty"])
+    with pytest.raises(InputError, match=r"cannot be answered.*speed_fluctation"):
+        found.query("SELECT speed_fluctation FROM sweep")
+    with pytest.raises(InputError, match=r"columns: speed_fluctation.*nearest is speed_fluctuation"):
+        found.table(["speed_fluctation"])
     with pytest.raises(InputError, match="none is given"):
         found.pareto([])
 

@@ -236,7 +236,7 @@ def test_sizes_that_do_not_turn_are_named(joint, joint_angle):
     if isinstance(joint, Tracta):  # reaches nearly to 90°: it turns, however steeply
         assert np.isfinite(motion(drive).ratio).all()
         return
-    with pytest.raises(InputError, match=r"joints\[1\]\.bend: .*does not turn at its joint angle"):
+    with pytest.raises(InputError, match=r"joints\[1\]\.joint_angle: .*does not turn at its joint angle"):
         motion(drive)
 
 

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from cardan.batch.answering.drive_questions import DRIVE
 from scipy.linalg import eigh
 
 from cardan import Drive
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
+from cardan.batch.answering.questions import questions
 from cardan.checks.checks import check
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty
@@ -129,7 +129,7 @@ def test_a_speed_held_at_a_bounce_or_half_of_it_fails_everywhere(share, near, ha
     verdicts = check(made)
     assert (named(verdicts, "clearance from the critical speed, bounce").state == "failed") == near
     assert (named(verdicts, "clearance from half critical speed, bounce").state == "failed") == half
-    (question,) = [one for one in DRIVE if one.name == "critical_speed"]
+    (question,) = [one for one in questions().values() if one.name == "critical_speed"]
     assert (question.of_one(made)[-1] < 0.2) == (near or half)
 
 

@@ -22,7 +22,7 @@ from cardan.drive.joints import (
     Weiss,
 )
 from cardan.questions.motion.joint_inside import joint_inside
-from cardan.questions.motion.joint_law import joint_angles, joint_turn, types_of
+from cardan.questions.motion.joint_law import joint_over_angles, joint_turn, types_of
 from cardan.units import deg, mm
 
 UNEVEN = (
@@ -69,13 +69,13 @@ def test_lead_ratio_and_slope_belong_together(joint):
 @pytest.mark.parametrize("joint", UNEVEN, ids=lambda joint: joint.kind)
 def test_over_bends_is_turn_by_turn(joint):
     joint_angles = np.array([5.0, 20.0]) * deg
-    found = joint_angles(joint, joint_angles)
+    found = joint_over_angles(joint, joint_angles)
     for k, joint_angle in enumerate(joint_angles):
         one = joint_turn(joint, joint_angle)
         # Every third degree misses a peak of order 6, the highest here, by less than half its (9°)² at most.
         assert found.error[k] == pytest.approx(one.error, rel=0.015, abs=1e-11)
         assert found.speed_fluctuation[k] == pytest.approx(one.speed_fluctuation, rel=0.015, abs=1e-11)
-    assert np.all(np.diff(joint_angles(joint).error[:8]) >= 0), "the more it bends, the more uneven it is"
+    assert np.all(np.diff(joint_over_angles(joint).error[:8]) >= 0), "the more it bends, the more uneven it is"
 
 
 def test_joints_without_sizes_are_even_but_for_crosses():
@@ -95,7 +95,7 @@ def test_a_bend_at_which_it_does_not_turn_is_refused():
     flat = PinCoupling(driving_slant=20 * deg)
     with pytest.raises(InputError, match="pin_coupling with these sizes does not turn at 45°"):
         joint_turn(flat, 45 * deg)
-    assert np.isnan(joint_angles(flat, [10 * deg, 45 * deg]).error).tolist() == [False, True]
+    assert np.isnan(joint_over_angles(flat, [10 * deg, 45 * deg]).error).tolist() == [False, True]
 
 
 def test_every_type_of_the_catalogue_turns_by_the_law_of_one_kind_at_most():

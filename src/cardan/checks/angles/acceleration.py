@@ -27,7 +27,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
     speed = design.top_speed
     output = f"shafts[{design.joints}]"
     if norm is None:
-        why = _("the catalogue has no norm for the application {name}; settings.norm can name one")
+        why = _("the catalogue has no such limits for the application {name}; the settings can name a row")
         unfit = why.format(name=design.duty.application)
         yield Verdict(subject=output, title=_("torsional acceleration of the output"), unfit=unfit)
         return

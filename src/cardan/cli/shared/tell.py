@@ -73,7 +73,7 @@ SIGNS: dict[Tone, tuple[str, str]] = {
 }
 """Tone -> sign and colour; the sentence itself says it in words."""
 
-LONGEST = 28
+LONGEST = 34
 """Letters of a name at the head of a row."""
 
 

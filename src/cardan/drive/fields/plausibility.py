@@ -10,7 +10,7 @@ from itertools import pairwise
 from typing import Any
 
 from cardan.answers.quantity import Quantity, Text, say
-from cardan.drive.drive import Drive
+from cardan.drive.described import Described
 from cardan.reading.fields import fields_of
 from cardan.texts import _
 
@@ -65,7 +65,7 @@ class Doubt:
     text: Text
 
 
-def doubts(drive: Drive) -> Iterator[Doubt]:
+def doubts(drive: Described) -> Iterator[Doubt]:
     """Yield what a drive gives that is hardly meant; nothing is changed for it.
 
     Parameters
@@ -128,7 +128,7 @@ def _magnitude(path: str, value: float, dimension: str) -> Iterator[Doubt]:
         yield _doubt(_("{key} is {value}; did you mean {other}?"), path, value, dimension, other=other)
 
 
-def _distances(drive: Drive) -> Iterator[Doubt]:
+def _distances(drive: Described) -> Iterator[Doubt]:
     """Yield a distance of neighbouring joints that no drive has."""
     centres = [one.centre for one in drive.joints]
     for k, (one, other) in enumerate(pairwise(centres), start=1):
@@ -145,7 +145,7 @@ def _distances(drive: Drive) -> Iterator[Doubt]:
             yield Doubt(path=f"joints[{k}].centre", text=say(text, one=k, two=k + 1, **said))
 
 
-def _radians(drive: Drive) -> Iterator[Doubt]:
+def _radians(drive: Described) -> Iterator[Doubt]:
     """Yield angles that look like radians which were given as degrees."""
     joint_angles = [(i, one.joint_angle) for i, one in enumerate(drive.joints) if one.joint_angle]
     if joint_angles and all(RADIANS[0] <= joint_angle <= RADIANS[1] for _i, joint_angle in joint_angles):

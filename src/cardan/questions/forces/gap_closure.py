@@ -22,7 +22,7 @@ from .kinetostatics import couples, standing
 COARSE = 361
 """Positions of a turn from which the least couples are sharpened."""
 
-MANY, FEW = 360, 72
+MANY, FEW = 360, 180
 """Positions of a period at which one drive and each of many are looked at; between them the extremes are found."""
 
 

@@ -23,7 +23,7 @@ from cardan.units import deg
 
 from .figures.joint_law import joint_figures
 from .joint_inside import joint_inside
-from .joint_law import JointAngles, JointTurn, joint_angles, joint_turn, types_of
+from .joint_law import JointAngles, JointTurn, joint_over_angles, joint_turn, types_of
 from .kinds import quantity_of
 
 __all__ = ["Beside", "Named", "answer", "answer_of_kinds", "ask", "sentence_of", "written"]
@@ -67,7 +67,7 @@ class Beside:
     @cached_property
     def joint_angles(self) -> tuple[JointAngles, ...]:
         """How each fluctuates over its joint angle."""
-        return tuple(joint_angles(one.joint) for one in self.turns)
+        return tuple(joint_over_angles(one.joint) for one in self.turns)
 
     @property
     def names(self) -> list[str]:
@@ -210,7 +210,7 @@ def _over_angles(result: Beside) -> Table:
     known = sorted(
         {*(one for one in SHOWN if one * deg <= turn.joint.steepest), round(math.degrees(turn.joint_angle), 9)}
     )
-    found = joint_angles(turn.joint, [one * deg for one in known])
+    found = joint_over_angles(turn.joint, [one * deg for one in known])
     return Table(
         title=_("Over the joint angle"),
         columns=(

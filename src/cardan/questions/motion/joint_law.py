@@ -144,7 +144,7 @@ def joint_turn(joint: Joint, joint_angle: float, angle: ArrayLike | None = None)
     return JointTurn(joint=joint, joint_angle=joint_angle, angle=phi, angle_error=law[0], ratio=law[1], slope=law[2])
 
 
-def joint_angles(joint: Joint, joint_angles: ArrayLike | None = None) -> JointAngles:
+def joint_over_angles(joint: Joint, joint_angles: ArrayLike | None = None) -> JointAngles:
     """Return how uneven one joint of any kind is over its bends.
 
     Parameters
@@ -162,7 +162,7 @@ def joint_angles(joint: Joint, joint_angles: ArrayLike | None = None) -> JointAn
     Examples
     --------
     >>> from cardan.drive.joints import DoubleCardan
-    >>> joint_angles(DoubleCardan(centring_ratio=0.5), [10 * deg, 30 * deg, 50 * deg]).speed_fluctuation
+    >>> joint_over_angles(DoubleCardan(centring_ratio=0.5), [10 * deg, 30 * deg, 50 * deg]).speed_fluctuation
     array([0.00011651, 0.00977419, 0.08078532])
     """
     alpha = (

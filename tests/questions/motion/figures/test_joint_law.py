@@ -12,7 +12,7 @@ from cardan.figures.for_reader import for_reader
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.questions.motion.figures.joint_law import joint_figure
-from cardan.questions.motion.joint_law import joint_angles, joint_turn
+from cardan.questions.motion.joint_law import joint_over_angles, joint_turn
 from cardan.units import deg
 
 JOINTS = (Hooke(), DoubleCardan(centring_ratio=0.5), Tripod())
@@ -20,7 +20,7 @@ JOINTS = (Hooke(), DoubleCardan(centring_ratio=0.5), Tripod())
 
 @pytest.mark.parametrize("joints", [JOINTS[:1], JOINTS[2:], JOINTS[1:], (JOINTS[2], JOINTS[2])], ids=len)
 def test_both_renderers_draw_them(joints):
-    turns, joint_angles = [joint_turn(one, 30 * deg) for one in joints], [joint_angles(one) for one in joints]
+    turns, joint_angles = [joint_turn(one, 30 * deg) for one in joints], [joint_over_angles(one) for one in joints]
     figure = for_reader(joint_figure(turns, joint_angles), USUAL)
     assert figure.sentence.endswith(".")
     assert figure.title in ElementTree.fromstring(inline_svg(figure)).get("aria-label")
@@ -29,7 +29,7 @@ def test_both_renderers_draw_them(joints):
 
 
 def test_the_curves_are_those_of_the_law():
-    turns, joint_angles = [joint_turn(one, 30 * deg) for one in JOINTS], [joint_angles(one) for one in JOINTS]
+    turns, joint_angles = [joint_turn(one, 30 * deg) for one in JOINTS], [joint_over_angles(one) for one in JOINTS]
     figure = for_reader(joint_figure(turns, joint_angles, ("one", "two", "three")), USUAL)
     for panel, wanted in zip(
         figure.panels,
