@@ -14,7 +14,7 @@ SYNCHRONOUS = 1e-13
 """Below this speed fluctuation a drive is synchronous to rounding and its equivalent joint has no phase."""
 
 SPECK = 1e-6
-"""Speed fluctuation that coordinates rounded to a micrometre leave: nobody notices it, and no drive is uneven for it."""
+"""Speed fluctuation that coordinates rounded to a micrometre leave: nobody notices it; no drive is uneven for it."""
 
 WARN_JOINT_ANGLE = 45.0
 """Bend [deg] above which no real cross joint works."""
