@@ -75,6 +75,10 @@ def sweep(
     MissingExtraError
         A folder, a cluster or the GPU needs a library that is not installed.
 
+    See Also
+    --------
+    results, read_sweep
+
     Notes
     -----
     A point that makes no drive, or has no answer, holds nan and says so by its status; `cardan.batch.plan.work_of`

@@ -269,6 +269,10 @@ def book_comparison(drive: Drive | Drives | Chain, angle: ArrayLike | None = Non
     BookComparison
         Curves (..., p) and numbers (...).
 
+    See Also
+    --------
+    motion, extremes
+
     Notes
     -----
     The second order takes c = tan²(α/2): with α²/4 the neglected rest of the amplitude is itself of second order.

@@ -100,6 +100,10 @@ def calc(capability: str, inputs: Mapping[str, Any]) -> dict[str, Any]:
     InputError
         With everything that is wrong, each under the key as it was given.
 
+    See Also
+    --------
+    motion, forces, life
+
     Examples
     --------
     >>> calc("single_joint_extremes", {"alpha_deg": 20})["delta"]

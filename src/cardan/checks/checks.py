@@ -123,6 +123,10 @@ def check(
     InputError
         A check that is not known, a path that leads nowhere.
 
+    See Also
+    --------
+    remedies, strength
+
     Examples
     --------
     >>> from dataclasses import replace

@@ -94,6 +94,10 @@ def apply_remedy(drive: Drive, remedy: Remedy, *, known: Catalogue | None = None
     Drive
         With grades and sizes filled in.
 
+    See Also
+    --------
+    remedies, most_helpful
+
     Examples
     --------
     >>> path = "joints[0].joint_angle_deg"

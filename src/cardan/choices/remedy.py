@@ -44,6 +44,10 @@ def remedies(
         that break nothing before the others, small ones before large ones. Rounded outwards to what a drawing has, and
         tried: with the change the check passes.
 
+    See Also
+    --------
+    most_helpful, apply_remedy, check
+
     Examples
     --------
     >>> from dataclasses import replace
@@ -80,6 +84,10 @@ def most_helpful(found: Sequence[Remedy], count: int = 3) -> tuple[Remedy, ...]:
     Returns
     -------
     tuple of Cure
+
+    See Also
+    --------
+    remedies, apply_remedy
 
     Examples
     --------

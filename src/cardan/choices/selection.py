@@ -107,6 +107,10 @@ def select_joint(
         Those accepted, then those under the fewest conditions, then those with the most torque to spare, then the
         rejected ones.
 
+    See Also
+    --------
+    joint_duty, size
+
     Examples
     --------
     >>> found = select_joint(JointDuty(torque=2.5e6, joint_angle=math.radians(9.0), speed=6.28))

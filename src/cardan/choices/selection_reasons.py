@@ -92,6 +92,10 @@ def joint_duty(
     InputError
         There is no torque or no speed; no such joint.
 
+    See Also
+    --------
+    select_joint
+
     Examples
     --------
     >>> found = joint_duty(Drive.from_angles([0.1, 0.3]), Duty(torque=100.0, speed=50.0, shock_factor=1.5))

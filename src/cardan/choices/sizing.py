@@ -59,6 +59,10 @@ def size(
     InputError
         No such part; what the checks need is missing; no size passes.
 
+    See Also
+    --------
+    strength, trade_off
+
     Notes
     -----
     The checks are inverted, not written a second time: many sizes are judged at once, and the range in which the first

@@ -114,6 +114,10 @@ def trade_off(
     InputError
         The shaft has no outer diameter, no length, or what the checks need is missing.
 
+    See Also
+    --------
+    size
+
     Examples
     --------
     >>> from cardan.drive.shaft import Shaft

@@ -186,6 +186,10 @@ def stack(drives: Sequence[Drive], *, xp: Any = None) -> Drives:
     -------
     Drives (N,)
 
+    See Also
+    --------
+    traces, extremes
+
     Examples
     --------
     >>> stack([Drive.from_angles([0.1]), Drive.from_angles([0.1, 0.2])]).joints

@@ -60,6 +60,10 @@ def best_centring(joint_angle_max: float, joint_angle_min: float = 0.0) -> Centr
     InputError
         The joint angles are no range below 90 degrees.
 
+    See Also
+    --------
+    joint_over_angles
+
     Notes
     -----
     The signed speed fluctuation, see `double_cardan.unevenness`, rises above zero at small joint angles and falls

@@ -79,6 +79,10 @@ def pin_choices(joint_angle_max: float, radius: float, slants: ArrayLike) -> Pin
     InputError
         A joint angle, radius or slant with which pins do not turn.
 
+    See Also
+    --------
+    best_pins
+
     Notes
     -----
     a = R cos(θ + α/2)/(sin θ cos(α/2)); the stroke is 2 R sin(α/2)/cos(θ - α/2); see `laws.pin_coupling` for
@@ -133,6 +137,10 @@ def best_pins(joint_angle_max: float, radius: float, *, margin: float = MARGIN) 
     ------
     InputError
         As `pin_choices`, or the margin leaves no slant.
+
+    See Also
+    --------
+    pin_choices
 
     Notes
     -----

@@ -43,6 +43,10 @@ def load(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Drive:
     InputError
         The file cannot be read, is no TOML, or describes no drive; every problem at once, each with its path.
 
+    See Also
+    --------
+    save, example, load_mechanism
+
     Examples
     --------
     >>> import cardan

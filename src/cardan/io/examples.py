@@ -102,6 +102,10 @@ def example(name: str) -> Drive:
     InputError
         There is no example of that name.
 
+    See Also
+    --------
+    load, example_mechanism
+
     Examples
     --------
     >>> example("single-20deg").name
@@ -126,6 +130,10 @@ def example_mechanism(name: str) -> Mechanism:
     ------
     InputError
         There is no example of that name, or it is a drive.
+
+    See Also
+    --------
+    load_mechanism, example
 
     Examples
     --------

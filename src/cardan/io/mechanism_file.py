@@ -31,6 +31,10 @@ def load_mechanism(path: str | Path) -> Mechanism:
     InputError
         The file cannot be read, is no TOML, or describes no mechanism; every problem at once, each with its path.
 
+    See Also
+    --------
+    load, mobility
+
     Examples
     --------
     >>> import cardan

@@ -35,6 +35,10 @@ def save(thing: Any, path: str | Path) -> None:
     InputError
         The suffix is not known, the file cannot be written, or a CSV file there holds other rows than the drive.
 
+    See Also
+    --------
+    load
+
     Examples
     --------
     >>> from tempfile import TemporaryDirectory

@@ -65,6 +65,10 @@ def report(
     MissingExtraError
         What writes that form is not installed.
 
+    See Also
+    --------
+    check, scene
+
     Examples
     --------
     >>> from tempfile import mkdtemp

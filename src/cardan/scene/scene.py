@@ -72,6 +72,10 @@ def scene(
     InputError
         A pose that is not there, a time that its movements do not know.
 
+    See Also
+    --------
+    report
+
     Notes
     -----
     Every place is exact: shafts and crosses stand by their arm directions (spec: model and sign conventions), other

@@ -235,6 +235,10 @@ def evaluator(
     InputError
         Paths that lead nowhere, names that are no question, and what a question needs and the drive does not give.
 
+    See Also
+    --------
+    optimise, boundary, sensitivity
+
     Examples
     --------
     >>> asked = evaluator(Drive.from_angles([0.3, 0.3]), ["joints[1].joint_angle_deg"], ["alpha_eq"])

@@ -103,6 +103,10 @@ def boundary(
     InputError
         Not two fields, no box, no limit, a column that is not there, a grid too fine.
 
+    See Also
+    --------
+    evaluator, sweep
+
     Notes
     -----
     Cells whose corners differ are quartered; a line that leaves them is followed into the cells beside, however the

@@ -240,6 +240,10 @@ def optimise(
     InputError
         Not one range for each field, a range that is none, a column that is not there, a start outside the box.
 
+    See Also
+    --------
+    evaluator, pareto_search
+
     Examples
     --------
     >>> from cardan.batch.answering.evaluators import Formula

@@ -132,6 +132,10 @@ def pareto_search(
     MissingExtraError
         pymoo is not installed.
 
+    See Also
+    --------
+    optimise, evaluator
+
     Notes
     -----
     Deb, Pratap, Agarwal, Meyarivan 2002, as pymoo has it; points that break limits rank behind all others.

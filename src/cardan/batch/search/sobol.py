@@ -117,6 +117,10 @@ def sensitivity(
     InputError
         Not one spread for each field, a column that is not there, too few samples, or too few that have an answer.
 
+    See Also
+    --------
+    swings, evaluator
+
     Notes
     -----
     Points A and B from a scrambled Sobol' sequence in 2d dimensions, A_i with field i from B:
@@ -297,6 +301,10 @@ def swings(ask: Evaluator, here: Sequence[float], low: Sequence[float], high: Se
     Returns
     -------
     Swings
+
+    See Also
+    --------
+    sensitivity, evaluator
 
     Examples
     --------

@@ -310,6 +310,10 @@ def results(source: Sweep | str | Path) -> Results:
     MissingExtraError
         duckdb is not installed.
 
+    See Also
+    --------
+    sweep, read_sweep
+
     Examples
     --------
     >>> results("no such folder")

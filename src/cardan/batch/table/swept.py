@@ -124,6 +124,10 @@ def read_sweep(folder: str | Path) -> Sweep:
     InputError
         The folder holds no sweep.
 
+    See Also
+    --------
+    sweep, results
+
     Examples
     --------
     >>> from tempfile import TemporaryDirectory

@@ -177,6 +177,10 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
     InputError
         There is no torque; names that the catalogue does not have.
 
+    See Also
+    --------
+    check, size
+
     Notes
     -----
     The largest loads over the turn of the whole drive, exactly: torque of every shaft, secondary couples at both its

@@ -82,6 +82,10 @@ def load_recording(
     MissingExtraError
         What reads universal files or TDMS is not installed.
 
+    See Also
+    --------
+    examine, estimate_rotation
+
     Examples
     --------
     >>> from tempfile import TemporaryDirectory

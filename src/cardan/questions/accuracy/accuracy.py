@@ -197,6 +197,10 @@ def transmission_error(
     -------
     TransmissionError
 
+    See Also
+    --------
+    tolerance, allocate
+
     Notes
     -----
     Each joint is the closed loop of `cardan.maths.kernel.loops` with α = (90°, 90°, 90°, bend) and no lengths, plus its

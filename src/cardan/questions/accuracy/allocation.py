@@ -171,6 +171,10 @@ def allocate(
     InputError
         The target is not above zero; known errors and what is kept use it up; what is kept is not given.
 
+    See Also
+    --------
+    tolerance, transmission_error
+
     Notes
     -----
     Least Σ w/t under Σ \\|C(φ)\\|^q t^q ≤ target^q at every φ, q = 2 or 1. In x = t^q the bounds are linear and the

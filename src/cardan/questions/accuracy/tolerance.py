@@ -175,6 +175,10 @@ def tolerance(
     InputError
         No joint has a tolerance.
 
+    See Also
+    --------
+    allocate, transmission_error
+
     Notes
     -----
     Worst case Σ \\|C\\| t, root of the sum of squares √Σ (C t)², C from `accuracy.sensitivity`;

@@ -220,6 +220,10 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
     InputError
         A shaft has no body or no length, or shafts can swing freely: with the keys to add.
 
+    See Also
+    --------
+    critical_speed_map, rotor_response
+
     Notes
     -----
     Timoshenko's beams with rotary inertia and gyroscopic action, hinged at the joints, in forward whirl as fast as

@@ -118,6 +118,10 @@ def rotor_response(
     InputError
         The drive does not say enough, or a speed is out of range.
 
+    See Also
+    --------
+    bending_speeds, balance
+
     Notes
     -----
     `rotor` reduces the shaft, `cracked_rotor.cracked_rotor` solves it. The unbalance of a shaft behind

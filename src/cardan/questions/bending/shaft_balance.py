@@ -156,6 +156,10 @@ def balance(
     InputError
         No speed; a grade or vehicle that the catalogue does not have.
 
+    See Also
+    --------
+    rotor_response, bending_speeds
+
     Notes
     -----
     ISO 21940-11: e Ω = G, half of U = m e for each of two planes. Vectors of unbalance u_j at x_j are the same as

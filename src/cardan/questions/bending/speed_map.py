@@ -90,6 +90,10 @@ def critical_speed_map(
     InputError
         As `bending_speeds`; or the support or shaft is not part of the line, or values are not positive.
 
+    See Also
+    --------
+    bending_speeds
+
     Notes
     -----
     Finite elements, all values in one stack.

@@ -136,6 +136,10 @@ def examine(
     InputError
         No such channel, a recording without vibration, or one without turns.
 
+    See Also
+    --------
+    diagnose, order_spectrum
+
     Examples
     --------
     >>> from cardan.questions.diagnosis.simulate import simulate_fault

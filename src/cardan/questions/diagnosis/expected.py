@@ -111,6 +111,10 @@ def expected_orders(
     InputError
         An unknown fault, one that the drive cannot have, or a severity not above 0.
 
+    See Also
+    --------
+    diagnose, simulate_fault
+
     Notes
     -----
     Unbalance U: force U ω² (Book (253)-(260) for the critical speed), half at each joint, amplified by the bending

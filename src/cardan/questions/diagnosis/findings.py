@@ -109,6 +109,10 @@ def diagnose(
     InputError
         A recording without vibration or without turns.
 
+    See Also
+    --------
+    examine, expected_orders
+
     Notes
     -----
     A recording: p = softmax(W φ), φ = (1, z, z² − 1) of the features of `cardan.questions.diagnosis.features`, W of the

@@ -107,6 +107,10 @@ def simulate_fault(
     InputError
         An unknown fault, one that the drive cannot have, or options out of range.
 
+    See Also
+    --------
+    expected_orders, diagnose
+
     Notes
     -----
     The orders are those of `expected_orders`, each with a phase and a factor exp(N(0, 0.25)) by chance. Noise is half

@@ -147,6 +147,10 @@ def assembly(
         No supports, a shaft that is not held, a length that is not given, or a drive held too much whose supports do
         not say how stiff they are.
 
+    See Also
+    --------
+    forces, repairs
+
     Notes
     -----
     Least complementary energy (Book p. 190 calls it a spatial frame): of all forces that balance every shaft, those

@@ -60,6 +60,10 @@ def forces(
         No torque, a shaft that is not held, more supports than statics can tell and no stiffness given, a joint that
         friction locks, or something that would need a speed.
 
+    See Also
+    --------
+    moving_forces, assembly, losses
+
     Notes
     -----
     End shafts on which no support stands are held by their machines, where the drive has any supports. Rigid shafts

@@ -180,6 +180,10 @@ def moving_forces(
     InputError
         No movement, no torque, no speed, or what `forces` refuses.
 
+    See Also
+    --------
+    forces, articulation
+
     Notes
     -----
     The span of `articulation`: the common period of the swings, or the length of tables and random movements. Exact at

@@ -52,6 +52,10 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
     InputError
         No speed, no torque, no joint whose life could be told: with the keys to add.
 
+    See Also
+    --------
+    strength, select_joint
+
     Notes
     -----
     ISO 281: L = a_1 10^6 turns/D, D = (1/2π) ∮ \\|dδ/dφ\\| (f_d Q/C)^(10/3) dφ, with the swing δ and the load

@@ -138,6 +138,10 @@ def rainflow(values: ArrayLike) -> Cycles:
     Cycles
         In the order in which they close; what stays open comes last, as halves.
 
+    See Also
+    --------
+    time_at_level
+
     Notes
     -----
     ASTM E1049-85, 5.4.4: of three turning points the earlier range is a cycle once the later one is no smaller, half
@@ -202,6 +206,10 @@ def time_at_level(times: ArrayLike, values: ArrayLike, *, edges: ArrayLike | int
     Returns
     -------
     Levels
+
+    See Also
+    --------
+    rainflow
 
     Notes
     -----

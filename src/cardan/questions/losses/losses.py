@@ -200,6 +200,10 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
     InputError
         No speed, no torque, or no friction at all: with the keys to add.
 
+    See Also
+    --------
+    loss_map, forces
+
     Notes
     -----
     Coulomb friction acting on itself: the cross of joint i carries T_i n and rubs with κ\\|T_i\\| in both yokes
@@ -383,6 +387,10 @@ def loss_map(
     ------
     InputError
         A speed of zero, or what `losses` misses; a joint that locks.
+
+    See Also
+    --------
+    losses
 
     Notes
     -----

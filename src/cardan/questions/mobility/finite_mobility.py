@@ -117,6 +117,10 @@ def finite_mobility(
     InputError
         No such joint, or one that does not turn; an angle, a tolerance or a number of steps that is none.
 
+    See Also
+    --------
+    mobility, mobility_over_turn
+
     Notes
     -----
     Displacements of the links are products of exponentials of the joints' screws along a spanning tree; all other joint

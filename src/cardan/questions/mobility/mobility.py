@@ -155,6 +155,10 @@ def mobility(thing: Drive | Mechanism) -> Mobility:
     InputError
         A drive without supports, or one with a shaft that nothing joins to the frame.
 
+    See Also
+    --------
+    mobility_over_turn, release, repairs
+
     Notes
     -----
     Twists t of the moving links meet w·(t_b - t_a) = 0 for every wrench w that a joint holds; G has these rows, r is

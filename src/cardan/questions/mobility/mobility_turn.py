@@ -96,6 +96,10 @@ def mobility_over_turn(
     InputError
         A drive that is no mechanism yet, or no joint that could be driven.
 
+    See Also
+    --------
+    mobility, finite_mobility
+
     Examples
     --------
     >>> from cardan.drive.support import Support

@@ -67,6 +67,10 @@ def release(mechanism: Mechanism, joint: str, way: Way, axis: ArrayLike) -> Rele
     InputError
         No such joint or way, or no direction.
 
+    See Also
+    --------
+    repairs, mobility
+
     Notes
     -----
     Either the freedom takes part in a state of stress, then q falls by one, or it does not, then W rises by one; what

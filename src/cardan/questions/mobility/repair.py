@@ -122,6 +122,10 @@ def repairs(thing: Drive | Mechanism, *, most: int = MOST) -> tuple[Repair, ...]
     InputError
         A drive that is no mechanism yet, see `cardan.questions.mobility.mobility.mobility`.
 
+    See Also
+    --------
+    release, mobility
+
     Notes
     -----
     A freedom that is added takes one redundant constraint away if it does work on a state of stress; several do if the

@@ -177,6 +177,10 @@ def articulation(
     JointAngleLimitError
         A joint bends 90 degrees or more at every instant.
 
+    See Also
+    --------
+    motion, moving_forces
+
     Notes
     -----
     Steep and impossible instants do not stop the series, they carry a status. `speed_fluctuation` freezes each instant;

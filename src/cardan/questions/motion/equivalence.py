@@ -106,6 +106,10 @@ def equivalent_joint(drive: Drive | Drives | Chain) -> EquivalentJoint:
     EquivalentJoint
         bend, phase, speed fluctuation, ratio_max … : arrays (...).
 
+    See Also
+    --------
+    motion, extremes
+
     Notes
     -----
     cos α_eq = (\\|a\\| - \\|b\\|)², δ = 4 \\|a\\| \\|b\\|, τ_eq = \\|b\\|/\\|a\\|; no positions are needed.

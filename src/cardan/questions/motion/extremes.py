@@ -117,6 +117,10 @@ def extremes(drives: Drives | Drive | Chain, *, out: Extremes | None = None, met
     InputError
         ``out`` has not the size of the results.
 
+    See Also
+    --------
+    motion, traces, equivalent_joint
+
     Notes
     -----
     δ = 4 \\|a\\| \\|b\\|, τ = \\|b\\|/\\|a\\|, i_max = (\\|a\\| + \\|b\\|)² of the drive's Möbius pair (a, b). The

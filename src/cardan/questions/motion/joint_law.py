@@ -122,6 +122,10 @@ def joint_turn(joint: Joint, joint_angle: float, angle: ArrayLike | None = None)
     InputError
         The joint angle is 90 degrees or more, or the joint does not turn at it.
 
+    See Also
+    --------
+    joint_over_angles, motion
+
     Examples
     --------
     >>> from cardan.drive.joints import DoubleCardan, Hooke
@@ -158,6 +162,10 @@ def joint_over_angles(joint: Joint, joint_angles: ArrayLike | None = None) -> Jo
     -------
     JointAngles
         arrays (m,).
+
+    See Also
+    --------
+    joint_turn
 
     Examples
     --------

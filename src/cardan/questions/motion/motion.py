@@ -166,6 +166,10 @@ def motion(
     InputError
         A joint with its sizes does not turn at its bend.
 
+    See Also
+    --------
+    extremes, traces, equivalent_joint
+
     Notes
     -----
     Joints of other kinds whose map is tan θ' = κ tan θ count as the Hooke joints that turn alike, see

@@ -94,6 +94,10 @@ def traces(
     InputError
         ``out`` has not the size of the results.
 
+    See Also
+    --------
+    motion, extremes
+
     Notes
     -----
     The drive's Möbius pair (a, b), then for each position k = b̄ w + ā, w = e^(2iφ_1): ratio 1/\\|k\\|², angle

@@ -74,6 +74,10 @@ def synchronous_yokes(
     InputError
         ``fixed`` names a shaft that has no two yokes, or ``weights`` has the wrong length.
 
+    See Also
+    --------
+    phases
+
     Notes
     -----
     No loop over drives, no iteration for up to four joints. A yoke that changes nothing keeps its angle. `phases` looks

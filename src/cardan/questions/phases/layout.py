@@ -103,6 +103,10 @@ def layout(
         The drive is not given by points, no joint has a box, ``weights`` has the wrong length, or no drive
         fits the boxes.
 
+    See Also
+    --------
+    phases
+
     Notes
     -----
     Sought are the smallest joint angles under L_i ≤ Σ L_j of the others, L = -ln cos α, for every joint i (joints with

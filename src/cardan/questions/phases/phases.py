@@ -124,6 +124,10 @@ def phases(
         A joint turns by a law of its own; ``fixed`` names a shaft that has no yokes to set, or a value that is not
         finite; the goal has too many or too few weights; a pose has another number of joints.
 
+    See Also
+    --------
+    layout, synchronous_yokes
+
     Notes
     -----
     Exact: with L_i = -ln cos α_i the drive can be synchronous if and only if the largest L is no more than the sum of

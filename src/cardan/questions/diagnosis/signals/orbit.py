@@ -146,6 +146,10 @@ def orbit(
     InputError
         The channels do not go together, or sit at one angle, or there are too few turns.
 
+    See Also
+    --------
+    order_spectrum, integrate
+
     Examples
     --------
     >>> time = np.arange(8000) / 2000

@@ -98,6 +98,10 @@ def tracked_orders(
     InputError
         Too few turns, or orders nearer to each other than two lines.
 
+    See Also
+    --------
+    order_map, order_spectrum
+
     Notes
     -----
     In every window all orders are fitted together by weighted least squares (Hann's window), so that they do not leak

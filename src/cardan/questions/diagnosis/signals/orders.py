@@ -170,6 +170,10 @@ def order_spectrum(
     InputError
         Too few turns, or a bad option.
 
+    See Also
+    --------
+    order_map, tracked_orders, estimate_rotation
+
     Examples
     --------
     >>> import numpy as np
@@ -243,6 +247,10 @@ def order_map(
     ------
     InputError
         Too few turns, or a bad option.
+
+    See Also
+    --------
+    order_spectrum, tracked_orders
 
     Examples
     --------

@@ -76,6 +76,10 @@ def integrate(channel: Channel, *, low: float) -> Channel:
     InputError
         There is no integral of its quantity, or the cut is not between 0 and half the rate.
 
+    See Also
+    --------
+    order_spectrum, orbit
+
     Notes
     -----
     Every line of the spectrum is divided by iω and by 1 + (low/f)⁸: 1e-3 of the amplitude is lost at 2.4 times ``low``,
@@ -130,6 +134,10 @@ def cepstrum(channel: Channel, rotation: Rotation | None = None, *, highest: flo
     ------
     InputError
         Too few turns or values.
+
+    See Also
+    --------
+    order_spectrum
 
     Notes
     -----

@@ -111,6 +111,10 @@ def torsional_vibration(
     InputError
         Too few teeth, pulses or turns.
 
+    See Also
+    --------
+    estimate_rotation, order_spectrum
+
     Notes
     -----
     Pulse k comes at t_k when the shaft stands at φ_k = 2πk/z. The even turning is the curve through (t̄_k, φ_k), where

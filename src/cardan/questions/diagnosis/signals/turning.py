@@ -67,6 +67,10 @@ def estimate_rotation(
     InputError
         Too few pulses or turns, or a shaft that stands.
 
+    See Also
+    --------
+    torsional_vibration, order_spectrum
+
     Examples
     --------
     >>> import numpy as np

@@ -210,6 +210,10 @@ def absorber(
         What the model misses, each with the key to add; a kind, mode or station that is not there; an inertia that is
         not positive; a pendulum without radius; a torque that runs in time.
 
+    See Also
+    --------
+    calm, torsion_response
+
     Notes
     -----
     Closed form: the mode reduced to the station has the inertia Σ J u²/u_s² there, and Book (250), (252) or the H∞

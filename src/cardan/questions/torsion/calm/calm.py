@@ -160,6 +160,10 @@ def calm(
         What the model misses, each with the key to add; no band of speeds; a path that leads to no number, a range that
         is none, a grid of too many designs.
 
+    See Also
+    --------
+    absorber, torsion_response
+
     Notes
     -----
     Every design runs on the exact equations at evenly spread speeds and about its own resonances, many designs in one

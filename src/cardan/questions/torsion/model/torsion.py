@@ -182,6 +182,10 @@ def torsion_modes(drive: Drive, duty: Duty | None = None, *, pieces: int = 1) ->
     InputError
         What the model misses, each with the key to add.
 
+    See Also
+    --------
+    torsion_response, stability
+
     Notes
     -----
     (K - ω²M) u = 0 with all joints straight, whose mean ratio is 1. Joints excite order 2, 4, …; the order ν meets ω

@@ -138,6 +138,10 @@ def stability(
     InputError
         What the model misses, a path that leads nowhere, a value that makes no drive, a map of too many points.
 
+    See Also
+    --------
+    torsion_modes, torsion_response
+
     Notes
     -----
     Floquet multipliers of the exact equations about the periodic motion; see `run_stability.floquet`.

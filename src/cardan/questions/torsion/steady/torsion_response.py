@@ -150,6 +150,10 @@ def torsion_response(
     InputError
         What the model misses, each with the key to add; a torque that runs in time.
 
+    See Also
+    --------
+    torsion_modes, stability, transient
+
     Notes
     -----
     Exact equations of motion with their periodic solution. Structural damping counts as viscous, b = ηc/(2Ω), equal at

@@ -126,6 +126,10 @@ def transient(
         What the model misses, each with the key to add; a settled start where nothing is steady; a span of more turns
         than anyone waits for.
 
+    See Also
+    --------
+    torsion_response, torsion_modes
+
     Notes
     -----
     Exact equations of motion, see `transient.simulate`; structural damping counts as viscous, equal at
