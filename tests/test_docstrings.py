@@ -3,12 +3,16 @@
 import inspect
 import re
 from dataclasses import fields, is_dataclass
+from importlib import import_module
 
 import pytest
 
 from tests.test_public_names import public_names
 
+from .house.exported import exported
+
 PUBLIC = public_names()
+
 FUNCTIONS = {name: thing for name, thing in PUBLIC.items() if inspect.isfunction(thing)}
 RECORDS = {name: thing for name, thing in PUBLIC.items() if inspect.isclass(thing) and is_dataclass(thing)}
 
@@ -87,3 +91,16 @@ def test_records_are_frozen_and_named(name):
     if not issubclass(kind, Exception):
         assert kind.__dataclass_params__.frozen
         assert all(field.kw_only for field in fields(kind))
+
+
+@pytest.mark.slow
+def test_what_pages_additions_and_calculations_take_documents_all_parameters_or_none():
+    """Those are told best in a sentence where they are plain."""
+    wrong = {}
+    for name in exported():
+        home, _dot, own = name.rpartition(".")
+        thing = getattr(import_module(home), own)
+        documented = [entry for entry, _ in section(inspect.getdoc(thing), "Parameters")]
+        if documented and not inspect.isclass(thing) and {*documented} != {*inspect.signature(thing).parameters}:
+            wrong[name] = documented
+    assert wrong == {}
