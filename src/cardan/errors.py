@@ -27,24 +27,13 @@ CODES = (
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One thing that is wrong.
+    """One thing that is wrong."""
 
-    Parameters
-    ----------
-    field : str
-        Path of the field, ``joints[1].centre`` in Python, ``joints[1].centre_mm`` in a file. Indices count from 0.
-    message : str
-        What was given and what is allowed, in one sentence.
-    code : str
-        One of `CODES`, for programs; empty where none of them fits.
-    paste : str
-        Tables that would mend it, as they stand in a drive file; empty where there are none.
-    """
-
+    # path of the field, ``joints[1].centre`` in Python, ``joints[1].centre_mm`` in a file. Indices count from 0.
     field: str
-    message: str
-    code: str = ""
-    paste: str = ""
+    message: str  # what was given and what is allowed, in one sentence
+    code: str = ""  # one of `CODES`, for programs; empty where none of them fits
+    paste: str = ""  # tables that would mend it, as they stand in a drive file; empty where there are none
 
     def __str__(self) -> str:
         return f"{self.field}: {self.message}" if self.field else self.message

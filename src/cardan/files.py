@@ -27,21 +27,9 @@ REFUSALS = (
 
 @dataclass(frozen=True, slots=True)
 class Enclosed:
-    """A folder that no name leads out of: for files from people one does not know.
+    """A folder that no name leads out of: for files from people one does not know."""
 
-    Parameters
-    ----------
-    path : Path
-        The folder.
-
-    Examples
-    --------
-    >>> Enclosed(Path("drives")) / "../secret.csv"
-    Traceback (most recent call last):
-    cardan.errors.InputError: ../secret.csv: leads out of the folder of the drive file
-    """
-
-    path: Path
+    path: Path  # the folder
 
     def __truediv__(self, name: str | Path) -> Path:
         try:
@@ -61,8 +49,6 @@ def folder_of(folder: str | Path | Enclosed) -> Path | Enclosed:
 def refusal(error: OSError) -> str:
     """Return why the system refused a file, in its own words, without numbers.
 
-    Examples
-    --------
     >>> refusal(FileNotFoundError(2, "No such file or directory"))
     'No such file or directory'
     """
@@ -72,22 +58,13 @@ def refusal(error: OSError) -> str:
 def write_text(path: Path, text: str) -> None:
     """Write a text file; a failure leaves what was there before.
 
-    Raises
-    ------
-    InputError
-        The file cannot be written.
+    Raises InputError: the file cannot be written.
     """
     write_bytes(path, text.encode("utf-8"))
 
 
 def write_bytes(path: Path, content: bytes) -> None:
-    """Write a file; a failure leaves what was there before.
-
-    Raises
-    ------
-    InputError
-        The file cannot be written.
-    """
+    """Write a file; a failure leaves what was there before."""
     temporary: str | None = None
     try:
         path = path.resolve()  # through a link: the file is replaced, the link stays

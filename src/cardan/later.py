@@ -16,20 +16,9 @@ from .texts import _
 def later(name: str, missing: str = "") -> Callable[[], Any]:
     """Return what imports a module when it is called.
 
-    Parameters
-    ----------
-    name : str
-        Of the module.
-    missing : str
-        What to tell where it is not installed, marked for translation; empty for a module that is always there.
+    missing: what to tell where it is not installed, marked for translation; empty for a module that is always there.
+    Returns: takes nothing and returns the module; raises `MissingExtraError` where it is not installed.
 
-    Returns
-    -------
-    function
-        Takes nothing and returns the module; raises `MissingExtraError` where it is not installed.
-
-    Examples
-    --------
     >>> fractions = later("fractions")
     >>> fractions().Fraction(1, 3)
     Fraction(1, 3)

@@ -352,13 +352,7 @@ QUESTIONS: dict[str, Question] = {
 
 
 def groups() -> dict[str, tuple[str, ...]]:
-    """Return the tabs, by their headings marked for translation, with the names of the questions on each.
-
-    Examples
-    --------
-    >>> groups()["Bending"]
-    ('bending', 'rotor', 'balance')
-    """
+    """Return the tabs, by their headings marked for translation, with the names of the questions on each."""
     found: dict[str, tuple[str, ...]] = {}
     for question in QUESTIONS.values():
         found[question.group] = (*found.get(question.group, ()), question.name)

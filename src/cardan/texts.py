@@ -23,13 +23,7 @@ LANGUAGES = {"en": "English", "ru": "Русский"}
 
 
 def known(name: str) -> str:
-    """Return the code of a language from its name in an environment, English where we do not speak it.
-
-    Examples
-    --------
-    >>> known("ru_RU.UTF-8"), known("RU"), known("tlh"), known("")
-    ('ru', 'ru', 'en', 'en')
-    """
+    """Return the code of a language from its name in an environment, English where we do not speak it."""
     code = name.replace("-", "_").partition("_")[0].partition(".")[0].lower()
     return code if code in LANGUAGES else "en"
 
@@ -39,14 +33,7 @@ _spoken: ContextVar[str] = ContextVar("cardan_language", default=_DEFAULT)
 
 
 def language() -> str:
-    """Return the code of the language spoken here: in this thread or task, that of ``CARDAN_LANG`` by default.
-
-    Examples
-    --------
-    >>> with speaking("ru"):
-    ...     language()
-    'ru'
-    """
+    """Return the code of the language spoken here: in this thread or task, that of ``CARDAN_LANG`` by default."""
     return _spoken.get()
 
 
@@ -78,25 +65,13 @@ def _catalogue(code: str) -> NullTranslations:
 
 
 def _(text: str) -> str:
-    """Return the sentence in the language spoken here, in English where it has no translation.
-
-    Examples
-    --------
-    >>> _("speed ratio")
-    'speed ratio'
-    """
+    """Return the sentence in the language spoken here, in English where it has no translation."""
     code = _spoken.get()
     return text if code == "en" or not text else _catalogue(code).gettext(text)
 
 
 def plural(one: str, many: str, count: int) -> str:
-    """Return the form of a sentence that fits ``count``.
-
-    Examples
-    --------
-    >>> plural("{count} joint", "{count} joints", 4).format(count=4)
-    '4 joints'
-    """
+    """Return the form of a sentence that fits ``count``."""
     code = _spoken.get()
     if code == "en":
         return one if count == 1 else many

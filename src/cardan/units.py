@@ -132,8 +132,6 @@ def factor(dimension: str, unit: str) -> float:
 def dimension_of(unit: str) -> str:
     """Return the first dimension that has a unit; empty where none has.
 
-    Examples
-    --------
     >>> dimension_of("deg"), dimension_of("")
     ('angle', '')
     """
@@ -141,32 +139,18 @@ def dimension_of(unit: str) -> str:
 
 
 def preferred(dimension: str) -> str:
-    """Return the unit we write for a dimension.
-
-    Examples
-    --------
-    >>> preferred("angular_speed")
-    'rpm'
-    """
+    """Return the unit we write for a dimension."""
     return next(iter(DIMENSIONS[dimension]))
 
 
 def label(unit: str) -> str:
-    """Return the printed form of a unit suffix.
-
-    Examples
-    --------
-    >>> label("rad_s2"), label("mm")
-    ('rad/s²', 'mm')
-    """
+    """Return the printed form of a unit suffix."""
     return spoken(LABELS.get(unit, unit))
 
 
 def thousands(value: float, decimals: int = 0) -> str:
     """Return a number with so many decimals, its thousands in thin groups.
 
-    Examples
-    --------
     >>> thousands(51090), thousands(1234.56, 1)
     ('51\u202f090', '1\u202f234.6')
     """
@@ -176,8 +160,6 @@ def thousands(value: float, decimals: int = 0) -> str:
 def spoken(printed: str) -> str:
     """Return a printed unit in the language spoken here, signs before it as they are.
 
-    Examples
-    --------
     >>> spoken("± N·m")
     '± N·m'
     >>> from cardan.texts import speaking
@@ -191,8 +173,6 @@ def spoken(printed: str) -> str:
 def nearest(word: str, known: Any) -> str | None:
     """Return the known word that ``word`` means: what an old name is called now, else the most alike; None if none is.
 
-    Examples
-    --------
     >>> nearest("bend_deg", ["centre_mm", "joint_angle_deg"])
     'joint_angle_deg'
     >>> nearest("centre_mmm", ["centre_mm", "joint_angle_deg"])
@@ -212,30 +192,16 @@ _OLD_WORD = re.compile(rf"(?<![a-z])({'|'.join(_OLD_WORDS)})(?![a-z])")
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """What a field of the drive model means in a file; stands in the field's metadata.
+    """What a field of the drive model means in a file; stands in the field's metadata."""
 
-    Parameters
-    ----------
-    doc : str
-        One sentence for schema, reference and error messages.
-    dimension : str or None
-        A key of `DIMENSIONS`; None for counts, ratios and names.
-    low, high : float
-        Allowed closed range in SI, `above` and `below` the open ends.
-    mirror : str
-        Name of an alternative key with the opposite sign (``yoke_lead`` for ``yoke_angle``).
-    choices : tuple of str
-        Allowed words.
-    """
-
-    doc: str
-    dimension: str | None = None
-    low: float = -math.inf
+    doc: str  # one sentence for schema, reference and error messages
+    dimension: str | None = None  # a key of `DIMENSIONS`; None for counts, ratios and names
+    low: float = -math.inf  # low, high: allowed closed range in SI, `above` and `below` the open ends
     high: float = math.inf
     above: float = -math.inf
     below: float = math.inf
-    mirror: str = ""
-    choices: tuple[str, ...] = ()
+    mirror: str = ""  # name of an alternative key with the opposite sign (``yoke_lead`` for ``yoke_angle``)
+    choices: tuple[str, ...] = ()  # allowed words
 
     def allows(self, value: float) -> bool:
         """Tell whether a value in SI lies in the allowed range."""

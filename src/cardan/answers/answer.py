@@ -27,31 +27,16 @@ FILE = "FILE"
 
 @dataclass(frozen=True, kw_only=True)
 class Cell:
-    """A value of a table that is more than its number: how good it is, a chip of colour before it.
+    """A value of a table that is more than its number: how good it is, a chip of colour before it."""
 
-    Attributes
-    ----------
-    value : float, int, str, bool, Text or None
-        In the unit of its column, or with a unit of its own where it is a `Quantity`.
-    tone : str
-        How good it is.
-    chip : str
-        Colour of a chip before it.
-    formula : str
-        The same in Typst's notation of mathematics, where it is an equation; never anything a user wrote.
-    before, after : str
-        Signs before and behind it: ``≤ ``, brackets.
-    unit : bool
-        Whether a quantity in another unit than that of the column says so.
-    """
-
-    value: Any
-    tone: Tone = "plain"
-    chip: str = ""
+    value: Any  # in the unit of its column, or with a unit of its own where it is a `Quantity`
+    tone: Tone = "plain"  # how good it is
+    chip: str = ""  # colour of a chip before it
+    # the same in Typst's notation of mathematics, where it is an equation; never anything a user wrote
     formula: str = ""
-    before: str = ""
+    before: str = ""  # before, after: signs before and behind it: ``≤ ``, brackets
     after: str = ""
-    unit: bool = True
+    unit: bool = True  # whether a quantity in another unit than that of the column says so
 
 
 Value: TypeAlias = float | int | str | bool | Text | Cell | None
@@ -161,30 +146,14 @@ class Table:
 
 @dataclass(frozen=True, kw_only=True)
 class Remark:
-    """A sentence below the tables: what it means, what to mind, what to do next.
+    """A sentence below the tables: what it means, what to mind, what to do next."""
 
-    Attributes
-    ----------
-    text : Text
-        The sentence.
-    tone : str
-        How good it is.
-    command : tuple of str
-        What to type next, with `FILE` for the file asked about.
-    code : str
-        What it is about, in one word for programs.
-    depth : str
-        How deep it goes.
-    alarm : bool
-        Whether the reader of the first page must not overlook it.
-    """
-
-    text: Text
-    tone: Tone = "plain"
-    command: tuple[str, ...] = ()
-    code: str = ""
-    depth: Depth = "brief"
-    alarm: bool = False
+    text: Text  # the sentence
+    tone: Tone = "plain"  # how good it is
+    command: tuple[str, ...] = ()  # what to type next, with `FILE` for the file asked about
+    code: str = ""  # what it is about, in one word for programs
+    depth: Depth = "brief"  # how deep it goes
+    alarm: bool = False  # whether the reader of the first page must not overlook it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -295,17 +264,8 @@ class Answer:
 def heads(heading: str, names: Sequence[str], *, chips: Sequence[str] = ()) -> tuple[Column, ...]:
     """Return the columns that head a table of parts counted from 1: number with name for people, each for programs.
 
-    Parameters
-    ----------
-    heading : str
-        What they are.
-    names : sequence of str
-        Their names, empty where they have none.
-    chips : sequence of str
-        Colours before them.
+    names: their names, empty where they have none; chips: colours before them.
 
-    Examples
-    --------
     >>> [list(column.values) for column in heads("joint", ["front", ""])]
     [['1 front', '2'], [1, 2], ['front', '']]
     """

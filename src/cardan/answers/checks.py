@@ -19,22 +19,12 @@ SHORT = -2
 
 @dataclass(frozen=True, kw_only=True)
 class Checked:
-    """One check.
+    """One check."""
 
-    Attributes
-    ----------
-    what, how : str
-        What is checked, and how.
-    left : float
-        What is left over, relative.
-    allowed : float
-        How much may be.
-    """
-
-    what: str
+    what: str  # what, how: what is checked, and how
     how: str
-    left: float
-    allowed: float
+    left: float  # what is left over, relative
+    allowed: float  # how much may be
 
     @property
     def passed(self) -> bool:
@@ -45,8 +35,6 @@ class Checked:
 def checks(rows: Sequence[Checked], depth: Depth = "full") -> Table:
     """Return the table of checks; residuals are told to people by their power of ten, to programs in full.
 
-    Examples
-    --------
     >>> from .printed import printed
     >>> from .reader import USUAL
     >>> held = Checked(what="power", how="in less out", left=3e-14, allowed=1e-9)
@@ -79,8 +67,6 @@ def checks(rows: Sequence[Checked], depth: Depth = "full") -> Table:
 def leftover(residual: float) -> str:
     """Return a residual for a cell beside what is allowed: below which power of ten it is, or that it is rounding.
 
-    Examples
-    --------
     >>> leftover(7e-16), leftover(3.2e-10), leftover(float("nan"))
     ('rounding', '< 10⁻⁹', '–')
     """
@@ -93,8 +79,6 @@ def leftover(residual: float) -> str:
 def closely(residual: float) -> str:
     """Return how closely a check holds, for a sentence.
 
-    Examples
-    --------
     >>> closely(7e-16), closely(3.2e-10), closely(0.02), closely(float("nan"))
     ('to rounding', 'to 10⁻⁹', 'to 0.1', 'not at all')
     """

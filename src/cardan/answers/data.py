@@ -22,17 +22,8 @@ BUFFER = 1 << 16
 def data(answer: Answer, reader: Reader) -> dict[str, Any]:
     """Return an answer as mappings, lists and numbers in full precision.
 
-    Parameters
-    ----------
-    answer : Answer
-        What is said.
-    reader : Reader
-        Whose units the keys carry; the decimal sign is for people.
-
-    Returns
-    -------
-    dict
-        Sentence, facts, tables under their names, remarks.
+    reader: whose units the keys carry; the decimal sign is for people.
+    Returns: sentence, facts, tables under their names, remarks.
     """
     whole = answer.full() if answer.full else ()
     tables = [*answer.tables, *([whole] if isinstance(whole, Table) else ())]
@@ -52,8 +43,6 @@ def data(answer: Answer, reader: Reader) -> dict[str, Any]:
 def tree(facts: Mapping[str, Any], reader: Reader) -> dict[str, Any]:
     """Return facts with the unit of every quantity behind its key.
 
-    Examples
-    --------
     >>> tree({"life": Quantity(3600.0, "duration"), "cycles": {"count": 3}}, Reader())
     {'life_h': 1.0, 'cycles': {'count': 3}}
     """
@@ -97,14 +86,7 @@ def _number(value: Any, factor: float, reader: Reader) -> Any:
 
 
 def as_csv(table: Table | Iterable[Table], reader: Reader) -> Iterator[str]:
-    """Yield the lines of a table, or of one in pieces, as CSV: in full precision and with decimal points.
-
-    Examples
-    --------
-    >>> column = Column(key="force", values=[1.5, None], dimension="force")
-    >>> "".join(as_csv(Table(columns=[column]), Reader())).splitlines()
-    ['force_N', '1.5', '""']
-    """
+    """Yield the lines of a table, or of one in pieces, as CSV: in full precision and with decimal points."""
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     for place, piece in enumerate((table,) if isinstance(table, Table) else table):
@@ -121,16 +103,7 @@ def as_csv(table: Table | Iterable[Table], reader: Reader) -> Iterator[str]:
 
 
 def as_json(content: Any) -> str:
-    """Return JSON in full precision, lists of numbers on one line.
-
-    Examples
-    --------
-    >>> print(as_json({"life_h": float("inf"), "share": [1.0, float("nan")]}))
-    {
-      "life_h": "∞",
-      "share": [1.0, null]
-    }
-    """
+    """Return JSON in full precision, lists of numbers on one line."""
     return _indented(simple(content), "")
 
 
@@ -149,8 +122,6 @@ def _indented(value: Any, margin: str) -> str:
 def simple(value: Any) -> Any:
     """Return arrays, tuples and numbers as what JSON knows; what is not a number is null, what is endless "∞".
 
-    Examples
-    --------
     >>> simple({"a": (1.0, float("nan"), float("-inf"))})
     {'a': [1.0, None, '-∞']}
     """

@@ -13,24 +13,7 @@ THIN = "\u202f"
 def significant(value: float, digits: int = 4) -> str:
     """Return a number with so many significant digits, a true minus and thin grouping.
 
-    Parameters
-    ----------
-    value : float
-        Any number.
-    digits : int
-        How many digits are significant.
-
-    Returns
-    -------
-    str
-        "–" for what is not a number, a power of ten for what is very small or large.
-
-    Examples
-    --------
-    >>> significant(0.125603), significant(-12.0, 3), significant(123456.0), significant(0.0)
-    ('0.1256', '−12.0', '123\u202f456', '0')
-    >>> significant(1e-9), significant(float("inf")), significant(float("nan"))
-    ('1.000·10⁻⁹', '∞', '–')
+    Returns: "–" for what is not a number, a power of ten for what is very small or large.
     """
     if not math.isfinite(value):
         return "–" if math.isnan(value) else "∞" if value > 0.0 else "−∞"
@@ -44,13 +27,7 @@ def significant(value: float, digits: int = 4) -> str:
 
 
 def fixed(value: float, decimals: int = 2) -> str:
-    """Return a number with so many decimals, never "-0".
-
-    Examples
-    --------
-    >>> fixed(-0.001), fixed(-22.918), fixed(float("inf"))
-    ('0.00', '−22.92', '∞')
-    """
+    """Return a number with so many decimals, never "-0"."""
     if not math.isfinite(value):
         return significant(value)
     return f"{value:z,.{decimals}f}".replace(",", THIN).replace("-", "−")
@@ -59,8 +36,6 @@ def fixed(value: float, decimals: int = 2) -> str:
 def trimmed(text: str) -> str:
     """Return a number in words without zeros at the end of its decimals; whole numbers keep theirs.
 
-    Examples
-    --------
     >>> trimmed("1\u202f500"), trimmed("0.2500"), trimmed("3.000"), trimmed("1.500·10⁻⁹")
     ('1\u202f500', '0.25', '3', '1.500·10⁻⁹')
     """
@@ -70,8 +45,6 @@ def trimmed(text: str) -> str:
 def raised(number: int) -> str:
     """Return a whole number in raised digits.
 
-    Examples
-    --------
     >>> raised(-12)
     '⁻¹²'
     """
@@ -81,8 +54,6 @@ def raised(number: int) -> str:
 def half_turn(angle: float) -> float:
     """Return an angle [°] in (-90, 90]: yokes and planes are lines, not arrows.
 
-    Examples
-    --------
     >>> half_turn(-90.0), half_turn(178.0)
     (90.0, -2.0)
     """
@@ -92,8 +63,6 @@ def half_turn(angle: float) -> float:
 def spreadsheet(value: float, digits: int = 4, decimals: int | None = None) -> str:
     """Return the number format of spreadsheets that shows as many digits as `significant` or `fixed`.
 
-    Examples
-    --------
     >>> spreadsheet(0.125603), spreadsheet(123456.0), spreadsheet(1e-9, 2), spreadsheet(0.5, decimals=2)
     ('0.0000', '#,##0', '0.0E+00', '0.00')
     """

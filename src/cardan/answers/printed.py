@@ -33,33 +33,16 @@ SHOWN: dict[Depth, tuple[Depth, ...]] = {
 
 @dataclass(frozen=True, kw_only=True)
 class Cell:
-    """A cell as it is printed.
-
-    Attributes
-    ----------
-    text : str
-        What it says.
-    tone : str
-        How good that is.
-    full : str
-        The number in full precision, for whoever points at it.
-    chip : str
-        Colour of a chip before the text.
-    formula : str
-        The same in Typst's notation of mathematics, where it is an equation; never anything a user wrote.
-    amount : float, optional
-        The number it shows, in the unit it is shown in.
-    form : str
-        Number format of spreadsheets.
-    """
+    """A cell as it is printed."""
 
     text: str
-    tone: Tone = "plain"
-    full: str = ""
-    chip: str = ""
+    tone: Tone = "plain"  # how good that is
+    full: str = ""  # the number in full precision, for whoever points at it
+    chip: str = ""  # colour of a chip before the text
+    # the same in Typst's notation of mathematics, where it is an equation; never anything a user wrote
     formula: str = ""
-    amount: float | None = None
-    form: str = ""
+    amount: float | None = None  # the number it shows, in the unit it is shown in
+    form: str = ""  # number format of spreadsheets
 
     @property
     def sign(self) -> str:
@@ -94,21 +77,7 @@ class Table:
 def printed(table: answer.Table, reader: Reader, depth: Depth = "full") -> Table:
     """Return a table as a reader sees it.
 
-    Parameters
-    ----------
-    table : Table
-        Quantities in SI.
-    reader : Reader
-        Units and decimal sign.
-    depth : str
-        Which columns stand in it.
-
-    Examples
-    --------
-    >>> force = answer.Column(key="force", heading="force", values=[1234.5, None], dimension="force")
-    >>> shown = printed(answer.Table(columns=[force]), Reader(units={"force": "kN"}, decimal=","))
-    >>> shown.columns[0].unit, [row[0].text for row in shown.rows]
-    ('kN', ['1,234', '–'])
+    table: quantities in SI; reader: units and decimal sign.
     """
     columns = [one for one in table.columns if one.depth in SHOWN[depth]]
     cells = [[cell(value, column, reader) for value in column.listed] for column in columns]
@@ -170,8 +139,6 @@ def number(quantity: Quantity, reader: Reader, *, unit: bool = True) -> Cell:
 def framed(form: str, before: str, after: str = "") -> str:
     """Return a number format of spreadsheets with signs around the number.
 
-    Examples
-    --------
     >>> framed("0.0", "≤ "), framed("0.0", "(", ")"), framed("", "≤ ")
     ('"≤ "0.0', '"("0.0")"', '')
     """

@@ -120,8 +120,6 @@ def _over(value: Any, factor: float) -> Any:
 class Unit:
     """The unit of a dimension as it stands in keys, for programs that are told it beside a number.
 
-    Examples
-    --------
     >>> Unit("torque").told(Reader(units={"torque": "lbft"})), Unit("time", "h").told(Reader())
     ('lbft', 'h')
     """
@@ -141,8 +139,6 @@ class Say:
     A place takes a quantity (``{force}``; ``{force:bare}`` its number alone, ``{force:unit}`` its unit alone), another
     sentence, a word or a whole number.
 
-    Examples
-    --------
     >>> text = say("from {low:bare} to {high}", low=Quantity(1e3, "torque"), high=Quantity(2e3, "torque"))
     >>> text.told(Reader(units={"torque": "kNm"}, decimal=","))
     'from 1,000 to 2,000 kN·m'
@@ -160,23 +156,14 @@ class Say:
 class Joined:
     """Several texts in a row.
 
-    Attributes
-    ----------
-    parts : sequence of Text
-        What is told one after the other; the empty ones are left out.
-    between, last : str
-        What stands between them, and before the last one where that is another word.
-
-    Examples
-    --------
     >>> Joined(["a", "b", "c"], last=" and ").told(Reader())
     'a, b and c'
     >>> Joined([Quantity(1.5), Quantity(2.5)]).told(Reader(decimal=","))
     '1,500; 2,500'
     """
 
-    parts: Sequence[Text]
-    between: str = ", "
+    parts: Sequence[Text]  # what is told one after the other; the empty ones are left out
+    between: str = ", "  # between, last: what stands between them, and before the last one where that is another word
     last: str = ""
 
     def told(self, reader: Reader) -> str:
@@ -199,21 +186,13 @@ def say(text: str, **values: Any) -> Say:
 
 
 def told(text: Text, reader: Reader) -> str:
-    """Return a text for a reader.
-
-    Examples
-    --------
-    >>> told("as it stands", Reader()), told(Quantity(0.5, "share"), Reader())
-    ('as it stands', '50.00 %')
-    """
+    """Return a text for a reader."""
     return text if isinstance(text, str) else text.told(reader)
 
 
 def numbered(number: int, name: str = "") -> str:
     """Return the number of a part with its name, as a sentence has it.
 
-    Examples
-    --------
     >>> numbered(4, "pinion, front"), numbered(2)
     ('4 (pinion, front)', '2')
     """
@@ -223,8 +202,6 @@ def numbered(number: int, name: str = "") -> str:
 def listed(numbers: Sequence[int]) -> str:
     """Return numbers of parts, a run of more than two as a range.
 
-    Examples
-    --------
     >>> listed([1, 4]), listed([1, 2, 3])
     ('1, 4', '1 to 3')
     """

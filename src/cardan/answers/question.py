@@ -163,8 +163,6 @@ def absent(*conditions: tuple[bool | str, ...]) -> Lacking:
 def all_of(paths: Sequence[str]) -> Lacking:
     """Return paths all of which are missing, each once.
 
-    Examples
-    --------
     >>> all_of(["duty.torque", "duty.torque"])
     (('duty.torque',),)
     """

@@ -17,30 +17,11 @@ from .numbers import fixed, significant, trimmed
 
 @dataclass(frozen=True, kw_only=True)
 class Reader:
-    """Units and decimal sign of whoever looks; the usual ones where nothing is said.
+    """Units and decimal sign of whoever looks; the usual ones where nothing is said."""
 
-    Attributes
-    ----------
-    units : mapping of str to str
-        Dimension -> unit, as in the keys of a drive file: ``{"length": "in"}``.
-    decimal : str
-        Sign between whole and part: ``"."`` or ``","``.
-
-    Raises
-    ------
-    InputError
-        There is no such dimension or unit, or the sign is none; all of them at once.
-
-    Examples
-    --------
-    >>> Reader(units={"length": "in"}).unit("length")
-    ('in', 0.0254)
-    >>> Reader(decimal=",").number(12.5)
-    '12,50'
-    """
-
+    # dimension -> unit, as in the keys of a drive file: ``{"length": "in"}``
     units: Mapping[str, str] = field(default_factory=dict)
-    decimal: str = "."
+    decimal: str = "."  # sign between whole and part: ``"."`` or ``","``
 
     def __post_init__(self) -> None:
         problems = [*_unknown(self.units)]
@@ -108,14 +89,7 @@ def reader() -> Reader:
 
 @contextmanager
 def reading(who: Reader) -> Iterator[None]:
-    """Let a reader read within, and the one before afterwards.
-
-    Examples
-    --------
-    >>> with reading(Reader(decimal=",")):
-    ...     reader().number(1.5, 2)
-    '1,5'
-    """
+    """Let a reader read within, and the one before afterwards."""
     before = _reading.set(who)
     try:
         yield
@@ -126,20 +100,8 @@ def reading(who: Reader) -> Iterator[None]:
 def chosen(given: Sequence[str], decimal: str = ".") -> Reader:
     """Return the reader that options describe.
 
-    Parameters
-    ----------
-    given : sequence of str
-        Each ``dimension=unit``, such as ``length=in``.
-    decimal : str
-        Sign between whole and part.
+    given: each ``dimension=unit``, such as ``length=in``; decimal: sign between whole and part.
 
-    Raises
-    ------
-    InputError
-        Everything that is no dimension, unit or sign.
-
-    Examples
-    --------
     >>> chosen(["length=in"], ",").units
     {'length': 'in'}
     """

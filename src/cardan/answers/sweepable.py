@@ -89,8 +89,6 @@ class SweepQuestion:
 def each(stem: str, dimension: str, unit: str, text: str) -> tuple[OutputColumn, ...]:
     """Return the columns of the first `MODES` of a list.
 
-    Examples
-    --------
     >>> [one.name for one in each("critical_speed", "angular_speed", "rpm", "")]
     ['critical_speed_rpm[0]', 'critical_speed_rpm[1]', 'critical_speed_rpm[2]']
     """
@@ -102,8 +100,6 @@ def each(stem: str, dimension: str, unit: str, text: str) -> tuple[OutputColumn,
 def first(values: Iterable[float]) -> list[float]:
     """Return the first `MODES` values, nan where there are fewer.
 
-    Examples
-    --------
     >>> first([2.0])
     [2.0, nan, nan]
     """

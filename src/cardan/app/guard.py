@@ -34,23 +34,12 @@ class Guard:
 
     A page elsewhere could send a browser here under another name or from another origin; both are refused. Where a
     token is asked for it comes once in the address and then in a cookie that scripts cannot read.
-
-    Parameters
-    ----------
-    app : ASGI application
-        What answers to those let in.
-    names : tuple of str
-        Names under which the server may be asked; any when empty.
-    token : str
-        What a visitor must know; nothing when empty.
-    apart : bool
-        Give every visitor a name of their own, in a cookie.
     """
 
-    app: App
-    names: tuple[str, ...] = LOCAL
-    token: str = ""
-    apart: bool = False
+    app: App  # what answers to those let in
+    names: tuple[str, ...] = LOCAL  # names under which the server may be asked; any when empty
+    token: str = ""  # what a visitor must know; nothing when empty
+    apart: bool = False  # give every visitor a name of their own, in a cookie
 
     async def __call__(self, scope: Mapping[str, Any], receive: Any, send: Any) -> None:
         """Let a request through or answer it with a refusal."""
@@ -101,8 +90,6 @@ class Guard:
 def cookies_of(headers: Mapping[str, str]) -> dict[str, str]:
     """Return the cookies of a request; one that another server of this machine spoilt hides no other.
 
-    Examples
-    --------
     >>> cookies_of({"cookie": 'odd:name={"a": 1}; cardan_token=abc'})["cardan_token"]
     'abc'
     """

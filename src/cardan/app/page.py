@@ -80,10 +80,7 @@ def kept_choices(cookies: Mapping[str, str]) -> Mapping[str, Any]:
 def open_example(session: Session, name: str) -> None:
     """Open a shipped example as a new file.
 
-    Raises
-    ------
-    InputError
-        There is no such example.
+    Raises InputError: there is no such example.
     """
     session.open(example_text(name), saved=False)
 
@@ -91,12 +88,7 @@ def open_example(session: Session, name: str) -> None:
 def build(session: Session, jobs: Jobs) -> None:
     """Build the page of one window.
 
-    Parameters
-    ----------
-    session : Session
-        What its user works on.
-    jobs : Jobs
-        Where long answers are made.
+    jobs: where long answers are made.
     """
     ui.add_head_html('<link rel="stylesheet" href="/cardan/app.css">')
     ui.colors(primary="#1f4e8c", positive="#1b7f4b", negative="#b3261e", warning="#9a5b00")

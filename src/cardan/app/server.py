@@ -35,27 +35,14 @@ RECONNECT = 30.0
 
 @dataclass(frozen=True, kw_only=True)
 class Start:
-    """How the app starts.
+    """How the app starts."""
 
-    Parameters
-    ----------
-    folder : Path
-        Folder with the drive files: nothing outside it is read or written.
-    file : str
-        Name of the file in it to open; empty to offer the examples.
-    host : str
-        Address to listen at; anything but this machine asks for a token and gives each visitor a folder of their own.
-    port : int or None
-        Port to listen at; None for the usual or any free one.
-    show : bool
-        Open the browser.
-    """
-
-    folder: Path
-    file: str = ""
+    folder: Path  # folder with the drive files: nothing outside it is read or written
+    file: str = ""  # name of the file in it to open; empty to offer the examples
+    # address to listen at; anything but this machine asks for a token and gives each visitor a folder of their own
     host: str = "127.0.0.1"
-    port: int | None = None
-    show: bool = True
+    port: int | None = None  # port to listen at; None for the usual or any free one
+    show: bool = True  # open the browser
 
     @property
     def shared(self) -> bool:
@@ -66,17 +53,8 @@ class Start:
 def start(how: Start) -> None:
     """Run the app until it is interrupted.
 
-    Parameters
-    ----------
-    how : Start
-        Where and with which file.
-
-    Raises
-    ------
-    InputError
-        The port is taken, or there is no such folder or file.
-    MissingExtraError
-        NiceGUI is not installed.
+    how: where and with which file.
+    Raises MissingExtraError: NiceGUI is not installed.
     """
     app, ui, page = nicegui().app, nicegui().ui, pages()
     if not how.folder.is_dir():
@@ -149,13 +127,7 @@ def _visitor(request: Any) -> str:
 
 
 def _port(how: Start) -> int:
-    """Return the port to listen at.
-
-    Raises
-    ------
-    InputError
-        The one asked for is taken.
-    """
+    """Return the port to listen at."""
     for port in (how.port,) if how.port else (PORT, 0):
         with socket.socket(socket.AF_INET6 if ":" in how.host else socket.AF_INET) as probe:
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

@@ -28,16 +28,7 @@ GROUPS = 24
 def answer(work: SweepWork, found: Sweep, plan: Path, *, keeps: bool) -> Answer:
     """Return what there is to say of a sweep.
 
-    Parameters
-    ----------
-    work : SweepWork
-        What was to be done.
-    found : Sweep
-        What was.
-    plan : Path
-        Its file.
-    keeps : bool
-        Whether rows are kept.
+    keeps: whether rows are kept.
     """
     counts = found.reductions.get("points", {})
     answered = int(counts.get("answered", 0))

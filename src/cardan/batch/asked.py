@@ -30,40 +30,18 @@ FEW = 160
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Asked:
-    """What is wanted of a table.
-
-    Attributes
-    ----------
-    results : Results
-    path : Path
-        Its folder.
-    goals : tuple of Goal
-        One for the best points, more for a choice; none for the whole table.
-    limits : tuple of Limit
-    where : str
-        Condition in SQL.
-    count : int
-        Points of the best.
-    query : str
-        A question in SQL instead.
-    of : str
-        The answer that is drawn.
-    over : tuple of str
-        The fields of a map.
-    kinds : tuple of str
-        What is drawn.
-    """
+    """What is wanted of a table."""
 
     results: Results
-    path: Path
-    goals: tuple[Goal, ...]
+    path: Path  # its folder
+    goals: tuple[Goal, ...]  # one for the best points, more for a choice; none for the whole table
     limits: tuple[Limit, ...]
-    where: str
-    count: int
-    query: str
-    of: str
-    over: tuple[str, ...]
-    kinds: tuple[str, ...]
+    where: str  # condition in SQL
+    count: int  # points of the best
+    query: str  # a question in SQL instead
+    of: str  # the answer that is drawn
+    over: tuple[str, ...]  # the fields of a map
+    kinds: tuple[str, ...]  # what is drawn
 
     def check(self) -> None:
         """Refuse names that are no columns, all at once."""

@@ -33,22 +33,12 @@ UNKNOWN = 256
 
 @dataclass(frozen=True, slots=True)
 class Chunk:
-    """Rows ``start`` to ``stop`` of a sweep.
+    """Rows ``start`` to ``stop`` of a sweep."""
 
-    Attributes
-    ----------
-    index : int
-        Which chunk it is.
-    start, stop : int
-        Its rows.
-    name : str
-        Where it begins, and a hash of the sweep and of its rows: the same name means the same content.
-    """
-
-    index: int
-    start: int
+    index: int  # which chunk it is
+    start: int  # start, stop: its rows
     stop: int
-    name: str
+    name: str  # where it begins, and a hash of the sweep and of its rows: the same name means the same content
 
     @property
     def size(self) -> int:
@@ -58,27 +48,11 @@ class Chunk:
 
 @dataclass(frozen=True, slots=True)
 class Chunks(Sequence[Chunk]):
-    """All chunks of a sweep, each made when it is asked for: millions of them take no memory.
+    """All chunks of a sweep, each made when it is asked for: millions of them take no memory."""
 
-    Parameters
-    ----------
-    work : str
-        Name of the sweep.
-    size : int
-        How many points it has.
-    rows : int
-        How many rows a chunk has; the last one may have fewer.
-
-    Examples
-    --------
-    >>> chunks = Chunks("a sweep", size=10, rows=4)
-    >>> [(chunk.start, chunk.stop) for chunk in chunks]
-    [(0, 4), (4, 8), (8, 10)]
-    """
-
-    work: str
-    size: int
-    rows: int
+    work: str  # name of the sweep
+    size: int  # how many points it has
+    rows: int  # how many rows a chunk has; the last one may have fewer
 
     def __len__(self) -> int:
         return -(-self.size // self.rows)
@@ -106,14 +80,7 @@ class Chunks(Sequence[Chunk]):
 def made(work: Work, start: int, stop: int, *, keeps: bool) -> tuple[Rows | None, list[State]]:
     """Return rows ``start`` to ``stop``, and what each reduction has seen in them.
 
-    Parameters
-    ----------
-    work : Work
-        The sweep.
-    start, stop : int
-        Which rows.
-    keeps : bool
-        Whether the rows are wanted; without them, a work with a method ``reduced`` sums up without holding them.
+    keeps: whether the rows are wanted; without them, a work with a method ``reduced`` sums up without holding them.
     """
     reduced = getattr(work, "reduced", None)
     if not keeps and reduced is not None:
@@ -126,18 +93,8 @@ def made(work: Work, start: int, stop: int, *, keeps: bool) -> tuple[Rows | None
 def chunks_of(work: Work, rows: int | None = None, *, keeps: bool = True) -> Chunks:
     """Return the chunks of a sweep.
 
-    Parameters
-    ----------
-    work : Work
-        The sweep.
-    rows : int, optional
-        Rows of a chunk; measured by `rows_for` by default.
-    keeps : bool
-        Whether rows are kept.
-
-    Returns
-    -------
-    Chunks
+    rows: rows of a chunk; measured by `rows_for` by default.
+    keeps: whether rows are kept.
     """
     return Chunks(work.name, work.size, rows if rows is not None else rows_for(work, keeps=keeps))
 
@@ -145,24 +102,10 @@ def chunks_of(work: Work, rows: int | None = None, *, keeps: bool = True) -> Chu
 def rows_for(work: Work, *, keeps: bool = True, target: float = TARGET, room: int = ROOM) -> int:
     """Return how many rows make a chunk that takes about ``target`` seconds and at most ``room`` bytes, measured.
 
-    Parameters
-    ----------
-    work : Work
-        The sweep; a few rows from its middle are evaluated.
-    keeps : bool
-        Whether rows are kept.
-    target : float [s]
-        Time a chunk should take.
-    room : int
-        Bytes that its making may take, working space included.
-
-    Returns
-    -------
-    int
-        A power of two, so that small differences of the clock seldom change it; at least 1.
-
-    Notes
-    -----
+    work: the sweep; a few rows from its middle are evaluated.
+    keeps: whether rows are kept; target [s]: time a chunk should take.
+    room: bytes that its making may take, working space included.
+    Returns: a power of two, so that small differences of the clock seldom change it; at least 1.
     Memory is the slope of the traced peak between one row and many: what is allocated once does not count a row. Rows
     that cannot be evaluated tell nothing; their chunks will say why.
     """

@@ -40,25 +40,13 @@ RUNS = 8
 
 @dataclass(frozen=True, kw_only=True)
 class SweepWork:
-    """A whole sweep; a `cardan.batch.work.Work`.
+    """A whole sweep; a `cardan.batch.work.Work`."""
 
-    Attributes
-    ----------
-    ask : DriveEvaluator
-        Questions, and the drive in which fields vary.
-    points : Points
-    limits : tuple of Limit
-        What a point has to keep to be feasible.
-    reduce : tuple of Reduce
-    title : str
-        What to call it.
-    """
-
-    ask: DriveEvaluator
+    ask: DriveEvaluator  # questions, and the drive in which fields vary
     points: Points
-    limits: tuple[Limit, ...] = ()
+    limits: tuple[Limit, ...] = ()  # what a point has to keep to be feasible
     reduce: tuple[Reduce, ...] = ()
-    title: str = ""
+    title: str = ""  # what to call it
     reductions: tuple[Reduction, ...] = field(init=False, default=())
 
     def __post_init__(self) -> None:
@@ -182,37 +170,11 @@ def work_of(
 ) -> SweepWork:
     """Return a sweep as work for an engine.
 
-    Parameters
-    ----------
-    drive : Drive
-    vary : mapping of str to sequence, or sequence of Axis
-        Path with unit -> list of values; or axes: `GridAxis`, `TableAxis`, `SampledAxis`. Every point of their
-        product is one.
-    ask : sequence of str
-        Names of questions, see `questions`.
-    reduce : sequence of str or Reduce
-        ``"max speed_fluctuation by duty.speed_rpm"`` and the like.
-    constraints : sequence of str or Limit
-        ``"speed_fluctuation <= 0.02"``: what a point has to keep to be feasible.
-    known : Catalogue, optional
-        Where sizes and grades are looked up; the shipped one when not given.
-    device : {"cpu", "gpu"}
-    title : str
-        What to call it.
-
-    Raises
-    ------
-    InputError
-        All that is wrong with the sweep, at once.
-
-    Examples
-    --------
-    >>> pair = Drive.from_angles([0.3, 0.3])
-    >>> angles = {"joints[1].joint_angle_deg": [10.0, 20.0]}
-    >>> work = work_of(pair, angles, ["speed_fluctuation"], constraints=["speed_fluctuation <= 1"])
-    >>> rows = work.evaluate(0, 2)
-    >>> list(rows), rows["feasible"]
-    (['joints[1].joint_angle_deg', 'speed_fluctuation', 'status', 'feasible'], array([ True,  True]))
+    vary: path with unit -> list of values; or axes: `GridAxis`, `TableAxis`, `SampledAxis`. Every point of their
+    product is one.
+    ask: names of questions, see `questions`; reduce: ``"max speed_fluctuation by duty.speed_rpm"`` and the like.
+    constraints: ``"speed_fluctuation <= 0.02"``: what a point has to keep to be feasible.
+    known: where sizes and grades are looked up.
     """
     problems: list[Problem] = []
     axes: list[Axis] = []
@@ -286,13 +248,6 @@ def _collect(problems: list[Problem], into: list[Any], make: Any) -> None:
 def listed(drive: Drive, path: str, values: Any) -> TableAxis:
     """Return the axis of a path with a list of values; a path of a list of numbers takes lists of them.
 
-    Raises
-    ------
-    InputError
-        It is no list, or a distribution.
-
-    Examples
-    --------
     >>> drive = Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0)])
     >>> listed(drive, "joints[0].centre_mm", [[0, 1, 2]]).fields[2]
     'joints[0].centre_mm[2]'

@@ -29,12 +29,7 @@ LONG = 24
 def answer(asked: Asked, exported: tuple[Path, int] | None = None) -> Answer:
     """Return what there is to say of what was asked of a table.
 
-    Parameters
-    ----------
-    asked : Asked
-        The table, and what is wanted of it.
-    exported : (path, int), optional
-        Where rows were written, and how many.
+    asked: the table, and what is wanted of it; exported (path, int): where rows were written, and how many.
     """
     return Answer(
         name="sweep show",

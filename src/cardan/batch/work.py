@@ -38,25 +38,14 @@ FEASIBLE = "feasible"
 
 @dataclass(frozen=True, kw_only=True)
 class Column:
-    """One column of the table of a sweep.
+    """One column of the table of a sweep."""
 
-    Attributes
-    ----------
-    name : str
-        Name in the table: a path of the drive file (``joints[1].centre_mm[2]``), or the name of a question with its
-        unit at the end (``alpha_eq_deg``).
-    unit : str
-        Key of `cardan.units` in which the numbers stand; empty for numbers without a dimension and for words.
-    role : {"point", "answer", "status"}
-        What the column holds.
-    text : str
-        What it means, to be translated where it is shown.
-    """
-
+    # name in the table: a path of the drive file (``joints[1].centre_mm[2]``), or the name of a question with its unit
+    # at the end (``alpha_eq_deg``)
     name: str
-    unit: str
-    role: Role
-    text: str
+    unit: str  # key of `cardan.units` in which the numbers stand; empty for numbers without a dimension and for words
+    role: Role  # what the column holds
+    text: str  # what it means, to be translated where it is shown
 
 
 @runtime_checkable

@@ -26,13 +26,7 @@ def lacking(drive: Drive) -> Lacking:
 
 
 def ask(drive: Drive) -> BookComparison | None:
-    """Return the exact motion beside the classical approximations; None where there is nothing to compare.
-
-    Examples
-    --------
-    >>> ask(Drive.from_angles([0.0])) is None
-    True
-    """
+    """Return the exact motion beside the classical approximations; None where there is nothing to compare."""
     if unmapped(drive.joints) or each_uniform(drive):
         return None
     return book_comparison(drive)
@@ -46,14 +40,7 @@ def otherwise(drive: Drive) -> str:
 
 
 def differ(result: BookComparison) -> bool:
-    """Tell whether an approximation says something else than the exact motion, in three digits.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> [differ(book_comparison(Drive.from_angles([angle * deg]))) for angle in (0.5, 20.0)]
-    [False, True]
-    """
+    """Tell whether an approximation says something else than the exact motion, in three digits."""
     exact = float(result.speed_fluctuation)
     told = (result.speed_fluctuation_80, result.speed_fluctuation_mean_phases, result.speed_fluctuation_without_theta)
     return any(abs(float(one) - exact) > ALIKE * exact for one in told)

@@ -62,24 +62,15 @@ def cascade_shares(ratio: ArrayLike) -> Array:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class WindUp:
-    """What axles that are geared together do to one another on the road.
+    """What axles that are geared together do to one another on the road."""
 
-    Attributes
-    ----------
-    rate : array (...) [rad/m]
-        Twist between the axle with the smallest and the one with the largest wheels, for each metre travelled.
-    slip : array (...)
-        Difference of their radii over the mean: the slip that takes the twist away again.
-    torque_rate : array (...) [N·m/m]
-        Circulating torque gained on each metre, until a wheel slips; nan where the stiffness is not given.
-    distance : array (...) [m]
-        After which a wheel slips; nan where grip or stiffness is not given.
-    """
-
+    # (...) [rad/m]: twist between the axle with the smallest and the one with the largest wheels, for each metre
+    # travelled
     rate: Array
-    slip: Array
+    slip: Array  # (...): difference of their radii over the mean: the slip that takes the twist away again
+    # (...) [N·m/m]: circulating torque gained on each metre, until a wheel slips; nan where the stiffness is not given
     torque_rate: Array
-    distance: Array
+    distance: Array  # (...) [m]: after which a wheel slips; nan where grip or stiffness is not given
 
 
 def wind_up(

@@ -26,23 +26,13 @@ _Wave: TypeAlias = tuple[float, Array, Array]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class BookSeries:
-    """A chain's output angle as a short Fourier sum; leading axes are those of the drives.
+    """A chain's output angle as a short Fourier sum; leading axes are those of the drives."""
 
-    Attributes
-    ----------
-    constant : array (...) [rad]
-        Θ_n.
-    a1, b1 : array (...) [rad]
-        Coefficients of sin 2φ_1 and cos 2φ_1.
-    a2, b2 : array (...) [rad]
-        Coefficients of sin 4φ_1 and cos 4φ_1; zero in the first order.
-    """
-
-    constant: Array
-    a1: Array
-    b1: Array
-    a2: Array
-    b2: Array
+    constant: Array  # (...) [rad]: Θ_n
+    a1: Array  # a1, b1 (...) [rad]: coefficients of sin 2φ_1 and cos 2φ_1
+    b1: Array  # (...) [rad]
+    a2: Array  # a2, b2 (...) [rad]: coefficients of sin 4φ_1 and cos 4φ_1; zero in the first order
+    b2: Array  # (...) [rad]
 
     @property
     def amplitude(self) -> Array:

@@ -67,24 +67,10 @@ def roller_turn(turn: ArrayLike, place: ArrayLike, radius: ArrayLike) -> Array:
 def differentiated(place: ArrayLike, radius: ArrayLike, input_scale: ArrayLike, output_scale: ArrayLike) -> Array:
     """Return the derivative that a differentiator shows while its two arrows are held together.
 
-    Parameters
-    ----------
-    place : array (...) [m]
-        ρ of the roller that holds them together.
-    radius : array (...) [m]
-        r_2 > 0.
-    input_scale, output_scale : arrays (...)
-        m_φ1, m_φ4: turn of the disc for a unit of the variable u, and of the function's arrow for a unit of θ [rad].
-
-    Returns
-    -------
-    array (...)
-        θ'(u) = (m_φ1/m_φ4) ρ/r_2, Litvin (7.5)-(7.7).
-
-    Examples
-    --------
-    >>> print(differentiated(0.008, 0.02, 1.0, 1.0))
-    0.4
+    place (...) [m]: ρ of the roller that holds them together; radius (...) [m]: r_2 > 0.
+    input_scale, output_scale (...): m_φ1, m_φ4: turn of the disc for a unit of the variable u, and of the function's
+    arrow for a unit of θ [rad].
+    Returns (...): θ'(u) = (m_φ1/m_φ4) ρ/r_2, Litvin (7.5)-(7.7).
     """
     rho, size, one, other = floats(place, radius, input_scale, output_scale)
     return one / other * rho / size

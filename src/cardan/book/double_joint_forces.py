@@ -17,39 +17,21 @@ from cardan.questions.forces.kinetostatics import Couples, Stand, couples, stand
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class DoubleJointForces:
-    """Couples and forces of a double joint at constant torque of its last shaft; axes (...) drives, then positions.
+    """Couples and forces of a double joint at constant torque of its last shaft; axes (...) drives, then positions."""
 
-    Attributes
-    ----------
-    driving_torque : array (..., p) [N·m]
-        M_1.
-    first_couple : array (..., p) [N·m]
-        Secondary couple on shaft 1.
-    middle_first, middle_second : arrays (..., p) [N·m]
-        Secondary couples on shaft 2, of joint 1 and of joint 2.
-    last_couple : array (..., p) [N·m]
-        Secondary couple on shaft 3.
-    middle_couple : array (..., p) [N·m]
-        Resultant on shaft 2.
-    pair : array (..., p, 3) [N]
-        Force N of joint 2 on shaft 2, and the opposite of joint 1, that balance the resultant.
-    along_arm, across_arm : arrays (..., p) [N]
-        Size of its parts along and across the driven arm on shaft 2.
-    first_axial, last_axial : arrays (..., p) [N]
-        Axial loads of shafts 1 and 3.
-    """
-
-    driving_torque: Array
-    first_couple: Array
+    driving_torque: Array  # (..., p) [N·m]: M_1
+    first_couple: Array  # (..., p) [N·m]: secondary couple on shaft 1
+    # middle_first, middle_second (..., p) [N·m]: secondary couples on shaft 2, of joint 1 and of joint 2
     middle_first: Array
-    middle_second: Array
-    last_couple: Array
-    middle_couple: Array
+    middle_second: Array  # (..., p) [N·m]
+    last_couple: Array  # (..., p) [N·m]: secondary couple on shaft 3
+    middle_couple: Array  # (..., p) [N·m]: resultant on shaft 2
+    # (..., p, 3) [N]: force N of joint 2 on shaft 2, and the opposite of joint 1, that balance the resultant
     pair: Array
-    along_arm: Array
-    across_arm: Array
-    first_axial: Array
-    last_axial: Array
+    along_arm: Array  # along_arm, across_arm (..., p) [N]: size of its parts along and across the driven arm on shaft 2
+    across_arm: Array  # (..., p) [N]
+    first_axial: Array  # first_axial, last_axial (..., p) [N]: axial loads of shafts 1 and 3
+    last_axial: Array  # (..., p) [N]
 
     @property
     def pair_force(self) -> Array:

@@ -91,34 +91,18 @@ def book_zone(q: ArrayLike, n: ArrayLike) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Validity:
-    """Whether the parametric term may be neglected, by the book's rule and by solving.
+    """Whether the parametric term may be neglected, by the book's rule and by solving."""
 
-    Attributes
-    ----------
-    stable : bool
-        Whether steady running is stable.
-    beta : float
-        Characteristic exponent; nan where it is not.
-    order : array (m,)
-        Forcing orders.
-    distance : array (m,)
-        Of each from the nearest β + 2r or -β + 2r; nan where there is no β.
-    rule : bool
-        Whether Book (237) is met, orders 0, 1 and 2 included.
-    solved, simple : arrays (m,)
-        Amplitude of each order's own response to a unit force: solved, and 1/\\|a - ν²\\|; infinite in resonance.
-    side : array (m,)
-        Largest amplitude at any other order.
-    """
-
-    stable: bool
-    beta: float
-    order: Array
-    distance: Array
-    rule: bool
+    stable: bool  # whether steady running is stable
+    beta: float  # characteristic exponent; nan where it is not
+    order: Array  # (m,): forcing orders
+    distance: Array  # (m,): of each from the nearest β + 2r or -β + 2r; nan where there is no β
+    rule: bool  # whether Book (237) is met, orders 0, 1 and 2 included
+    # solved, simple (m,): amplitude of each order's own response to a unit force: solved, and 1/|a - ν²|; infinite in
+    # resonance
     solved: Array
-    simple: Array
-    side: Array
+    simple: Array  # (m,)
+    side: Array  # (m,): largest amplitude at any other order
 
     @property
     def error(self) -> Array:
@@ -216,27 +200,13 @@ TRUCK = {
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TruckExample:
-    """The book's worked example, computed anew.
+    """The book's worked example, computed anew."""
 
-    Attributes
-    ----------
-    speed : float [rad/s]
-        ω_1.
-    natural_frequency : float [rad/s]
-        ω_e.
-    amplitude : float [rad]
-        s_41.
-    beta : float
-        Characteristic exponent.
-    solution : ForcedSolution
-        Steady twist y under the printed forcing.
-    """
-
-    speed: float
-    natural_frequency: float
-    amplitude: float
-    beta: float
-    solution: ForcedSolution
+    speed: float  # [rad/s]: ω_1
+    natural_frequency: float  # [rad/s]: ω_e
+    amplitude: float  # [rad]: s_41
+    beta: float  # characteristic exponent
+    solution: ForcedSolution  # steady twist y under the printed forcing
 
     @property
     def resonance_speed(self) -> float:

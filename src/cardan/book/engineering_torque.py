@@ -17,25 +17,13 @@ from .mathieu_reduction import MathieuReduction
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class EngineeringTorque:
-    """Torque in the last shaft by Book (246), the parametric term neglected.
+    """Torque in the last shaft by Book (246), the parametric term neglected."""
 
-    Attributes
-    ----------
-    mean : float [N·m]
-        Its mean, without sign.
-    order2 : float [N·m]
-        Amplitude of second order, from the joints.
-    drive, load : arrays (m,) [N·m]
-        Amplitudes of the orders of the drive torque and of the load.
-    speed : float [rad/s]
-        ω_1 that belongs to a.
-    """
-
-    mean: float
-    order2: float
-    drive: Array
-    load: Array
-    speed: float
+    mean: float  # [N·m]: its mean, without sign
+    order2: float  # [N·m]: amplitude of second order, from the joints
+    drive: Array  # drive, load (m,) [N·m]: amplitudes of the orders of the drive torque and of the load
+    load: Array  # (m,) [N·m]
+    speed: float  # [rad/s]: ω_1 that belongs to a
 
 
 def engineering_torque(
@@ -121,24 +109,12 @@ def engineering_torque(
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TorqueCourse:
-    """Torque in the last shaft over a turn, by the book's formulas and solved; positive as it carries power on.
+    """Torque in the last shaft over a turn, by the book's formulas and solved; positive as it carries power on."""
 
-    Attributes
-    ----------
-    angle : array (p,) [rad]
-        φ of shaft 1, its mean.
-    simple : array (p,) [N·m]
-        Book (246): the parametric term neglected.
-    book : array (p,) [N·m]
-        Book (245) with y solved for the book's q.
-    solved : array (p,) [N·m]
-        With y solved for the true q, the joints where the twist takes them.
-    """
-
-    angle: Array
-    simple: Array
-    book: Array
-    solved: Array
+    angle: Array  # (p,) [rad]: φ of shaft 1, its mean
+    simple: Array  # (p,) [N·m]: Book (246): the parametric term neglected
+    book: Array  # (p,) [N·m]: Book (245) with y solved for the book's q
+    solved: Array  # (p,) [N·m]: with y solved for the true q, the joints where the twist takes them
 
     @property
     def worst(self) -> float:

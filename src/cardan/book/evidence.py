@@ -27,24 +27,12 @@ POSITIONS = 180
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class SelfCheck:
-    """Two ways to the same number.
+    """Two ways to the same number."""
 
-    Attributes
-    ----------
-    name : str
-        What must be nought.
-    way : str
-        The other way.
-    residual : float
-        What it is.
-    allowed : float
-        What rounding may make of it.
-    """
-
-    name: str
-    way: str
+    name: str  # what must be nought
+    way: str  # the other way
     residual: float
-    allowed: float
+    allowed: float  # what rounding may make of it
 
     @property
     def passed(self) -> bool:
@@ -55,26 +43,9 @@ class SelfCheck:
 def evidence(drive: Drive) -> tuple[SelfCheck, ...]:
     """Return what the exact motion of a drive gives when reached by other ways.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-
-    Returns
-    -------
-    tuple of SelfCheck
-        Residuals are absolute.
-
-    Notes
-    -----
+    Returns: residuals are absolute.
     The plain vectors of `ratio_by_vectors` know no planes, phases or matrices: they are the independent truth. Allowed
     is rounding times the fourth power of the steepest ratio, by which a ratio's own rounding grows.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> all(check.passed for check in evidence(Drive.from_angles([20 * deg, 30 * deg])))
-    True
     """
     whole = chain(drive)
     joint = equivalent_joint(whole)
@@ -130,25 +101,9 @@ def evidence(drive: Drive) -> tuple[SelfCheck, ...]:
 def ratio_by_vectors(place: Geometry, train: Chain, angle: ArrayLike) -> Array:
     """Return the speed ratio of every shaft by plain vectors, array (n+1, p).
 
-    Parameters
-    ----------
-    place : Geometry
-        Where the drive lies.
-    train : Chain
-        Its yoke angles and start phase.
-    angle : array (p,) [rad]
-        Input angle φ_1 from the start position.
-
-    Notes
-    -----
-    ω_{i+1}/ω_i = (a_i·a_{i+1})/\\|a_{i+1} × u_i\\|², from u_i · v_{i+1} = 0 alone.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> drive = Drive.from_angles([60 * deg])
-    >>> ratio_by_vectors(geometry(drive), chain(drive), [0.0])[1]
-    array([2.])
+    place: where the drive lies; train: its yoke angles and start phase.
+    angle (p,) [rad]: input angle φ_1 from the start position.
+    ω_{i+1}/ω_i = (a_i·a_{i+1})/|a_{i+1} × u_i|², from u_i · v_{i+1} = 0 alone.
     """
     driving = arms(place, train, np.asarray(angle, dtype=float)).driving
     axis = place.axis[:, None, :]
@@ -159,17 +114,7 @@ def ratio_by_vectors(place: Geometry, train: Chain, angle: ArrayLike) -> Array:
 def swing_by_vectors(drive: Drive, yoke_angle: ArrayLike) -> float:
     """Return how far the output's speed ratio swings over a turn with other yoke angles, by plain vectors.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-    yoke_angle : array (n-1,) [rad]
-        γ of shafts 2 … n.
-
-    Examples
-    --------
-    >>> bool(swing_by_vectors(Drive.from_angles([0.3, 0.3], yoke_angles=[0.2]), [0.0]) < 1e-14)
-    True
+    yoke_angle (n-1,) [rad]: γ of shafts 2 … n.
     """
     built = chain(drive)
     train = Chain(

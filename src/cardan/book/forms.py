@@ -194,15 +194,9 @@ def double_joint(first: ArrayLike, second: ArrayLike, phase: ArrayLike, angle: A
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class DoubleJoint:
-    """What a double joint amounts to.
+    """What a double joint amounts to."""
 
-    Attributes
-    ----------
-    length : array (...)
-        Hyperbolic length L_eq = -ln cos α_eq.
-    """
-
-    length: Array
+    length: Array  # (...): hyperbolic length L_eq = -ln cos α_eq
 
     @property
     def speed_fluctuation(self) -> Array:

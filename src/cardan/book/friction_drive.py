@@ -84,21 +84,8 @@ def speed_ratio(driving_radius: ArrayLike, driven_radius: ArrayLike) -> Array:
 def cone_ratio(driving_angle: ArrayLike, driven_angle: ArrayLike) -> Array:
     """Return ω_1/ω_2 of two cones with a common apex, in size.
 
-    Parameters
-    ----------
-    driving_angle, driven_angle : arrays (...) [rad]
-        δ_1, δ_2, between axis and generatrix of each cone.
-
-    Returns
-    -------
-    array (...)
-        sin δ_2/sin δ_1, Litvin (7.3).
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> print(cone_ratio(30 * deg, 60 * deg))
-    1.73205080
+    driving_angle, driven_angle (...) [rad]: δ_1, δ_2, between axis and generatrix of each cone.
+    Returns (...): sin δ_2/sin δ_1, Litvin (7.3).
     """
     one, two = floats(driving_angle, driven_angle)
     xp = namespace(one, two)

@@ -23,26 +23,15 @@ DRAWS = MonteCarlo()
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Stack:
-    """What tolerances of one joint add up to; rows 2, 3, 4 are the arms of the cross and the driven shaft.
+    """What tolerances of one joint add up to; rows 2, 3, 4 are the arms of the cross and the driven shaft."""
 
-    Attributes
-    ----------
-    worst_angle, worst_slide : array (..., 3) [rad], [m]
-        Worst case Σ \\|C\\| t of φ_2, φ_3, φ_4 and of s_2, s_3, s_4.
-    square_angle, square_slide : array (..., 3) [rad], [m]
-        Root of the sum of squares √Σ (C t)².
-    share_angle : array (..., 3, 4)
-        Share of each of α_1 … α_4 in the sum of squares; nan where there is none.
-    share_slide : array (..., 3, 5)
-        Share of each of s_1, a_1 … a_4.
-    """
-
+    # worst_angle, worst_slide (..., 3) [rad], [m]: worst case Σ |C| t of φ_2, φ_3, φ_4 and of s_2, s_3, s_4
     worst_angle: Array
-    worst_slide: Array
-    square_angle: Array
-    square_slide: Array
-    share_angle: Array
-    share_slide: Array
+    worst_slide: Array  # (..., 3) [rad], [m]
+    square_angle: Array  # square_angle, square_slide (..., 3) [rad], [m]: root of the sum of squares √Σ (C t)²
+    square_slide: Array  # (..., 3) [rad], [m]
+    share_angle: Array  # (..., 3, 4): share of each of α_1 … α_4 in the sum of squares; nan where there is none
+    share_slide: Array  # (..., 3, 5): share of each of s_1, a_1 … a_4
 
 
 def joint_stack(joint_angle: ArrayLike, angle: ArrayLike, *, ways: ArrayLike, turns: ArrayLike) -> Stack:
@@ -88,25 +77,16 @@ def joint_stack(joint_angle: ArrayLike, angle: ArrayLike, *, ways: ArrayLike, tu
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StackOverTurn:
-    """The largest that tolerances of one joint add up to over a turn, at the driven shaft.
+    """The largest that tolerances of one joint add up to over a turn, at the driven shaft."""
 
-    Attributes
-    ----------
-    worst_angle, square_angle : float [rad]
-        Worst case and root of the sum of squares of φ_4.
-    worst_slide, square_slide : float [m]
-        The same of s_4.
-    equal_turns : array (4,) [rad]
-        What each of α_1 … α_4 may be if all have an equal share in a target of 1 rad of φ_4, by the sum of squares.
-    equal_ways : array (5,) [m]
-        What each of s_1, a_1 … a_4 may be if all have an equal share in a target of 1 m of s_4.
-    """
-
-    worst_angle: float
-    square_angle: float
-    worst_slide: float
-    square_slide: float
+    worst_angle: float  # worst_angle, square_angle [rad]: worst case and root of the sum of squares of φ_4
+    square_angle: float  # [rad]
+    worst_slide: float  # worst_slide, square_slide [m]: the same of s_4
+    square_slide: float  # [m]
+    # (4,) [rad]: what each of α_1 … α_4 may be if all have an equal share in a target of 1 rad of φ_4, by the sum of
+    # squares
     equal_turns: Array
+    # (5,) [m]: what each of s_1, a_1 … a_4 may be if all have an equal share in a target of 1 m of s_4
     equal_ways: Array
 
 
@@ -158,28 +138,18 @@ def stack_over_turn(joint_angle: float, *, ways: ArrayLike, turns: ArrayLike) ->
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JointSample:
-    """What errors drawn at random do to one joint; rows 2, 3, 4, [rad] for angles, [m] for slides.
+    """What errors drawn at random do to one joint; rows 2, 3, 4, [rad] for angles, [m] for slides."""
 
-    Attributes
-    ----------
-    angle_mean, angle_deviation, slide_mean, slide_deviation : array (3,)
-        Mean and standard deviation of what the errors add to φ_i and s_i.
-    angle_levels, slide_levels : array (4, 3)
-        Their quantiles at the shares `LEVELS`.
-    count : int
-        Samples that could be assembled.
-    lost : int
-        Samples that could not.
-    """
-
+    # angle_mean, angle_deviation, slide_mean, slide_deviation (3,): mean and standard deviation of what the errors add
+    # to φ_i and s_i
     angle_mean: Array
-    angle_deviation: Array
-    angle_levels: Array
-    slide_mean: Array
-    slide_deviation: Array
-    slide_levels: Array
-    count: int
-    lost: int
+    angle_deviation: Array  # (3,)
+    angle_levels: Array  # angle_levels, slide_levels (4, 3): their quantiles at the shares `LEVELS`
+    slide_mean: Array  # (3,)
+    slide_deviation: Array  # (3,)
+    slide_levels: Array  # (4, 3)
+    count: int  # samples that could be assembled
+    lost: int  # samples that could not
 
 
 def joint_samples(

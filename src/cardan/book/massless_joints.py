@@ -46,20 +46,11 @@ TOLERANCE = 1e-12
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Balance:
-    """What lies between the two inertias at an instant.
+    """What lies between the two inertias at an instant."""
 
-    Attributes
-    ----------
-    yokes : tuple of n floats [rad]
-        Angles of the driving yokes.
-    torques : tuple of n + 1 floats [N·m]
-        Torques in the springs, positive when they carry power on.
-    stiffness : tuple of 3 floats [N·m/rad]
-        K_11, K_12, K_22: derivatives of the torques that hold the two inertias.
-    """
-
-    yokes: tuple[float, ...]
-    torques: tuple[float, ...]
+    yokes: tuple[float, ...]  # tuple of n floats [rad]: angles of the driving yokes
+    torques: tuple[float, ...]  # tuple of n + 1 floats [N·m]: torques in the springs, positive when they carry power on
+    # tuple of 3 floats [N·m/rad]: K_11, K_12, K_22: derivatives of the torques that hold the two inertias
     stiffness: tuple[float, float, float]
 
 
@@ -96,18 +87,10 @@ def _snapped() -> InputError:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MasslessDrive:
-    """Two inertias with springs and massless joints between them.
+    """Two inertias with springs and massless joints between them."""
 
-    Attributes
-    ----------
-    reduction : MathieuReduction
-        The drive's numbers.
-    torque : float [N·m]
-        Constant drive torque on the first inertia; the last one is held back by the same.
-    """
-
-    reduction: MathieuReduction
-    torque: float = 0.0
+    reduction: MathieuReduction  # the drive's numbers
+    torque: float = 0.0  # [N·m]: constant drive torque on the first inertia; the last one is held back by the same
 
     @cached_property
     def _joints(self) -> tuple[tuple[float, float, float, float, float], ...]:
@@ -125,18 +108,7 @@ class MasslessDrive:
     def balance(self, first: float, last: float) -> Balance:
         """Return angles and torques between the inertias, and how stiff they hold together.
 
-        Parameters
-        ----------
-        first, last : float [rad]
-            Angles of the two inertias.
-
-        Raises
-        ------
-        InputError
-            The torque snaps a joint through: its balance is not stable.
-
-        Notes
-        -----
+        first, last [rad]: angles of the two inertias.
         c_k (F_(k-1) - f_k) = F_k' c_(k+1) (F_k - f_(k+1)) at each joint, by Newton's method; its matrix is tridiagonal
         and symmetric, and positive where the balance is stable. Where that fails the twist is raised from nought.
         """
@@ -208,10 +180,7 @@ class MasslessDrive:
     def half_turn(self, start: Array) -> tuple[Array, Array]:
         """Return the state (4,) half a turn on, and its derivatives (4, 4) by the state before.
 
-        Parameters
-        ----------
-        start : array (4,)
-            Angles of the two inertias [rad], their speeds over the mean speed.
+        start (4,): angles of the two inertias [rad], their speeds over the mean speed.
         """
         begin = np.concatenate((start, np.eye(4).ravel()))
         scale = max(1.0, float(np.max(np.abs(start))))
@@ -223,23 +192,13 @@ class MasslessDrive:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SteadyTwist:
-    """Steady motion of a drive with massless joints.
-
-    Attributes
-    ----------
-    drive : MasslessDrive
-    start : array (4,)
-        Angles of the two inertias [rad] and their speeds over the mean speed, where the first angle is zero.
-    monodromy : array (4, 4)
-        What becomes of a small change over half a turn.
-    gap : float [rad]
-        How far the motion is from closing.
-    """
+    """Steady motion of a drive with massless joints."""
 
     drive: MasslessDrive
+    # (4,): angles of the two inertias [rad] and their speeds over the mean speed, where the first angle is zero
     start: Array
-    monodromy: Array
-    gap: float
+    monodromy: Array  # (4, 4): what becomes of a small change over half a turn
+    gap: float  # [rad]: how far the motion is from closing
 
     @property
     def half_trace(self) -> float:

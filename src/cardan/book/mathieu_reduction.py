@@ -22,26 +22,14 @@ REPEATS = 200
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MathieuReduction:
-    """Parameters of Mathieu's equation of a drive with massless joints.
+    """Parameters of Mathieu's equation of a drive with massless joints."""
 
-    Attributes
-    ----------
-    joint_angle, phase : array (n,) [rad]
-        α_k and ψ_k of the joints.
-    springs : array (n + 1,) [N·m/rad]
-        c_1 … c_(n+1), before, between and behind the joints.
-    first_inertia, last_inertia : float [kg m²]
-        J_1, J_(n+1).
-    speed : float [rad/s]
-        Mean speed ω_1.
-    """
-
-    joint_angle: Array
-    phase: Array
-    springs: Array
-    first_inertia: float
-    last_inertia: float
-    speed: float
+    joint_angle: Array  # joint_angle, phase (n,) [rad]: α_k and ψ_k of the joints
+    phase: Array  # (n,) [rad]
+    springs: Array  # (n + 1,) [N·m/rad]: c_1 … c_(n+1), before, between and behind the joints
+    first_inertia: float  # first_inertia, last_inertia [kg m²]: J_1, J_(n+1)
+    last_inertia: float  # [kg m²]
+    speed: float  # [rad/s]: mean speed ω_1
 
     @property
     def tau(self) -> Array:
@@ -132,13 +120,7 @@ class MathieuReduction:
     def zone_speeds(self, zone: int = 1) -> tuple[float, float]:
         """Return the speeds between which steady running is unstable without damping [rad/s].
 
-        Parameters
-        ----------
-        zone : int
-            1 is the principal zone, about ω_e; zone r lies about ω_e/r.
-
-        Notes
-        -----
+        zone: 1 is the principal zone, about ω_e; zone r lies about ω_e/r.
         Another speed moves (a, q) along the ray through the origin: a = a_r(q), b_r(q) with q = a (q/a), found by
         repetition.
         """

@@ -23,21 +23,11 @@ REACH = 6.0
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RandomSpeed:
-    """Speed of the driven shaft at given joint angles, over all that chance may bring.
+    """Speed of the driven shaft at given joint angles, over all that chance may bring."""
 
-    Attributes
-    ----------
-    mean : array (...) [rad/s]
-        Expectation of ω_2.
-    deviation : array (...) [rad/s]
-        Standard deviation of ω_2.
-    small : array (...) [rad/s]
-        Standard deviation to first order in that of the joint angle, for comparison.
-    """
-
-    mean: Array
-    deviation: Array
-    small: Array
+    mean: Array  # (...) [rad/s]: expectation of ω_2
+    deviation: Array  # (...) [rad/s]: standard deviation of ω_2
+    small: Array  # (...) [rad/s]: standard deviation to first order in that of the joint angle, for comparison
 
 
 def random_joint_angle(
@@ -101,17 +91,8 @@ def random_joint_angle(
 def rate_deviation(frequency: ArrayLike, density: ArrayLike) -> float:
     """Return the standard deviation of the rate of a process with a one-sided spectrum, √∫Ω² S dΩ.
 
-    Parameters
-    ----------
-    frequency : array (m,) [rad/s]
-        Corners of the spectrum, rising.
-    density : array (m,) [unit²·s/rad]
-        One-sided density there, linear between.
-
-    Examples
-    --------
-    >>> rate_deviation([0.0, 3.0], [1.0, 1.0])
-    3.0
+    frequency (m,) [rad/s]: corners of the spectrum, rising.
+    density (m,) [unit²·s/rad]: one-sided density there, linear between.
     """
     return math.sqrt(spectra.rate_variance(frequency, density))
 
@@ -119,14 +100,7 @@ def rate_deviation(frequency: ArrayLike, density: ArrayLike) -> float:
 def sideband_gain(mean: float) -> float:
     """Return κ = tan(ᾱ/2)/cos²(ᾱ/2), the amplitude by which the lead of a joint grows with its bend.
 
-    Notes
-    -----
     κ = dτ/dα with the lead τ sin 2θ + …, τ = tan²(α/2); about ᾱ/2 for small bends.
-
-    Examples
-    --------
-    >>> round(sideband_gain(0.2), 6)
-    0.101345
     """
     half = 0.5 * mean
     return math.tan(half) / math.cos(half) ** 2
@@ -135,33 +109,12 @@ def sideband_gain(mean: float) -> float:
 def sidebands(at: ArrayLike, *, mean: float, frequency: ArrayLike, density: ArrayLike, speed: float) -> Array:
     """Return the two-sided spectrum of the random part of the driven angle φ_2.
 
-    Parameters
-    ----------
-    at : array (...) [rad/s]
-        Frequencies, of either sign.
-    mean : float [rad]
-        ᾱ.
-    frequency : array (m,) [rad/s]
-        Corners of the one-sided spectrum of the joint angle, rising.
-    density : array (m,) [rad²·s/rad]
-        The spectrum there.
-    speed : float [rad/s]
-        ω_1.
-
-    Returns
-    -------
-    array (...) [rad²·s/rad]
-
-    Notes
-    -----
+    at (...) [rad/s]: frequencies, of either sign; mean [rad]: ᾱ.
+    frequency (m,) [rad/s]: corners of the one-sided spectrum of the joint angle, rising; density (m,) [rad²·s/rad].
+    speed [rad/s]: ω_1.
+    Returns (...) [rad²·s/rad].
     S(Ω) = κ²/4 [S_α(Ω - 2ω_1) + S_α(Ω + 2ω_1)] with the two-sided S_α, the start phase being uniform; variance
     κ² σ_α²/2. To first order in the deviation of the joint angle; the higher orders 4ω_1 … are smaller by τ.
-
-    Examples
-    --------
-    >>> flat = {"frequency": [0.0, 10.0], "density": [2.0, 2.0]}
-    >>> sidebands([0.0, 195.0, 205.0], mean=0.2, speed=100.0, **flat) / (0.25 * sideband_gain(0.2) ** 2)
-    array([0., 1., 1.])
     """
     omega = np.asarray(at, dtype=float)
     both = spectra.two_sided(frequency, density, omega - 2.0 * speed) + spectra.two_sided(
@@ -176,26 +129,9 @@ def random_joint_angle_path(
 ) -> Jet:
     """Return one sample path of a random bend: α, α', α'' arrays (t,) [rad, rad/s, rad/s²].
 
-    Parameters
-    ----------
-    times : array (t,) [s]
-        Instants.
-    mean : float [rad]
-        ᾱ.
-    frequency : array (m,) [rad/s]
-        Corners of the one-sided spectrum, rising.
-    density : array (m,) [rad²·s/rad]
-        The spectrum there.
-    seed : int
-        The same seed gives the same path.
-    components : int, optional
-        Number of cosines; enough not to repeat within the times by default.
-
-    Examples
-    --------
-    >>> jet = random_joint_angle_path([0.0, 0.1], mean=0.2, frequency=[1.0, 9.0], density=[1e-5, 1e-5], seed=7)
-    >>> jet[0].shape
-    (2,)
+    times (t,) [s]; mean [rad]: ᾱ; frequency (m,) [rad/s]: corners of the one-sided spectrum, rising.
+    density (m,) [rad²·s/rad]: the spectrum there; seed: the same seed gives the same path.
+    components: number of cosines; enough not to repeat within the times by default.
     """
     at = np.atleast_1d(np.asarray(times, dtype=float))
     count = components or spectra.enough_components(frequency, float(at[-1] - at[0]))

@@ -15,31 +15,16 @@ from cardan.questions.motion.equivalence import (
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JointExtremes:
-    """One row of Book Table 4 for each joint angle, and the angles at which the extremes stand.
+    """One row of Book Table 4 for each joint angle, and the angles at which the extremes stand."""
 
-    Attributes
-    ----------
-    ratio_max, ratio_min : array (...)
-        Largest and smallest speed ratio.
-    speed_fluctuation : array (...)
-        δ = sin α tan α.
-    angle_error : array (...) [rad]
-        Largest lead of the driven shaft when the driving yoke starts in the plane of the joint.
-    angle_of_error : array (...) [rad]
-        First joint angle θ of that lead.
-    acceleration : array (...)
-        Largest |ε_2|/ω_1² at uniform input.
-    angle_of_acceleration : array (...) [rad]
-        First joint angle θ of that acceleration, a negative one.
-    """
-
-    ratio_max: Array
-    ratio_min: Array
-    speed_fluctuation: Array
+    ratio_max: Array  # ratio_max, ratio_min (...): largest and smallest speed ratio
+    ratio_min: Array  # (...)
+    speed_fluctuation: Array  # (...): δ = sin α tan α
+    # (...) [rad]: largest lead of the driven shaft when the driving yoke starts in the plane of the joint
     angle_error: Array
-    angle_of_error: Array
-    acceleration: Array
-    angle_of_acceleration: Array
+    angle_of_error: Array  # (...) [rad]: first joint angle θ of that lead
+    acceleration: Array  # (...): largest |ε_2|/ω_1² at uniform input
+    angle_of_acceleration: Array  # (...) [rad]: first joint angle θ of that acceleration, a negative one
 
 
 def joint_extremes(joint_angle: Array) -> JointExtremes:
@@ -111,23 +96,13 @@ def fourier(joint_angle: Array, count: int) -> Array:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class BookCoefficients:
-    """Book's series for the Fourier amplitudes of a single joint, as far as the book writes them.
+    """Book's series for the Fourier amplitudes of a single joint, as far as the book writes them."""
 
-    Attributes
-    ----------
-    c11_quarter : array (...) [rad]
-        α²/4, the amplitude of order 2 that the book works with.
-    c11, c12, c13 : array (...) [rad]
-        Book (44) with three, two and one terms.
-    constant : array (...)
-        Book (43) with four terms; its true value is exactly 1.
-    """
-
-    c11_quarter: Array
-    c11: Array
-    c12: Array
-    c13: Array
-    constant: Array
+    c11_quarter: Array  # (...) [rad]: α²/4, the amplitude of order 2 that the book works with
+    c11: Array  # c11, c12, c13 (...) [rad]: Book (44) with three, two and one terms
+    c12: Array  # (...) [rad]
+    c13: Array  # (...) [rad]
+    constant: Array  # (...): Book (43) with four terms; its true value is exactly 1
 
 
 def book_coefficients(joint_angle: Array) -> BookCoefficients:

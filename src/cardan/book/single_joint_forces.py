@@ -10,83 +10,46 @@ from cardan.maths.kernel.elliptic import complete
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SingleJointForces:
-    """Sizes of torques and forces of one joint at constant torque of the driven shaft.
+    """Sizes of torques and forces of one joint at constant torque of the driven shaft."""
 
-    Attributes
-    ----------
-    ratio : array (...)
-        ω_2/ω_1.
-    driving_torque : array (...) [N·m]
-        M_1.
-    journal : array (...) [N]
-        Load of each journal in the plane of the cross, by the torque.
-    driving_across, driving_along : arrays (...) [N]
-        Its parts across and in the plane of the driving yoke.
-    driven_across, driven_along : arrays (...) [N]
-        Its parts across and in the plane of the driven yoke.
-    driving_couple, driven_couple : arrays (...) [N·m]
-        Secondary couples on shafts 1 and 2.
-    near, far : arrays (...) [N]
-        Radial load of the bearings of shaft 1 near to and far from the joint.
-    axial : array (...) [N]
-        Axial load of shaft 1.
-    driven_bearing : array (...) [N]
-        Radial load of each bearing of shaft 2, or of its only one.
-    """
-
-    ratio: Array
-    driving_torque: Array
-    journal: Array
+    ratio: Array  # (...): ω_2/ω_1
+    driving_torque: Array  # (...) [N·m]: M_1
+    journal: Array  # (...) [N]: load of each journal in the plane of the cross, by the torque
+    # driving_across, driving_along (...) [N]: its parts across and in the plane of the driving yoke
     driving_across: Array
-    driving_along: Array
-    driven_across: Array
-    driven_along: Array
-    driving_couple: Array
-    driven_couple: Array
-    near: Array
-    far: Array
-    axial: Array
-    driven_bearing: Array
+    driving_along: Array  # (...) [N]
+    driven_across: Array  # driven_across, driven_along (...) [N]: its parts across and in the plane of the driven yoke
+    driven_along: Array  # (...) [N]
+    driving_couple: Array  # driving_couple, driven_couple (...) [N·m]: secondary couples on shafts 1 and 2
+    driven_couple: Array  # (...) [N·m]
+    near: Array  # near, far (...) [N]: radial load of the bearings of shaft 1 near to and far from the joint
+    far: Array  # (...) [N]
+    axial: Array  # (...) [N]: axial load of shaft 1
+    driven_bearing: Array  # (...) [N]: radial load of each bearing of shaft 2, or of its only one
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SingleJointPeaks:
-    """Largest values over a turn, for a constant torque of one at the driven or at the driving shaft.
+    """Largest values over a turn, for a constant torque of one at the driven or at the driving shaft."""
 
-    Attributes
-    ----------
-    driving_couple, driven_couple : arrays (...)
-        Secondary couples over the constant torque.
-    journal, journal_mean : arrays (...)
-        Load of a journal times the span, over the constant torque: its largest and its mean.
-    """
-
-    driving_couple: Array
-    driven_couple: Array
+    driving_couple: Array  # driving_couple, driven_couple (...): secondary couples over the constant torque
+    driven_couple: Array  # (...)
+    # journal, journal_mean (...): load of a journal times the span, over the constant torque: its largest and its mean
     journal: Array
-    journal_mean: Array
+    journal_mean: Array  # (...)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CrossLoads:
-    """Sizes of what the cross of one joint passes on, arrays (..., p), and their largest over a turn, arrays (...).
+    """Sizes of what the cross of one joint passes on, arrays (..., p), and their largest over a turn, arrays (...)."""
 
-    Attributes
-    ----------
-    journal : array (..., p) [N]
-        Load of each of the four journals.
-    driving_couple, driven_couple : arrays (..., p) [N·m]
-        Secondary couples on the driving and on the driven shaft.
-    journal_max, driving_couple_max, driven_couple_max : arrays (...)
-        Largest over a turn.
-    """
-
-    journal: Array
+    journal: Array  # (..., p) [N]: load of each of the four journals
+    # driving_couple, driven_couple (..., p) [N·m]: secondary couples on the driving and on the driven shaft
     driving_couple: Array
-    driven_couple: Array
-    journal_max: Array
-    driving_couple_max: Array
-    driven_couple_max: Array
+    driven_couple: Array  # (..., p) [N·m]
+    journal_max: Array  # journal_max, driving_couple_max, driven_couple_max (...): largest over a turn
+    driving_couple_max: Array  # (...)
+    driven_couple_max: Array  # (...)
 
 
 def cross_loads(
@@ -139,43 +102,18 @@ def cross_loads(
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CoupleFrames:
-    """Secondary couple on the shaft whose torque is constant, as it and its housing feel it, arrays (...) [N·m].
+    """Secondary couple on the shaft whose torque is constant, as it and its housing feel it, arrays (...) [N·m]."""
 
-    Attributes
-    ----------
-    rotating : array (...)
-        Amplitude in the shaft, once a turn and fully reversed.
-    standing : array (...)
-        Constant part in the housing, square to the plane of the joint.
-    double : array (...)
-        Size of the part in the housing that turns at twice the speed.
-    """
-
-    rotating: Array
-    standing: Array
-    double: Array
+    rotating: Array  # (...): amplitude in the shaft, once a turn and fully reversed
+    standing: Array  # (...): constant part in the housing, square to the plane of the joint
+    double: Array  # (...): size of the part in the housing that turns at twice the speed
 
 
 def couple_frames(joint_angle: ArrayLike, torque: ArrayLike) -> CoupleFrames:
     """Return the secondary couple of one joint in the frame of its shaft and in that of the housing.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    torque : array (...) [N·m]
-        M, constant on this shaft.
-
-    Notes
-    -----
+    joint_angle (...) [rad]: α in [0, π/2); torque (...) [N·m]: M, constant on this shaft.
     M tan α sin θ along the arm of the shaft's own yoke: fatigue counts order 1, bearings and structure feel order 2.
-
-    Examples
-    --------
-    >>> import math
-    >>> found = couple_frames(math.radians(12), 2000.0)
-    >>> print(f"{found.rotating:.1f}, {found.standing:.1f} and {found.double:.1f} N·m")
-    425.1, 212.6 and 212.6 N·m
     """
     xp = namespace(joint_angle, torque)
     rotating = xp.abs(real(torque, xp)) * xp.tan(real(joint_angle, xp))
@@ -266,24 +204,9 @@ def single_joint_forces(
 def single_joint_peaks(joint_angle: ArrayLike, *, torque_at: str = "output") -> SingleJointPeaks:
     """Return the largest secondary couples and journal loads over a turn, per unit of the constant torque.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    torque_at : str
-        Where the torque is constant, ``output`` or ``input``.
-
-    Notes
-    -----
+    joint_angle (...) [rad]: α in [0, π/2); torque_at: where the torque is constant, ``output`` or ``input``.
     One couple peaks at tan α, the other at sin α up to 45° and at 1/(2 cos α) beyond. Mean journal load (2/π) K(m) at
     constant M_2, (2/π) E(m)/cos α at constant M_1, m = sin² α.
-
-    Examples
-    --------
-    >>> import math
-    >>> found = single_joint_peaks(math.radians(30))
-    >>> print(f"{found.driving_couple:.6f} {found.driven_couple:.6f} {found.journal_mean:.6f}")
-    0.500000 0.577350 1.073182
     """
     xp = namespace(joint_angle)
     alpha = real(joint_angle, xp)

@@ -81,70 +81,31 @@ class SlotCam:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CamForces:
-    """Forces on a slot cam; nan where the status is not `Contact.BOTH_ENDS`, follower forces only where one jams.
+    """Forces on a slot cam; nan where the status is not `Contact.BOTH_ENDS`, follower forces only where one jams."""
 
-    Attributes
-    ----------
-    first, second : arrays (...) [N]
-        R_23 at E and R_43 at F, friction included.
-    drive : array (...) [N]
-        P, that turns the cam.
-    end : array (...) [N]
-        Reaction of the end plane.
-    end_side : array (...)
-        +1 where the end plane at +l/2 is touched, -1 at -l/2.
-    rim, far : arrays (...) [N]
-        Normal reactions at C, on the rim of that end, and at D, on the other.
-    rim_point, far_point : arrays (..., 2) [m]
-        x, y of C and D.
-    rounds : array (...)
-        Rounds of the iteration.
-    imbalance : array (...)
-        Largest of the six sums of forces, and moments over the radius, as a share of the largest force.
-    status : array (...) of Contact
-    """
-
-    first: Array
-    second: Array
-    drive: Array
-    end: Array
-    end_side: Array
-    rim: Array
-    far: Array
-    rim_point: Array
-    far_point: Array
-    rounds: Array
+    first: Array  # first, second (...) [N]: R_23 at E and R_43 at F, friction included
+    second: Array  # (...) [N]
+    drive: Array  # (...) [N]: P, that turns the cam
+    end: Array  # (...) [N]: reaction of the end plane
+    end_side: Array  # (...): +1 where the end plane at +l/2 is touched, -1 at -l/2
+    rim: Array  # rim, far (...) [N]: normal reactions at C, on the rim of that end, and at D, on the other
+    far: Array  # (...) [N]
+    rim_point: Array  # rim_point, far_point (..., 2) [m]: x, y of C and D
+    far_point: Array  # (..., 2) [m]
+    rounds: Array  # (...): rounds of the iteration
+    # (...): largest of the six sums of forces, and moments over the radius, as a share of the largest force
     imbalance: Array
-    status: Array
+    status: Array  # (...)
 
 
 def follower_force(load: ArrayLike, slope: ArrayLike, friction: ArrayLike, guide_friction: ArrayLike) -> Array:
     """Return the force between a slot and a follower that is guided along the cam's axis.
 
-    Parameters
-    ----------
-    load : array (...) [N]
-        Q along the axis.
-    slope : array (...) [rad]
-        β of the slot from the generatrix, to 90°.
-    friction, guide_friction : arrays (...)
-        Coefficients at the slot and in the guide.
-
-    Returns
-    -------
-    array (...) [N]
-        nan where the follower jams, β ≤ ρ + ρ_N.
-
-    Notes
-    -----
+    load (...) [N]: Q along the axis; slope (...) [rad]: β of the slot from the generatrix, to 90°.
+    friction, guide_friction (...): coefficients at the slot and in the guide.
+    Returns (...) [N]: nan where the follower jams, β ≤ ρ + ρ_N.
     Q cos ρ_N/sin(β - ρ - ρ_N), ρ = arctan f: balance of the follower along and across its guide; stands for Litvin
     (6.159)-(6.166), which are lost.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> print(follower_force(20.0, [55 * deg, 12 * deg], 0.1, 0.12))
-    [29.42279251         nan]
     """
     q, beta, f, g = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (load, slope, friction, guide_friction)))
     rho, guide = np.arctan(f), np.arctan(g)

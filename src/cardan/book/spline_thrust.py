@@ -9,24 +9,15 @@ from cardan.maths.arrays import Array, ArrayLike, namespace, real
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SplineThrust:
-    """Friction thrust of a spline and its parts in the joint.
+    """Friction thrust of a spline and its parts in the joint."""
 
-    Attributes
-    ----------
-    thrust : array (...) [N]
-        T along the splined shaft.
-    axial, radial : arrays (...) [N]
-        Parts along and across the other shaft.
-    along_driving_arm, along_driven_arm, along_normal : arrays (...) [N]
-        Parts along u, v and the normal of the cross.
-    """
-
-    thrust: Array
-    axial: Array
-    radial: Array
+    thrust: Array  # (...) [N]: T along the splined shaft
+    axial: Array  # axial, radial (...) [N]: parts along and across the other shaft
+    radial: Array  # (...) [N]
+    # along_driving_arm, along_driven_arm, along_normal (...) [N]: parts along u, v and the normal of the cross
     along_driving_arm: Array
-    along_driven_arm: Array
-    along_normal: Array
+    along_driven_arm: Array  # (...) [N]
+    along_normal: Array  # (...) [N]
 
 
 def spline_thrust(joint_angle: ArrayLike, angle: ArrayLike, torque: ArrayLike, grip: ArrayLike) -> SplineThrust:

@@ -51,38 +51,20 @@ class Node:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SteppedSpeeds:
-    """Natural speeds of a stepped shaft in forward whirl.
+    """Natural speeds of a stepped shaft in forward whirl."""
 
-    Attributes
-    ----------
-    speed : array (m,) [rad/s]
-        Lowest first; zero for each motion without bending.
-    rigid : int
-        Motions without bending.
-    lost : int
-        Modes without a critical speed: parts with more inertia about the shaft than across it stiffen it faster than
-        inertia loads it, and each takes one mode away.
-    """
-
-    speed: Array
-    rigid: int
+    speed: Array  # (m,) [rad/s]: lowest first; zero for each motion without bending
+    rigid: int  # motions without bending
+    # modes without a critical speed: parts with more inertia about the shaft than across it stiffen it faster than
+    # inertia loads it, and each takes one mode away
     lost: int
 
 
 def stepped_line(length: ArrayLike, section: Section, nodes: Sequence[Node]) -> Line:
     """Return a stepped shaft as a line of beams.
 
-    Parameters
-    ----------
-    length : array (e,) [m]
-        Of each section.
-    section : Section
-        Stiffness and inertia of each section, arrays (e,).
-    nodes : sequence of Node
-        e+1 of them.
+    length (e,) [m]: of each section; section: stiffness and inertia of each section, arrays (e,); nodes: e+1 of them.
 
-    Examples
-    --------
     >>> from cardan.maths.linear.rotor_beams import round_section
     >>> tube = round_section([0.06, 0.06], 0.056, 2.1e11, 7850.0)
     >>> stepped_line([0.5, 0.7], tube, [Node(held=True), Node(hinge=True), Node()]).hinged

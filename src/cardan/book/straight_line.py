@@ -19,23 +19,14 @@ from cardan.texts import _
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LineModes:
-    """Natural frequencies and modes of straight lines, the slowest first.
+    """Natural frequencies and modes of straight lines, the slowest first."""
 
-    Attributes
-    ----------
-    omega : array (..., n) [rad/s]
-        Natural frequencies; 0 for the turning of a line that nothing holds, infinite for each station without inertia.
-    shape : array (..., n, n)
-        Angle of each station in each mode, a mode a row; the largest is 1.
-    inertia : array (..., n) [kg·m²]
-        Of the stations.
-    residual : array (...)
-        Largest step of a Holzer table down the modes that does not meet the next station, over the largest angle.
-    """
-
+    # (..., n) [rad/s]: natural frequencies; 0 for the turning of a line that nothing holds, infinite for each station
+    # without inertia
     omega: Array
-    shape: Array
-    inertia: Array
+    shape: Array  # (..., n, n): angle of each station in each mode, a mode a row; the largest is 1
+    inertia: Array  # (..., n) [kg·m²]: of the stations
+    # (...): largest step of a Holzer table down the modes that does not meet the next station, over the largest angle
     residual: Array
 
     @property
@@ -112,27 +103,15 @@ def line_modes(inertia: ArrayLike, stiffness: ArrayLike, *, ground: ArrayLike = 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LineResponse:
-    """Steady vibration of straight lines under harmonic torques.
+    """Steady vibration of straight lines under harmonic torques."""
 
-    Attributes
-    ----------
-    omega : array (f,) [rad/s]
-        Frequencies.
-    angle : complex array (..., n, f) [rad]
-        Amplitude and phase of each station.
-    torque : complex array (..., n-1, f) [N·m]
-        In each element, positive where it passes power on.
-    resonant : array of bool (..., f)
-        The frequency is a natural one and nothing damps it: no steady vibration, all values nan.
-    residual : array (..., f)
-        What the balance of power misses: put in by the torques less lost in damping, over the largest product of torque
-        and speed.
-    """
-
-    omega: Array
-    angle: Array
-    torque: Array
+    omega: Array  # (f,) [rad/s]: frequencies
+    angle: Array  # (..., n, f) [rad], complex: amplitude and phase of each station
+    torque: Array  # (..., n-1, f) [N·m], complex: in each element, positive where it passes power on
+    # (..., f) of bool: the frequency is a natural one and nothing damps it: no steady vibration, all values nan
     resonant: Array
+    # (..., f): what the balance of power misses: put in by the torques less lost in damping, over the largest product
+    # of torque and speed
     residual: Array
 
 

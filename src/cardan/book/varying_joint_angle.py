@@ -17,24 +17,15 @@ FREEZE = 0.3
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class VaryingJointAngle:
-    """Motion of the driven shaft of one or more joints with varying bends.
+    """Motion of the driven shaft of one or more joints with varying bends."""
 
-    Attributes
-    ----------
-    joint_angle, joint_angle_rate, joint_angle_acceleration : arrays (...) or (..., n) [rad, rad/s, rad/s²]
-        α, α', α''.
-    angle : array (...) [rad]
-        φ_1 of the input shaft.
-    driven_speed, driven_acceleration : arrays (...) [rad/s, rad/s²]
-        ω and ε of the last shaft.
-    """
-
+    # joint_angle, joint_angle_rate, joint_angle_acceleration (...) or (..., n) [rad, rad/s, rad/s²]: α, α', α''
     joint_angle: Array
-    joint_angle_rate: Array
-    joint_angle_acceleration: Array
-    angle: Array
-    driven_speed: Array
-    driven_acceleration: Array
+    joint_angle_rate: Array  # (...) or (..., n) [rad/s]
+    joint_angle_acceleration: Array  # (...) or (..., n) [rad/s²]
+    angle: Array  # (...) [rad]: φ_1 of the input shaft
+    driven_speed: Array  # driven_speed, driven_acceleration (...) [rad/s, rad/s²]: ω and ε of the last shaft
+    driven_acceleration: Array  # (...) [rad/s²]
 
 
 def driven_motion(
@@ -42,30 +33,14 @@ def driven_motion(
 ) -> tuple[Array, Array]:
     """Return speed and acceleration of the driven shaft of one joint while its joint angle changes, exactly.
 
-    Parameters
-    ----------
-    joint_angle : Jet (...) [rad, rad/s, rad/s²]
-        α, α', α''; the plane of the two shafts does not turn.
-    yoke_rotation : array (...) [rad]
-        θ, angle of the driving yoke from that plane.
-    speed, acceleration : array (...) [rad/s, rad/s²]
-        ω_1, ε_1.
+    joint_angle (...) [rad, rad/s, rad/s²]: α, α', α''; the plane of the two shafts does not turn.
+    yoke_rotation (...) [rad]: θ, angle of the driving yoke from that plane.
+    speed, acceleration (...) [rad/s, rad/s²]: ω_1, ε_1.
+    Returns driven_speed, driven_acceleration (...) [rad/s, rad/s²].
 
-    Returns
-    -------
-    driven_speed, driven_acceleration : arrays (...) [rad/s, rad/s²]
-
-    Notes
-    -----
     With c = cos α, s = sin α, D = 1 - s² cos²θ: ω_2 = (c ω_1 + ½ s sin 2θ α')/D, Book (97), and
     ε_2 = [c D ε_1 + ½ s D sin 2θ α'' - c s² sin 2θ ω_1² + 2 s (c² cos²θ - sin²θ) ω_1 α'
     + ½ c (1 + s² cos²θ) sin 2θ α'²]/D², Book (98) with the terms it drops.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> float(driven_motion((np.asarray(0.2), np.asarray(3.0), np.asarray(0.0)), 0.7, speed=100.0)[0])
-    100.623625
     """
     xp = namespace(*joint_angle, yoke_rotation)
     alpha, rate, curve = (real(part, xp) for part in joint_angle)
@@ -88,26 +63,10 @@ def driven_motion(
 def double_joint_speed(first: Jet, second: Jet, angle: ArrayLike, *, speed: ArrayLike) -> Array:
     """Return the output speed of a planar double joint with parallel yokes while both joint angles change, exactly.
 
-    Parameters
-    ----------
-    first, second : Jet (...) [rad, rad/s, rad/s²]
-        The joint angles; accelerations do not matter.
-    angle : array (...) [rad]
-        φ_1, with ψ_1 = 0 and γ_2 + β_2 = 0.
-    speed : array (...) [rad/s]
-        ω_1.
-
-    Notes
-    -----
+    first, second (...) [rad, rad/s, rad/s²]: the joint angles; accelerations do not matter.
+    angle (...) [rad]: φ_1, with ψ_1 = 0 and γ_2 + β_2 = 0; speed (...) [rad/s]: ω_1.
     ω_3 = [c_1 c_2 ω_1 + ½ sin 2φ_1 (s_1 c_2 α_1' - c_1 s_2 α_2')]/(c_1² cos²φ_1 + c_2² sin²φ_1), Book (99). Uniform
     only if the joint angles are equal at all times; equal at one instant is not enough.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> swing = (np.asarray(0.3), np.asarray(2.0), np.asarray(0.0))
-    >>> float(double_joint_speed(swing, swing, 0.7, speed=100.0))
-    100.0
     """
     xp = namespace(*first, *second, angle)
     (a1, r1), (a2, r2) = ((real(jet[0], xp), real(jet[1], xp)) for jet in (first, second))
@@ -128,35 +87,11 @@ def planar_chain(
 ) -> VaryingJointAngle:
     """Return speed and acceleration of the output of a planar drive while its joint angles change, exactly.
 
-    Parameters
-    ----------
-    joint_angles : Jet (..., n) [rad, rad/s, rad/s²]
-        Bends of the joints, negative ones the other way: all of one sign is a W-arrangement (β = 0), signs in turn a
-        Z-arrangement.
-    angle : array (...) [rad]
-        φ_1.
-    yoke_angle : array (n-1,) [rad]
-        γ_2 … γ_n.
-    speed, acceleration : array (...) [rad/s, rad/s²]
-        ω_1, ε_1.
-    start_phase : float [rad]
-        ψ_1.
-
-    Returns
-    -------
-    VaryingJointAngle
-        Of the last shaft.
-
-    Notes
-    -----
+    joint_angles (..., n) [rad, rad/s, rad/s²]: bends of the joints, negative ones the other way: all of one sign is a
+    W-arrangement (β = 0), signs in turn a Z-arrangement.
+    angle (...) [rad]: φ_1; yoke_angle (n-1,) [rad]: γ_2 … γ_n; speed, acceleration (...) [rad/s, rad/s²]: ω_1, ε_1.
+    start_phase [rad]: ψ_1.
     The general method of `moving_axes` on axes that turn in one plane; input axis along x, plane normal y.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> joint_angles = (np.asarray([0.3, 0.3]), np.asarray([2.0, 2.0]), np.asarray([5.0, 5.0]))
-    >>> round(float(planar_chain(joint_angles, 0.7, yoke_angle=[0.0], speed=100.0).driven_speed), 9)
-    100.0
     """
     alpha, rate, curve = (np.asarray(part, dtype=float) for part in joint_angles)
     phi = np.asarray(angle, dtype=float)
@@ -302,30 +237,12 @@ def swinging_chain(
 def rate_effect(joint_angle: ArrayLike, joint_angle_rate: ArrayLike, *, speed: ArrayLike) -> Array:
     """Return by how much a changing bend raises the speed fluctuation of a joint over the frozen value.
 
-    Parameters
-    ----------
-    joint_angle, joint_angle_rate : array (...) [rad, rad/s]
-        α and α' at an instant.
-    speed : array (...) [rad/s]
-        ω_1.
-
-    Returns
-    -------
-    array (...)
-        δ with the rate over δ without.
-
-    Notes
-    -----
+    joint_angle, joint_angle_rate (...) [rad, rad/s]: α and α' at an instant; speed (...) [rad/s]: ω_1.
+    Returns (...): δ with the rate over δ without.
     √(1 + (α'/(ω_1 sin α))²), exact: over all yoke positions the ratio of ω_2, Book (97), spreads over
     δ = tan α √(sin²α + (α'/ω_1)²), see `speed_range`. For small joint angles
     √(1 + (α'/(α ω_1))²): below `FREEZE` · α ω_1 it adds less than 5 %. Book's threshold α' < 0.1 … 0.2 ω_1 holds for
     the speed, not for its speed fluctuation.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> np.round(rate_effect(np.deg2rad([5.0, 10.0, 20.0]), 10.0, speed=100.0), 2)
-    array([1.52, 1.15, 1.04])
     """
     xp = namespace(joint_angle, joint_angle_rate, speed)
     alpha, rate, omega = (real(part, xp) for part in (joint_angle, joint_angle_rate, speed))
@@ -333,13 +250,7 @@ def rate_effect(joint_angle: ArrayLike, joint_angle_rate: ArrayLike, *, speed: A
 
 
 def may_freeze(joint_angle: ArrayLike, joint_angle_rate: ArrayLike, *, speed: ArrayLike) -> Array:
-    """Tell whether a joint angle may be frozen at each instant: \\|α'\\| ≤ 0.3 α \\|ω_1\\|; array of bool (...).
-
-    Examples
-    --------
-    >>> bool(may_freeze(0.2, 5.0, speed=100.0)), bool(may_freeze(0.05, 5.0, speed=100.0))
-    (True, False)
-    """
+    """Tell whether a joint angle may be frozen at each instant: \\|α'\\| ≤ 0.3 α \\|ω_1\\|; array of bool (...)."""
     xp = namespace(joint_angle, joint_angle_rate, speed)
     alpha, rate, omega = (real(part, xp) for part in (joint_angle, joint_angle_rate, speed))
     return xp.abs(rate) <= FREEZE * alpha * xp.abs(omega)

@@ -67,12 +67,7 @@ def _group(group: Formulas) -> Table:
 
 
 def answer_of_keys(item: Calculation) -> Answer:
-    """Return the keys that a formula takes and gives.
-
-    Parameters
-    ----------
-    item : Calculation
-    """
+    """Return the keys that a formula takes and gives."""
     forms = [_form(one) for one in item.takes]
     needed = [_("needed") if one.required else "" for one in item.takes]
     takes = Table(
@@ -120,11 +115,7 @@ def answer_of_keys(item: Calculation) -> Answer:
 def answer(item: Calculation, found: Mapping[str, Any]) -> Answer:
     """Return what a formula comes to.
 
-    Parameters
-    ----------
-    item : Calculation
-    found : mapping
-        What it gave: values in the units of their keys.
+    found: what it gave: values in the units of their keys.
     """
     docs = {output.key: _(output.doc) for output in item.returns}
     wordy = any(isinstance(value, str) and len(value) > WORDY for value in found.values())
@@ -178,15 +169,8 @@ def _form(one: Given) -> tuple[str, str]:
 def leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
     """Yield the single values of nested lists and tables with their paths.
 
-    Parameters
-    ----------
-    name : str
-        Path of the value.
-    value : object
-        Number, word, list or table.
+    value: number, word, list or table.
 
-    Examples
-    --------
     >>> list(leaves("x", [[1, 2], 3]))
     [('x[0][0]', 1), ('x[0][1]', 2), ('x[1]', 3)]
     """

@@ -83,13 +83,7 @@ class Calculation:
     module: str = ""
 
     def __call__(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
-        """Return the outputs for inputs with unit keys.
-
-        Raises
-        ------
-        InputError
-            With everything that is wrong, each problem under the key as it was given.
-        """
+        """Return the outputs for inputs with unit keys."""
         values, problems = read(self.takes, inputs)
         check([*problems, *self.check(values)])
         try:

@@ -49,12 +49,7 @@ SURE = {
 
 
 def answer(known: Catalogue) -> Answer:
-    """Return what tables a catalogue has.
-
-    Parameters
-    ----------
-    known : Catalogue
-    """
+    """Return what tables a catalogue has."""
     kinds = [_((kind.__doc__ or "").strip().splitlines()[0]).rstrip(".") for kind in TABLES.values()]
     counts = [len(known.tables.get(name, {})) for name in TABLES]
     text = _("{count} rows in {tables} tables, each with its source.")
@@ -89,11 +84,7 @@ def answer(known: Catalogue) -> Answer:
 def answer_of_table(known: Catalogue, name: str) -> Answer:
     """Return the rows of a table: the most important for people, for programs as a file has them.
 
-    Parameters
-    ----------
-    known : Catalogue
-    name : str
-        One of `TABLES`.
+    name: one of `TABLES`.
     """
     who = reader()
     rows = list(known.tables.get(name, {}).values())
@@ -154,12 +145,7 @@ def _as_filed(flat: Sequence[Mapping[str, Any]]) -> Table:
 def answer_of_row(known: Catalogue, name: str, row: Row) -> Answer:
     """Return one row, with its source and how sure it is.
 
-    Parameters
-    ----------
-    known : Catalogue
-    name : str
-        Table of the row.
-    row : Row
+    name: table of the row.
     """
     who = reader()
     flat = row_flat(row, who.units)
@@ -197,10 +183,7 @@ def _said(value: Any, who: Reader) -> str:
 def answer_of_keys(name: str) -> Answer:
     """Return the keys that a row of a table can have.
 
-    Parameters
-    ----------
-    name : str
-        One of `TABLES`.
+    name: one of `TABLES`.
     """
     keys = list(row_keys(name))
     text = _("{table}: a row can have {count} keys; any unit of the dimension is read.")
@@ -225,15 +208,7 @@ def answer_of_keys(name: str) -> Answer:
 
 
 def answer_of_file(path: Path, found: Catalogue) -> Answer:
-    """Return what a file of rows holds that is right.
-
-    Parameters
-    ----------
-    path : path
-        The file.
-    found : Catalogue
-        Its rows.
-    """
+    """Return what a file of rows holds that is right."""
     base = catalogue().tables
     own = found.tables
     instead = [", ".join(key for key in rows if key in base.get(name, {})) for name, rows in own.items()]

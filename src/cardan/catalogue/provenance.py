@@ -19,16 +19,9 @@ _PART = re.compile(r"joints\[(\d+)\]\.\w+\.")
 def rows_behind(drive: Drive, known: Catalogue, *paths: str) -> tuple[Row, ...]:
     """Return the rows of the catalogue, sizes of joints and grades of materials, whose figures stand at paths.
 
-    Parameters
-    ----------
-    drive : Drive
-        Filled in from the catalogue; a figure that differs from that of its size or its grade is its own.
-    known : Catalogue
-    paths : str
-        Without units, as ``joints[0].cross.span`` or ``shafts[1].material.yield_strength``.
+    drive: filled in from the catalogue; a figure that differs from that of its size or its grade is its own.
+    paths: without units, as ``joints[0].cross.span`` or ``shafts[1].material.yield_strength``.
 
-    Examples
-    --------
     >>> from dataclasses import replace
     >>> from cardan.catalogue import catalogue, completed
     >>> from cardan.drive.joint_parts import Rating
@@ -50,8 +43,6 @@ def rows_behind(drive: Drive, known: Catalogue, *paths: str) -> tuple[Row, ...]:
 def unconfirmed(rows: tuple[Row, ...]) -> tuple[str, ...]:
     """Return in words the rows that nothing confirms.
 
-    Examples
-    --------
     >>> from cardan.catalogue import catalogue
     >>> unconfirmed((catalogue().rows(JointSize)["example-75"],))
     ('example-75 (made up for examples)',)

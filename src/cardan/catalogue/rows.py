@@ -33,8 +33,6 @@ UNSURE: Mapping[str, str] = MappingProxyType(
 def sureness(confidence: str) -> int:
     """Return the place of a confidence in their order, the least sure first.
 
-    Examples
-    --------
     >>> sorted(("recalled", "confirmed", "made_up"), key=sureness)
     ['made_up', 'recalled', 'confirmed']
     """

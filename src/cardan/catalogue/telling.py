@@ -40,13 +40,8 @@ class RowKey(NamedTuple):
 def row_keys(table: str) -> Iterator[RowKey]:
     """Yield the keys that a row of a table can have, those of inner tables after their own.
 
-    Parameters
-    ----------
-    table : str
-        One of `TABLES`.
+    table: one of `TABLES`.
 
-    Examples
-    --------
     >>> [one.key for one in row_keys("balance_grades")]
     ['id', 'source', 'confidence', 'note', 'speed_m_s']
     """
@@ -63,12 +58,6 @@ def _of_class(cls: Any, before: str) -> Iterator[RowKey]:
 def told(row: R) -> R:
     """Return a row with its sentences in the language spoken here; those of a user's file stay as they are.
 
-    Parameters
-    ----------
-    row : Row
-
-    Examples
-    --------
     >>> from cardan.catalogue import catalogue
     >>> told(catalogue().tables["faults"]["F37"]).repair
     'replace the shaft'
@@ -81,18 +70,7 @@ def told(row: R) -> R:
 def row_tree(row: Any, units: Mapping[str, str] = USUAL) -> dict[str, Any]:
     """Return a row as a catalogue file has it: keys with units, nothing that is not said.
 
-    Parameters
-    ----------
-    row : Row
-    units : mapping of str to str
-        Dimension -> unit, where it is not the usual one.
-
-    Examples
-    --------
-    >>> from cardan.catalogue import catalogue
-    >>> row = catalogue().tables["balance_grades"]["G16"]
-    >>> row_tree(row)["speed_m_s"], row_tree(row, {"speed": "mm_s"})["speed_mm_s"]
-    (0.016, 16.0)
+    units: dimension -> unit, where it is not the usual one.
     """
     found: dict[str, Any] = {}
     for name, one in fields_of(type(row)).items():
@@ -112,11 +90,7 @@ def row_tree(row: Any, units: Mapping[str, str] = USUAL) -> dict[str, Any]:
 def row_flat(row: Row, units: Mapping[str, str] = USUAL) -> dict[str, Any]:
     """Return a row with its inner tables spread out, as ``rating.torque_Nm``; lists as text.
 
-    Parameters
-    ----------
-    row : Row
-    units : mapping of str to str
-        As of `row_tree`.
+    units: as of `row_tree`.
     """
     return dict(_spread(row_tree(row, units), ""))
 

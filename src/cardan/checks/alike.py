@@ -15,11 +15,7 @@ def alike(verdicts: Iterable[Verdict]) -> list[tuple[Verdict, ...]]:
     """Return verdicts in groups: of one check, with limits used alike to a percent, differing in joint or shaft alone.
 
     The one that uses most of its limit stands first.
-
-    Parameters
-    ----------
-    verdicts : iterable of Verdict
-        Single ones that were reached.
+    verdicts: single ones that were reached.
     """
     groups: dict[tuple[str, ...], list[Verdict]] = {}
     for one in verdicts:
@@ -39,14 +35,7 @@ def _used(one: Verdict) -> float:
 
 
 def title_of(group: Sequence[Verdict]) -> str:
-    """Return what a group of verdicts is about.
-
-    Examples
-    --------
-    >>> one, two = (Verdict(check="angle", title=f"angle of joint {k}", subject=f"joints[{k - 1}]") for k in (1, 2))
-    >>> title_of([one, two])
-    'angle of joint 1 (and 2)'
-    """
+    """Return what a group of verdicts is about."""
     numbers = [one.number for one in group[1:] if one.number]
     if not numbers:
         return group[0].title
@@ -60,8 +49,6 @@ NOTHING = 1e-5
 def deciding_limits(one: Verdict) -> list[tuple[str, float]]:
     """Return senses and limits, in SI, that a reader compares the value with: both ends of a band it must leave.
 
-    Examples
-    --------
     >>> deciding_limits(Verdict(check="", title="", value=1.5, limit=(1.0, 2.0), sense="outside"))
     [('≤', 1.0), ('≥', 2.0)]
     """
@@ -73,8 +60,6 @@ def deciding_limits(one: Verdict) -> list[tuple[str, float]]:
 def deciding_limit(one: Verdict) -> tuple[str, float]:
     """Return the sense and the limit, in SI, that a reader compares the value with; of a band the nearer end.
 
-    Examples
-    --------
     >>> deciding_limit(Verdict(check="", title="", value=3.0, limit=(1.0, 2.0), sense="outside"))
     ('≥', 2.0)
     """

@@ -31,14 +31,7 @@ TOGETHER = 50_000
 def largest_joint_angles(points: Array, movements: Sequence[Movement]) -> Array:
     """Return the largest joint angle of every joint over the instants of a movement, array (..., n) [rad].
 
-    Parameters
-    ----------
-    points : array (..., n+2, 3) [m]
-        Points of the axis as drawn.
-    movements : sequence of Movement
-
-    Notes
-    -----
+    points (..., n+2, 3) [m]: points of the axis as drawn.
     Where a movement carries points is an affine function of where they are.
     """
     found = [np.max(_joint_angles(moved)[0], axis=-2) for _part, moved in _moved(points, movements)]
@@ -56,24 +49,10 @@ def largest_of(
 ) -> Array:
     """Return the largest or the mean answer over the instants of a movement, as if it stood at each, array (..., k).
 
-    Parameters
-    ----------
-    ask : function
-        From kinematic halves (m, t) to answers (m, t, k).
-    kinematic : Chain (..., n)
-        With the yoke angles and the start phase.
-    points : array (..., n+2, 3) [m]
-        Points of the axis as drawn.
-    movements : sequence of Movement
-    joints : sequence of n Joint
-        Their kinds.
-    mean : bool
-        Take the mean over the time instead of the largest.
-
-    Returns
-    -------
-    array (..., k)
-        Infinite where a joint bends 90° or more at an instant.
+    ask: from kinematic halves (m, t) to answers (m, t, k).
+    kinematic (..., n): with the yoke angles and the start phase; points (..., n+2, 3) [m]: points of the axis as drawn.
+    mean: take the mean over the time instead of the largest.
+    Returns: infinite where a joint bends 90° or more at an instant.
     """
     outer, count = points.shape[:-2], kinematic.joints - 1
     yokes = np.broadcast_to(kinematic.yoke_angle, (*outer, count)).reshape(math.prod(outer), 1, count)
@@ -98,14 +77,7 @@ def largest_of(
 def extreme_lengths(points: Array, movements: Sequence[Movement]) -> tuple[Array, Array]:
     """Return the least and the greatest length of every shaft over the instants of a movement, arrays (..., n+1) [m].
 
-    Parameters
-    ----------
-    points : array (..., n+2, 3) [m]
-        Points of the axis as drawn.
-    movements : sequence of Movement
-
-    Notes
-    -----
+    points (..., n+2, 3) [m]: points of the axis as drawn.
     Up to `FEW` different drives exactly, as `motion.articulation` has them; of more the parabola through the
     extreme instant and its neighbours.
     """

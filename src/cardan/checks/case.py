@@ -24,44 +24,23 @@ MANY = 40
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Case:
-    """Steady running at a torque and a speed, without masses and friction; leading axes (...) are those of the drives.
+    """Steady running at a torque and a speed, without masses and friction.
 
-    Attributes
-    ----------
-    name : str
-        What to call it; empty for the duty itself.
-    torque : float or array (...) or None [N·m]
-        Size of the torque.
-    speed : float or array (...) or None [rad/s]
-        Size of the input speed.
-    share : float or array (...)
-        Share of the whole time.
-    block : bool
-        Whether it is part of a duty cycle.
-    severity : float
-        Its own factor for shocks over that of the duty.
-    chain : Chain
-        Kinematic half of the drives.
-    unit : dict of str to TurnLoads
-        Loads that a torque of 1 at either end makes; ways of running that share their chain share them.
-    torque_at : str
-        At which end the torque is given.
-    harmonics : tuple of Harmonic
-        Its swinging parts.
-    scale : float or array (...) [N·m]
-        Mean torque that the harmonics belong to, and with which they grow; zero where they do not.
+    Leading axes (...) are those of the drives.
     """
 
-    chain: Chain
+    chain: Chain  # kinematic half of the drives
+    # loads that a torque of 1 at either end makes; ways of running that share their chain share them
     unit: dict[str, TurnLoads] = field(default_factory=dict)
-    name: str = ""
-    torque: Array | float | None = None
-    speed: Array | float | None = None
-    share: Array | float = 1.0
-    block: bool = False
-    severity: float = 1.0
-    torque_at: str = "output"
-    harmonics: tuple[Harmonic, ...] = ()
+    name: str = ""  # what to call it; empty for the duty itself
+    torque: Array | float | None = None  # (...) [N·m]: size of the torque
+    speed: Array | float | None = None  # (...) [rad/s]: size of the input speed
+    share: Array | float = 1.0  # (...): share of the whole time
+    block: bool = False  # whether it is part of a duty cycle
+    severity: float = 1.0  # its own factor for shocks over that of the duty
+    torque_at: str = "output"  # at which end the torque is given
+    harmonics: tuple[Harmonic, ...] = ()  # its swinging parts
+    # (...) [N·m]: mean torque that the harmonics belong to, and with which they grow; zero where they do not
     scale: Array | float = 0.0
 
     @cached_property
@@ -136,9 +115,7 @@ def _unit_loads(chain: Chain, torque_at: str) -> TurnLoads:
 def blocks(chain: Chain) -> Iterator[tuple[slice, Chain]]:
     """Yield the drives of a chain in blocks that fit the cache: their rows, and their chain.
 
-    Parameters
-    ----------
-    chain : Chain (..., n)
+    chain (..., n).
     """
     outer, joints = chain.joint_angle.shape[:-1], chain.joints
     count = math.prod(outer)

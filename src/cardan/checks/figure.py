@@ -26,14 +26,7 @@ SIGNS = {"passed": "●", "unconfirmed": "○", "close": "▲", "failed": "✖"}
 
 
 def check_figures(verdicts: Sequence[Verdict], *, name: str = "") -> tuple[Figure, ...]:
-    """Return the figure of the verdicts of one drive; none where nothing was judged.
-
-    Parameters
-    ----------
-    verdicts : sequence of Verdict
-    name : str
-        Of the drive.
-    """
+    """Return the figure of the verdicts of one drive; none where nothing was judged."""
     run = sorted((one for one in verdicts if one.run and not one.advice), key=lambda one: -float(one.utilisation))
     return (_figure(run, name),) if run else ()
 

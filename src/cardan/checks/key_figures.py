@@ -20,11 +20,7 @@ from .verdict import AMBER, Verdict
 def key_figures(drive: Drive, verdicts: Sequence[Verdict]) -> Iterator[KeyFigure]:
     """Yield the figures of the first page that verdicts decide.
 
-    Parameters
-    ----------
-    drive : Drive
-    verdicts : sequence of Verdict
-        On it; those that were not run decide nothing.
+    verdicts: on it; those that were not run decide nothing.
     """
     run = [one for one in verdicts if one.run]
     yield _joint_angle(drive, {one.subject: one for one in run if one.check == "joint_angle" and not one.advice})

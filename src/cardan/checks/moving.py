@@ -34,12 +34,7 @@ def largest_joint_angle(design: Design, i: int) -> Array | float:
 def at_its_most(design: Design, ask: Callable[[Array], Array]) -> tuple[Array, str]:
     """Return the largest answers on the joint angles, as drawn and moving (..., k), and a word where it moves.
 
-    Parameters
-    ----------
-    design : Design
-        Of Hooke joints.
-    ask : function
-        From bends (..., n) [rad] to answers (..., k).
+    design: of Hooke joints; ask: from bends (..., n) [rad] to answers (..., k).
     """
     drawn = ask(design.joint_angle)
     moved = design.while_moving(lambda chain: ask(chain.joint_angle))
@@ -98,12 +93,8 @@ def stands(design: Design) -> list[tuple[float, Design]]:
 def worst_of_poses(drawn: Sequence[Verdict], poses: Sequence[tuple[Text, Sequence[Verdict]]]) -> tuple[Verdict, ...]:
     """Return for each verdict the worst of the drive as drawn and in its poses, with a word on which pose it is.
 
-    Parameters
-    ----------
-    drawn : sequence of Verdict
-        Of the drive as drawn, or of many.
-    poses : sequence of (Text, sequence of Verdict)
-        Which pose or instant it is, and the verdicts there.
+    drawn: of the drive as drawn, or of many.
+    poses, sequence of (Text, sequence of Verdict): which pose or instant it is, and the verdicts there.
     """
     found = []
     for one in drawn:

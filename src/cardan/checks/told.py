@@ -14,8 +14,6 @@ from .design import Design
 def turning(speed: float) -> Quantity:
     """Return a speed [rad/s] as people read it, in whole turns a minute.
 
-    Examples
-    --------
     >>> from cardan.answers.reader import USUAL
     >>> from cardan.units import rpm
     >>> turning(1800 * rpm).told(USUAL)
@@ -27,8 +25,6 @@ def turning(speed: float) -> Quantity:
 def at_top_speed(design: Design) -> Text:
     """Return at which speed one drive is judged where that is not the speed of its duty; else nothing.
 
-    Examples
-    --------
     >>> from cardan.answers.quantity import told
     >>> from cardan.answers.reader import USUAL
     >>> from cardan.drive.drive import Drive
@@ -52,10 +48,7 @@ def as_drawn(design: Design) -> str:
 def bendable(design: Design, allowed: Array) -> tuple[Array, str]:
     """Return the joint angle that a rule allows, no more than joints of such kinds can reach, and a word on it.
 
-    Parameters
-    ----------
-    design : Design
-    allowed : array (...) [rad]
+    allowed (...) [rad].
     """
     most = min(joint.steepest for joint in design.drive.joints)
     note = _("joints of this kind reach no larger angle") if np.all(allowed > most) else ""
@@ -65,8 +58,6 @@ def bendable(design: Design, allowed: Array) -> tuple[Array, str]:
 def joined(*parts: Text) -> Text:
     """Return the parts of a note that say something.
 
-    Examples
-    --------
     >>> joined("at speed", "", "while the drive moves").parts
     ['at speed', 'while the drive moves']
     >>> joined("", "while the drive moves")

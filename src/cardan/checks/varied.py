@@ -19,15 +19,8 @@ def varied_points(
 ) -> Array:
     """Return the points of the axis of a drive, or of many, array (..., n+2, 3) [m].
 
-    Parameters
-    ----------
-    drive : Drive
-    replaced : mapping of str to array (...)
-        Path without unit -> values of places and angles that vary.
-    shape : tuple of int
-        Leading axes of the drives.
-    given : Chain, optional
-        Bends and planes of a drive that is given by angles.
+    replaced, mapping of str to array (...): path without unit -> values of places and angles that vary.
+    shape: leading axes of the drives; given: bends and planes of a drive that is given by angles.
     """
     outer = shape if replaced else ()
     place_of = geometry(drive)

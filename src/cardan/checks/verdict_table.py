@@ -61,8 +61,6 @@ def amount(one: Verdict, value: Any, *, given: bool = False) -> Quantity:
 def share(used: float) -> Quantity:
     """Return a utilisation for a sentence, in percent.
 
-    Examples
-    --------
     >>> from cardan.answers.reader import USUAL
     >>> share(1.357).told(USUAL), share(0.2838).told(USUAL), share(float("inf")).told(USUAL)
     ('136 %', '28.4 %', '> 100\u202f000 %')
@@ -95,16 +93,9 @@ def verdict_table(
 ) -> Table:
     """Return verdicts as people read them, those that say the same of several parts in one row.
 
-    Parameters
-    ----------
-    verdicts : sequence of Verdict
-        Single ones that were reached.
-    title : str
-        Heading.
-    sources : bool
-        Say in a brief table, too, where each comes from; a full one has a column for it.
-    torque : float, optional
-        Torque of the duty [N·m]: with it, at which torque each limit is reached.
+    verdicts: single ones that were reached.
+    sources: say in a brief table, too, where each comes from; a full one has a column for it.
+    torque: torque of the duty [N·m]: with it, at which torque each limit is reached.
     """
     groups = alike(verdicts)
     first = [group[0] for group in groups]
@@ -185,16 +176,9 @@ def verdict_records(
 ) -> Table:
     """Return verdicts for programs, one a row: value and limit in the unit that stands beside them.
 
-    Parameters
-    ----------
-    verdicts : sequence of Verdict
-        Single ones.
-    name : str
-        Of the table in JSON.
-    torque : float, optional
-        Torque of the duty [N·m]: with it, at which torque each limit is reached.
-    flat : bool
-        Rows of CSV: both ends of a band in columns of their own, lists of keys with blanks between them.
+    verdicts: single ones; name: of the table in JSON.
+    torque: torque of the duty [N·m]: with it, at which torque each limit is reached.
+    flat: rows of CSV: both ends of a band in columns of their own, lists of keys with blanks between them.
     """
     ends = [_ends(one) for one in verdicts]
     keys = [[key_of(path) for path in one.missing] for one in verdicts]

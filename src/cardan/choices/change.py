@@ -69,8 +69,6 @@ class Remedy:
 def typed(value: float | int | str) -> str:
     """Return a value of a key as people would type it: to six digits, and all of a large number.
 
-    Examples
-    --------
     >>> typed(15.3333333333), typed(-46.2), typed(1234567.0), typed("example-150")
     ('15.3333', '-46.2', '1234567', 'example-150')
     """

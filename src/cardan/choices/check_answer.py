@@ -46,17 +46,10 @@ URGENT = 10
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Checked:
-    """The verdicts on a drive and their remedies.
-
-    Attributes
-    ----------
-    verdicts : tuple of Verdict
-    remedies : tuple of Cure
-        The smallest changes of single keys that make failed verdicts pass.
-    """
+    """The verdicts on a drive and their remedies."""
 
     verdicts: tuple[Verdict, ...]
-    remedies: tuple[Remedy, ...] = ()
+    remedies: tuple[Remedy, ...] = ()  # the smallest changes of single keys that make failed verdicts pass
 
     @property
     def binding(self) -> list[Verdict]:
@@ -102,15 +95,9 @@ def checked(
 ) -> Checked:
     """Return the verdicts on a drive and their remedies.
 
-    Parameters
-    ----------
-    drive : Drive
-    only : sequence of str
-        Names of checks; all when empty.
-    known : Catalogue, optional
-        The shipped one when not given.
-    progress : function, optional
-        Called with the share done; answering "stop" ends the search for remedies.
+    only: names of checks; all when empty.
+    known: the shipped one when not given.
+    progress: called with the share done; answering "stop" ends the search for remedies.
     """
     verdicts = check(drive, only=only, known=known)
     return Checked(verdicts=verdicts, remedies=remedies(drive, verdicts, known=known, progress=progress))
@@ -133,14 +120,8 @@ def otherwise(drive: Drive) -> str:
 def answer(drive: Drive, result: Checked, *, sources: bool = False, missing: bool = False) -> Answer:
     """Return what there is to say of the checks of a drive.
 
-    Parameters
-    ----------
-    drive : Drive
-    result : Checked
-    sources : bool
-        Say in brief, too, where every verdict comes from.
-    missing : bool
-        Say in brief, too, which keys the checks need that were not run.
+    sources: say in brief, too, where every verdict comes from.
+    missing: say in brief, too, which keys the checks need that were not run.
     """
     close = any(one.state in ("close", "unconfirmed") for one in result.binding)
     return Answer(
@@ -172,10 +153,7 @@ def answer(drive: Drive, result: Checked, *, sources: bool = False, missing: boo
 def sentence(verdicts: Sequence[Verdict]) -> Say | str:
     """Return in a sentence how verdicts came out.
 
-    Parameters
-    ----------
-    verdicts : sequence of Verdict
-        All of a drive.
+    verdicts: all of a drive.
     """
     result = Checked(verdicts=tuple(verdicts))
     binding, failed = result.binding, result.failed
@@ -226,12 +204,7 @@ def _tables(drive: Drive, result: Checked, *, sources: bool, missing: bool) -> I
 def remedy_table(drive: Drive, result: Checked, *, helpful: bool = False) -> Table:
     """Return the smallest changes of single keys that make failed verdicts pass, those that help most first.
 
-    Parameters
-    ----------
-    drive : Drive
-    result : Checked
-    helpful : bool
-        Only those that help most, with a word on what has no remedy.
+    helpful: only those that help most, with a word on what has no remedy.
     """
     found = result.remedies
     best = list(most_helpful(found))

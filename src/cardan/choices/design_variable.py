@@ -56,37 +56,19 @@ ROUGH = {
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class DesignVariable:
-    """A key that holds a number.
+    """A key that holds a number."""
 
-    Attributes
-    ----------
-    bare, path : str
-        Without and with its unit.
-    unit : str
-    factor : float
-        From the unit to SI.
-    now : float
-        What stands there, in SI.
-    whole : bool
-        Whether it is a count.
-    key : Key
-        Its allowed range.
-    effort : int
-        How much has to be redone: 0 a part, 1 the place of joints between the ends, 2 that of the ends, 3 what is asked
-        of the drive.
-    reach : float or None
-        How far it goes at most, in SI; None where it grows and shrinks by a factor.
-    """
-
-    bare: str
+    bare: str  # bare, path: without and with its unit
     path: str
     unit: str
-    factor: float
-    now: float
-    whole: bool
-    key: Key
+    factor: float  # from the unit to SI
+    now: float  # what stands there, in SI
+    whole: bool  # whether it is a count
+    key: Key  # its allowed range
+    # how much has to be redone: 0 a part, 1 the place of joints between the ends, 2 that of the ends, 3 what is asked
+    # of the drive
     effort: int = 0
-    reach: float | None = None
+    reach: float | None = None  # how far it goes at most, in SI; None where it grows and shrinks by a factor
 
     def ladder(self, side: float) -> Array:
         """Return the values to look at, upwards (+1) or downwards (-1), from what stands there on, array (k,)."""
@@ -126,12 +108,7 @@ class DesignVariable:
 def design_variables_of(drive: Drive, paths: Iterable[str], known: Catalogue) -> Iterator[DesignVariable]:
     """Yield the design variables among some paths without units; sizes that a maker sets are none.
 
-    Parameters
-    ----------
-    drive : Drive
-        With grades and sizes filled in.
-    paths : iterable of str
-    known : Catalogue
+    drive: with grades and sizes filled in.
     """
     for bare in paths:
         owner, _dot, _name = bare.rpartition(".")

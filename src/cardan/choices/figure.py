@@ -25,12 +25,7 @@ def trade_off_figures(found: TradeOff) -> tuple[Figure, ...]:
 
 
 def trade_off_figure(found: TradeOff) -> Figure:
-    """Return utilisation and critical speed over mass, a curve for each wall, the best tubes marked.
-
-    Parameters
-    ----------
-    found : TradeOff
-    """
+    """Return utilisation and critical speed over mass, a curve for each wall, the best tubes marked."""
     used = np.where(found.utilisation <= MOST_USED, found.utilisation, np.nan)
     shown = np.isfinite(used)
     critical = np.where(shown, found.critical / rpm, np.nan)
@@ -140,12 +135,7 @@ def sizing_figures(found: Sizing) -> tuple[Figure, ...]:
 
 
 def sizing_figure(found: Sizing) -> Figure:
-    """Return what a sized part uses of its limits; for a joint, what every size of the catalogue uses.
-
-    Parameters
-    ----------
-    found : Sizing
-    """
+    """Return what a sized part uses of its limits; for a joint, what every size of the catalogue uses."""
     rows = _rows(found)
     if found.tried:
         chosen = next((one.id for one in found.tried if one.passed), "")

@@ -50,28 +50,7 @@ ROWS = {"R10": R20[::2], "R20": R20, "R40": R40}
 def round_up(value: float, *, step: float, series: str = "step") -> float:
     """Return the smallest size that is made and no smaller than a value.
 
-    Parameters
-    ----------
-    value : float
-        Above zero.
-    step : float
-        Step of the drawing, in the unit of the value.
-    series : str
-        One of `SERIES`.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    InputError
-        There is no such series.
-
-    Examples
-    --------
-    >>> round_up(63.2, step=1.0), round_up(63.2, step=1.0, series="R20"), round_up(2.01, step=0.1)
-    (64.0, 71.0, 2.1)
+    value: above zero; step: step of the drawing, in the unit of the value; series: one of `SERIES`.
     """
     if series not in SERIES:
         names = ", ".join(SERIES)

@@ -23,20 +23,11 @@ TONES: dict[str, Tone] = {"ok": "good", "conditional": "warning", "rejected": "f
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Selection:
-    """What could be taken for a need.
-
-    Attributes
-    ----------
-    need : JointDuty
-    types : tuple of Candidate
-        Every type of the catalogue: accepted, under conditions, rejected.
-    sizes : tuple of SizeFit
-        Every size of it.
-    """
+    """What could be taken for a need."""
 
     need: JointDuty
-    types: tuple[Candidate, ...]
-    sizes: tuple[SizeFit, ...]
+    types: tuple[Candidate, ...]  # every type of the catalogue: accepted, under conditions, rejected
+    sizes: tuple[SizeFit, ...]  # every size of it
 
 
 def lacking(drive: Drive) -> Lacking:
@@ -51,13 +42,7 @@ def lacking(drive: Drive) -> Lacking:
 def selected(need: JointDuty, *, known: Catalogue | None = None, modern: bool = False) -> Selection:
     """Return what could be taken for a need.
 
-    Parameters
-    ----------
-    need : JointDuty
-    known : Catalogue, optional
-        The shipped one when not given.
-    modern : bool
-        Count modern types too, whose limits are typical values.
+    known: the shipped one when not given; modern: count modern types too, whose limits are typical values.
     """
     types = select_joint(need, known=known, include_beyond=modern)
     return Selection(need=need, types=tuple(types), sizes=fitting_sizes(need, known=known))

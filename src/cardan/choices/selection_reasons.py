@@ -23,43 +23,22 @@ from .selection import SLACK, Candidate, JointDuty
 
 @dataclass(frozen=True, kw_only=True)
 class Reason:
-    """One reason.
+    """One reason."""
 
-    Attributes
-    ----------
-    code : str
-        Cause or condition, as in `Candidate`.
-    message : Text
-        In a sentence, without its full stop.
-    value, limit : float or None
-        In SI, where figures decide.
-    source : str
-        Where the limit comes from.
-    """
-
-    code: str
-    message: Text
-    value: float | None = None
+    code: str  # cause or condition, as in `Candidate`
+    message: Text  # in a sentence, without its full stop
+    value: float | None = None  # value, limit: in SI, where figures decide
     limit: float | None = None
-    source: str = ""
+    source: str = ""  # where the limit comes from
 
 
 @dataclass(frozen=True, kw_only=True)
 class SizeFit:
-    """A size of the catalogue and what its maker's figures say of a need.
-
-    Attributes
-    ----------
-    row : JointSize
-    reasons : tuple of Reason
-        Why it is too small; none where it fits.
-    headroom : float
-        Largest torque over the torque needed; nan where the catalogue gives none.
-    """
+    """A size of the catalogue and what its maker's figures say of a need."""
 
     row: JointSize
-    reasons: tuple[Reason, ...]
-    headroom: float
+    reasons: tuple[Reason, ...]  # why it is too small; none where it fits
+    headroom: float  # largest torque over the torque needed; nan where the catalogue gives none
 
     @property
     def fits(self) -> bool:
@@ -135,14 +114,8 @@ def joint_duty(
 def reasons(candidate: Candidate, need: JointDuty) -> tuple[Reason, ...]:
     """Return why a type of joint is rejected, or under which conditions it is accepted.
 
-    Parameters
-    ----------
-    candidate : Candidate
-        Of `select_joint` for this need.
-    need : JointDuty
+    candidate: of `select_joint` for this need.
 
-    Examples
-    --------
     >>> from cardan.answers.reader import USUAL
     >>> from cardan.choices.selection import select_joint
     >>> from cardan.units import deg
@@ -188,23 +161,8 @@ def _reason(code: str, candidate: Candidate, need: JointDuty) -> Reason:
 def fitting_sizes(need: JointDuty, *, known: Catalogue | None = None) -> tuple[SizeFit, ...]:
     """Return every size of the catalogue with what its maker's figures say, those that fit first, the smallest first.
 
-    Parameters
-    ----------
-    need : JointDuty
-    known : Catalogue, optional
-        The shipped one when not given.
-
-    Returns
-    -------
-    tuple of SizeFit
-        Only ratings are compared; whether a size lasts is for `cardan.size` and `cardan.life` to say.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> found = fitting_sizes(JointDuty(torque=700.0, joint_angle=10 * deg, speed=100.0))
-    >>> found[0].row.id, round(found[0].headroom, 2)
-    ('example-58', 1.26)
+    known: the shipped one when not given.
+    Returns: only ratings are compared; whether a size lasts is for `cardan.size` and `cardan.life` to say.
     """
     rows = (known or catalogue()).rows(JointSize).values()
     found = []

@@ -110,15 +110,8 @@ def solved(
 def smallest(utilisation: Callable[[Array], Array], low: float, high: float) -> float | None:
     """Return the smallest factor at which a utilisation is at most 1, None where there is none.
 
-    Parameters
-    ----------
-    utilisation : function
-        From factors (m,) to the utilisation there (m,).
-    low, high : float
-        Where to look.
+    utilisation: from factors (m,) to the utilisation there (m,); low, high: where to look.
 
-    Examples
-    --------
     >>> print(f"{smallest(lambda x: 8.0 / x**3, 0.1, 100.0):.12f}")
     2.000000000000
     """
@@ -144,15 +137,8 @@ def settled(utilisation: Callable[[float], float], factor: float) -> float:
 
     Checks of many sizes at once take the critical speed of a line to go with that of its shaft; one by one they know
     it. The difference is small, and a few steps of the secant settle it.
+    utilisation: from a factor to the utilisation there.
 
-    Parameters
-    ----------
-    utilisation : function
-        From a factor to the utilisation there.
-    factor : float
-
-    Examples
-    --------
     >>> print(f"{settled(lambda x: 4.0 / x**2, 1.97):.10f}")
     2.0000000000
     """

@@ -54,29 +54,15 @@ STEPS = {
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Tried:
-    """A size of the catalogue and what the checks say of it.
-
-    Attributes
-    ----------
-    id : str
-    outer, mass : float [m, kg]
-        nan where the catalogue does not say.
-    utilisation : float
-        Largest of the checks that could be judged; nan where none could.
-    passed : bool
-    worst : Verdict or None
-        The check with the largest utilisation.
-    missing : tuple of str
-        Paths for want of which some checks could not be judged.
-    """
+    """A size of the catalogue and what the checks say of it."""
 
     id: str
-    outer: float
-    mass: float
-    utilisation: float
+    outer: float  # outer, mass [m, kg]: nan where the catalogue does not say
+    mass: float  # [kg]
+    utilisation: float  # largest of the checks that could be judged; nan where none could
     passed: bool
-    worst: Verdict | None = None
-    missing: tuple[str, ...] = ()
+    worst: Verdict | None = None  # the check with the largest utilisation
+    missing: tuple[str, ...] = ()  # paths for want of which some checks could not be judged
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -201,17 +201,8 @@ def trade_off(
 def front(mass: Array, used: Array, slow: Array, among: Array) -> Array:
     """Return which designs no other one beats in all of three respects, each better when smaller.
 
-    Parameters
-    ----------
-    mass, used, slow : arrays (o, w)
-    among : array of bool (o, w)
-        Designs that count; others neither win nor beat.
-
-    Examples
-    --------
-    >>> one = lambda *values: np.asarray([values])
-    >>> front(one(1.0, 2.0, 3.0), one(0.9, 0.5, 0.6), one(0.0, 0.0, 0.0), one(True, True, True))
-    array([[ True,  True, False]])
+    mass, used, slow (o, w).
+    among (o, w) of bool: designs that count; others neither win nor beat.
     """
     points = np.stack([np.ravel(np.nan_to_num(one, nan=np.inf)) for one in (mass, used, slow)], axis=-1)
     count = np.ravel(among)

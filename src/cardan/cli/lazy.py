@@ -18,32 +18,18 @@ HELP = {"help_option_names": ["-h", "--help"]}
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """What the help says of a command without importing it.
+    """What the help says of a command without importing it."""
 
-    Parameters
-    ----------
-    module : str
-        Folder and file below this one, ``motion.phasing``; the function named like the file is the command. Empty for
-        a group.
-    panel, help : str
-        Where and how the help lists it.
-    examples : tuple of str
-        Lines below its own help.
-    entries : mapping of str to Entry
-        Commands of a group; of a command with a module of its own, what else its first word may ask for.
-    aliases : tuple of str
-        Other names that ask it and that the help does not list.
-    question : str
-        Question of the register that it asks, where it has no file of its own.
-    """
-
+    # folder and file below this one, ``motion.phasing``; the function named like the file is the command. Empty for a
+    # group.
     module: str
-    panel: str
+    panel: str  # panel, help: where and how the help lists it
     help: str
-    examples: tuple[str, ...] = ()
+    examples: tuple[str, ...] = ()  # lines below its own help
+    # commands of a group; of a command with a module of its own, what else its first word may ask for
     entries: Mapping[str, Entry] = field(default_factory=dict)
-    aliases: tuple[str, ...] = ()
-    question: str = ""
+    aliases: tuple[str, ...] = ()  # other names that ask it and that the help does not list
+    question: str = ""  # question of the register that it asks, where it has no file of its own
 
 
 @cache

@@ -26,10 +26,7 @@ readers = later("cardan.answers.reader")
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code; nothing escapes as a traceback.
 
-    Parameters
-    ----------
-    arguments : sequence of str, optional
-        What follows ``cardan`` on the command line; that of the process by default.
+    arguments: what follows ``cardan`` on the command line; that of the process by default.
     """
     given = list(sys.argv[1:] if arguments is None else arguments)
     try:
@@ -85,10 +82,7 @@ def _run(given: list[str]) -> int:
 def _asked(given: Sequence[str]) -> tuple[str, list[str]]:
     """Return the language that ``--lang`` asks for, wherever it stands, empty where it does not; and all else.
 
-    Raises
-    ------
-    InputError
-        It is not one that we speak.
+    Raises InputError: it is not one that we speak.
     """
     values, rest = _taken(given, "--lang")
     return ([_known(value) for value in values] or [""])[-1], rest

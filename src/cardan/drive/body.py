@@ -51,14 +51,7 @@ class Piece(NamedTuple):
 def body_problems(shaft: Shaft, known: float | None, path: str) -> Iterator[Problem]:
     """Yield what contradicts itself in a stepped body.
 
-    Parameters
-    ----------
-    shaft : Shaft
-        The shaft.
-    known : float or None [m]
-        Distance of the joints at its ends; None where it is not known, and for an end shaft.
-    path : str
-        Of the shaft.
+    known [m]: distance of the joints at its ends; None where it is not known, and for an end shaft.
     """
     if shaft.segments and shaft.outer is not None:
         yield Problem(f"{path}.segments", _("outer describes the body already"))
@@ -76,12 +69,7 @@ def body_problems(shaft: Shaft, known: float | None, path: str) -> Iterator[Prob
 def body_length(shaft: Shaft, known: float | None) -> float | None:
     """Return how long the body of a shaft is [m]: between its joints, else as its stretches or itself say.
 
-    Parameters
-    ----------
-    shaft : Shaft
-        The shaft.
-    known : float or None [m]
-        Distance of the joints at its ends; None for an end shaft.
+    known [m]: distance of the joints at its ends; None for an end shaft.
     """
     if known is not None:
         return known
@@ -91,19 +79,7 @@ def body_length(shaft: Shaft, known: float | None) -> float | None:
 def pieces(shaft: Shaft, length: float | None) -> tuple[Piece, ...]:
     """Return the stretches of a shaft from its beginning on, none where its body or its length is not known.
 
-    Parameters
-    ----------
-    shaft : Shaft
-        The shaft.
-    length : float or None [m]
-        Length of its body; stretches are drawn to fit it.
-
-    Examples
-    --------
-    >>> from cardan.drive.shaft import Segment, Shaft
-    >>> stub, tube = Segment(length=0.2, outer=0.05), Segment(length=0.8, outer=0.07, inner=0.066)
-    >>> [(one.start, one.outer) for one in pieces(Shaft(number=2, segments=(stub, tube)), 1.0)]
-    [(0.0, 0.05), (0.2, 0.07)]
+    length [m]: length of its body; stretches are drawn to fit it.
     """
     if length is None:
         return ()
@@ -120,13 +96,6 @@ def pieces(shaft: Shaft, length: float | None) -> tuple[Piece, ...]:
 def body_material(shaft: Shaft) -> Material:
     """Return what a uniform body is made of; of a tube of fibre composite its moduli along the axis and in shear.
 
-    Parameters
-    ----------
-    shaft : Shaft
-        The shaft.
-
-    Examples
-    --------
     >>> from cardan.drive.shaft import Layup, Ply, Shaft
     >>> layup = Layup(angles=(0.0, 0.0), ply_thickness=1e-3, ply=Ply(along=135e9, across=10e9, shear=5e9))
     >>> round(body_material(Shaft(number=2, outer=0.09, layup=layup)).youngs / 1e9)
@@ -143,8 +112,6 @@ def body_material(shaft: Shaft) -> Material:
 def inner_diameter(shaft: Shaft) -> float:
     """Return the inner diameter of a uniform body [m].
 
-    Examples
-    --------
     >>> from cardan.drive.shaft import Shaft
     >>> inner_diameter(Shaft(number=2, outer=0.07, wall=0.002))
     0.066
@@ -172,19 +139,7 @@ class Weight(NamedTuple):
 def weight(shaft: Shaft, length: float | None) -> Weight:
     """Return mass and inertia of a shaft: what is given, else those of its body; the parts it carries come on top.
 
-    Parameters
-    ----------
-    shaft : Shaft
-        The shaft.
-    length : float or None [m]
-        Length of its body.
-
-    Examples
-    --------
-    >>> from cardan.drive.shaft import Lump, Shaft
-    >>> bar = Shaft(number=2, mass=2.0, masses=(Lump(position=0.0, mass=1.0), Lump(position=1.0, mass=3.0)))
-    >>> weight(bar, 1.0)
-    Weight(mass=6.0, inertia=0.0, across=0.8333333, centre=0.6666667)
+    length [m].
     """
     mass, inertia, across, centre = _bare(shaft, length)
     if not shaft.masses:
@@ -236,12 +191,7 @@ class Softness(NamedTuple):
 def softness(shaft: Shaft, length: float | None) -> Softness:
     """Return how a shaft gives way along its length.
 
-    Parameters
-    ----------
-    shaft : Shaft
-        The shaft.
-    length : float or None [m]
-        Length of its body; one without stretches needs none.
+    length [m]: length of its body; one without stretches needs none.
     """
     body = pieces(shaft, 1.0 if length is None and shaft.outer is not None else length)
     if not body:

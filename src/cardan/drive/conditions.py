@@ -28,74 +28,34 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class LoadCase:
-    """A way in which a drive runs under torque.
+    """A way in which a drive runs under torque."""
 
-    Attributes
-    ----------
-    name : str
-        What to call it; empty for the duty itself.
-    torque : float or None [N·m]
-        Mean torque, with its sign; None where the duty says none.
-    speed : float or None [rad/s]
-        Input speed with its sign; the middle of a range.
-    share : float
-        Share of the whole time; 0 for a peak, and for the duty beside its duty cycle.
-    path : str
-        Where it stands in the drive file: ``duty``, ``duty.cases[1]``.
-    speed_range : (float, float) or None [rad/s]
-        Lowest and highest input speed, where the case has its own.
-    joint_angle : float or None [rad]
-        Bend of every joint, where it is not that of the drive.
-    torque_at : str
-        ``output`` or ``input``.
-    harmonics : tuple of Harmonic
-        Swinging parts of the torque.
-    scale : float [N·m]
-        Mean torque that the harmonics belong to; zero when they do not grow with it.
-    shock_factor : float
-        Factor for shocks.
-    pose, movement : str
-        Names of the pose and of the movement to which it is bound; empty where it is not.
-    """
-
-    name: str = ""
-    torque: float | None = None
-    speed: float | None = None
-    share: float = 1.0
-    path: str = "duty"
+    name: str = ""  # what to call it; empty for the duty itself
+    torque: float | None = None  # [N·m]: mean torque, with its sign; None where the duty says none
+    speed: float | None = None  # [rad/s]: input speed with its sign; the middle of a range
+    share: float = 1.0  # share of the whole time; 0 for a peak, and for the duty beside its duty cycle
+    path: str = "duty"  # where it stands in the drive file: ``duty``, ``duty.cases[1]``
+    # [rad/s]: lowest and highest input speed, where the case has its own
     speed_range: tuple[float, float] | None = None
-    joint_angle: float | None = None
-    torque_at: str = "output"
-    harmonics: tuple[Harmonic, ...] = ()
-    scale: float = 0.0
+    joint_angle: float | None = None  # [rad]: bend of every joint, where it is not that of the drive
+    torque_at: str = "output"  # ``output`` or ``input``
+    harmonics: tuple[Harmonic, ...] = ()  # swinging parts of the torque
+    scale: float = 0.0  # [N·m]: mean torque that the harmonics belong to; zero when they do not grow with it
     shock_factor: float = 1.0
-    pose: str = ""
+    pose: str = ""  # pose, movement: names of the pose and of the movement to which it is bound; empty where it is not
     movement: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Condition:
-    """One way in which a drive runs.
+    """One way in which a drive runs."""
 
-    Attributes
-    ----------
-    drive : Drive
-        Its geometry there, with the load case as its duty; without poses, load cases and parts of a duty cycle.
-    pose : str
-        Name of the pose; empty as drawn.
-    case : str
-        Name of the load case; empty for the only one.
-    share : float or None
-        Share of the whole time, 0 for a peak; None where the file does not say.
-    moving : bool
-        Whether the drive moves while it runs so, and each instant is a geometry of its own.
-    """
-
+    # its geometry there, with the load case as its duty; without poses, load cases and parts of a duty cycle
     drive: Drive
-    pose: str = ""
-    case: str = ""
-    share: float | None = 1.0
-    moving: bool = False
+    pose: str = ""  # name of the pose; empty as drawn
+    case: str = ""  # name of the load case; empty for the only one
+    share: float | None = 1.0  # share of the whole time, 0 for a peak; None where the file does not say
+    moving: bool = False  # whether the drive moves while it runs so, and each instant is a geometry of its own
 
     @property
     def speed(self) -> float | None:
@@ -117,12 +77,6 @@ class Condition:
 def load_cases(duty: Duty) -> tuple[LoadCase, ...]:
     """Return every way a duty has a drive run: steadily, its load cases or parts of its duty cycle, its measured peak.
 
-    Parameters
-    ----------
-    duty : Duty
-
-    Examples
-    --------
     >>> from cardan.drive.duty import Block
     >>> parts = (Block(torque=900.0, speed=100.0, share=0.2), Block(torque=300.0, speed=200.0, share=0.8))
     >>> [(one.name, one.share) for one in load_cases(Duty(torque=500.0, speed=150.0, blocks=parts))]
@@ -196,30 +150,11 @@ def _of_case(duty: Duty, case: Case, path: str) -> LoadCase:
 def conditions(drive: Drive) -> tuple[Condition, ...]:
     """Return every condition of a drive: as drawn, then in its poses, each load case in each of them.
 
-    Parameters
-    ----------
-    drive : Drive
-        With its poses, its movements and its duty.
-
-    Returns
-    -------
-    tuple of Condition
-        As drawn first. The poses take their shares, and the drive as drawn what they leave; where a pose has no share,
-        that of the drive as drawn and of each such pose is not known. A load case bound to a pose has its own share
-        there, and the others run in all poses by theirs.
-
-    Raises
-    ------
-    InputError
-        A pose changes what is not there, or makes no drive; the path names the pose.
-
-    Examples
-    --------
-    >>> from cardan.drive.duty import Block
-    >>> parts = (Block(torque=900.0, speed=30.0, share=0.2), Block(torque=300.0, speed=200.0, share=0.8))
-    >>> drive = replace(Drive.from_angles([0.1, 0.1]), duty=Duty(blocks=parts))
-    >>> [(one.name, one.torque, one.share) for one in conditions(drive)]
-    [('part 1 of the duty cycle', 900.0, 0.2), ('part 2 of the duty cycle', 300.0, 0.8)]
+    drive: with its poses, its movements and its duty.
+    Returns: as drawn first. The poses take their shares, and the drive as drawn what they leave; where a pose has no
+    share, that of the drive as drawn and of each such pose is not known. A load case bound to a pose has its own share
+    there, and the others run in all poses by theirs.
+    Raises InputError: a pose changes what is not there, or makes no drive; the path names the pose.
     """
     return tuple(one for stand in in_poses(drive) for one in _loaded(stand.drive, stand.pose, stand.share))
 
@@ -227,17 +162,8 @@ def conditions(drive: Drive) -> tuple[Condition, ...]:
 def in_poses(drive: Drive) -> tuple[Condition, ...]:
     """Return a drive as drawn and in each of its poses, each with the whole duty.
 
-    Parameters
-    ----------
-    drive : Drive
+    Raises InputError: a pose changes what is not there, or makes no drive; the path names the pose.
 
-    Raises
-    ------
-    InputError
-        A pose changes what is not there, or makes no drive; the path names the pose.
-
-    Examples
-    --------
     >>> from .pose import Pose
     >>> turned = Pose(name="turned", share=0.25, set=(("joints[0].joint_angle_deg", 20.0),))
     >>> [(one.name, one.share) for one in in_poses(replace(Drive.from_angles([0.1]), poses=(turned,)))]
@@ -272,13 +198,8 @@ def _loaded(drive: Drive, pose: str, share: float | None) -> list[Condition]:
 def under(drive: Drive, case: LoadCase) -> Drive:
     """Return a drive with one load case as its whole duty.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-    case : LoadCase
-        Its torque, speed and factor for shocks; the joint angle of every joint and the only movement, where it names
-        them.
+    case: its torque, speed and factor for shocks; the joint angle of every joint and the only movement, where it names
+    them.
     """
     duty = replace(
         drive.duty,
@@ -311,28 +232,8 @@ def _grown(case: LoadCase) -> tuple[Harmonic, ...]:
 def gathered(how: Gathering, values: ArrayLike, shares: Sequence[float | None]) -> Array:
     """Return what answers over conditions come to.
 
-    Parameters
-    ----------
-    how : str
-        One of `Gathering`.
-    values : array (c, ...)
-        An answer for each condition.
-    shares : sequence of float or None
-        Share of the time of each.
-
-    Returns
-    -------
-    array (...), or (c, ...) for ``"each"``
-
-    Raises
-    ------
-    InputError
-        A mean or a sum over conditions whose shares are not known.
-
-    Examples
-    --------
-    >>> print(gathered("mean", [10.0, 20.0], [0.25, 0.75]))
-    17.5
+    how: one of `Gathering`; values (c, ...); shares: share of the time of each.
+    Returns (...), or (c, ...) for ``"each"``.
     """
     (every,) = floats(values)
     if how == "each":

@@ -226,16 +226,7 @@ def kinematics(drive: Drive | Drives | Chain) -> Chain:
 def crosses(drive: Drive | Drives | Chain, question: str) -> Chain:
     """Return the kinematic half of drives for a question that is about the crosses of Hooke joints.
 
-    Parameters
-    ----------
-    drive : Drive or Drives (...)
-    question : str
-        What is asked, in words.
-
-    Raises
-    ------
-    InputError
-        A joint of another kind.
+    drive (...); question: what is asked, in words.
     """
     if isinstance(drive, Drive):
         refuse_kinds(drive, question)

@@ -14,33 +14,17 @@ SAME = 1e-9
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Place:
-    """A place of a shaft that turns by itself.
+    """A place of a shaft that turns by itself."""
 
-    Attributes
-    ----------
-    position : float or None [m]
-        Along the power flow from the joint before, on shaft 1 from joint 1; None where the drive does not say.
-    stations : tuple of int
-        Stations of the drive there, by their index.
-    """
-
+    # [m]: along the power flow from the joint before, on shaft 1 from joint 1; None where the drive does not say
     position: float | None
-    stations: tuple[int, ...] = ()
+    stations: tuple[int, ...] = ()  # stations of the drive there, by their index
 
 
 def shaft_places(drive: Described, number: int, length: float | None) -> tuple[Place, ...]:
     """Return the places of a shaft along the power flow: its two ends with the stations between, or one if it is rigid.
 
-    Parameters
-    ----------
-    drive : Described
-    number : int
-        Of the shaft, from 1.
-    length : float or None [m]
-        Its `line_length`.
-
-    Notes
-    -----
+    number: of the shaft, from 1; length [m]: its `line_length`.
     Stations without a place follow in the order of the file; on an end shaft the outermost of them is its free end.
     """
     own = [k for k, station in enumerate(drive.stations) if station.shaft == number]

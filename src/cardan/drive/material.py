@@ -24,11 +24,5 @@ class Material:
 
     @property
     def shear_modulus(self) -> float:
-        """G [Pa]: as given, else E/(2(1+ν)).
-
-        Examples
-        --------
-        >>> Material(youngs=7e10, poisson=0.25).shear_modulus
-        28000000000.0
-        """
+        """G [Pa]: as given, else E/(2(1+ν))."""
         return 0.5 * self.youngs / (1.0 + self.poisson) if self.shear is None else self.shear

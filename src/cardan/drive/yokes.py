@@ -17,8 +17,6 @@ BESIDE = 1.5
 def yoke_mass(joint: Joint) -> float:
     """Return the mass of one yoke of a joint [kg]: half of what the joint weighs beside its cross; 0 where not given.
 
-    Examples
-    --------
     >>> from cardan.drive.cross import Cross
     >>> from cardan.drive.joints import Hooke
     >>> yoke_mass(Hooke(joint_angle=0.1, mass=3.4, cross=Cross(span=0.07, mass=0.6)))
@@ -31,29 +29,12 @@ def yoke_mass(joint: Joint) -> float:
 def with_yokes(drive: Drive, *, at_joint: bool = False) -> Drive:
     """Return a drive whose shafts carry the yokes of its joints.
 
-    Parameters
-    ----------
-    drive : Drive
-        With joints that say what they weigh, by their size or their ``mass``.
-    at_joint : bool
-        Put them at the joints themselves, as for torsion: a yoke hardly twists.
-
-    Returns
-    -------
-    Drive
-        A shaft whose whole mass is given, and one that carries a part of its own beside the joint, stay as they are;
-        one whose inertia is given gets mass alone.
-
-    Notes
-    -----
+    drive: with joints that say what they weigh, by their size or their ``mass``.
+    at_joint: put them at the joints themselves, as for torsion: a yoke hardly twists.
+    Returns Drive: a shaft whose whole mass is given, and one that carries a part of its own beside the joint, stay as
+    they are; one whose inertia is given gets mass alone.
     A yoke counts as a solid cylinder as thick and as long as the span d of its joint, half of it away from the centre:
     m d²/8 about the shaft and m (d²/16 + d²/12) across.
-
-    Examples
-    --------
-    >>> from cardan import example
-    >>> [round(lump.mass, 2) for lump in with_yokes(example("car-propshaft")).shafts[1].masses]
-    [0.82, 0.82]
     """
     known, last = known_lengths(drive), len(drive.shafts)
     joints = drive.joints

@@ -15,15 +15,7 @@ from .figure import Axis
 
 
 def steps(low: float, high: float, count: int = 5) -> tuple[float, ...]:
-    """Return round values between two bounds, about ``count`` of them.
-
-    Examples
-    --------
-    >>> steps(0.0, 1.0)
-    (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
-    >>> steps(0.93, 1.07, 4)
-    (0.95, 1.0, 1.05)
-    """
+    """Return round values between two bounds, about ``count`` of them."""
     span = high - low
     if not span > 0.0:
         return (low,)
@@ -35,13 +27,7 @@ def steps(low: float, high: float, count: int = 5) -> tuple[float, ...]:
 
 
 def written(values: Sequence[float]) -> tuple[str, ...]:
-    """Return tick values with as many decimals as tell them apart, and a true minus.
-
-    Examples
-    --------
-    >>> written((-0.5, 0.0, 0.5)), written((0.0, 1000.0)), written((0.0, 2e-7))
-    (('−0.5', '0', '0.5'), ('0', '1\u202f000'), ('0', '2·10⁻⁷'))
-    """
+    """Return tick values with as many decimals as tell them apart, and a true minus."""
     gap = min((b - a for a, b in pairwise(values)), default=abs(values[0]) if values else 1.0)
     if gap and gap < 1e-5:
         told = ([significant(v, digits) for v in values] for digits in (1, 2, 3))
@@ -70,22 +56,9 @@ def axis(
 ) -> Axis:
     """Return an axis that fits values, never narrower than ``least``: rounding noise stays a flat line.
 
-    Parameters
-    ----------
-    label, unit, dimension : str
-        What runs along it; see `Axis`.
-    values : iterable of array
-        What it is to hold.
-    include : sequence of float
-        Values always within its range.
-    least : float
-        Smallest range drawn.
-    mirrored : float, optional
-        Value in the middle of the axis.
-    count : int
-        About how many ticks.
-    margin : float
-        Share of the range left free at both ends.
+    label, unit, dimension: what runs along it; see `Axis`.
+    include: values always within its range; least: smallest range drawn; mirrored: value in the middle of the axis.
+    count: about how many ticks; margin: share of the range left free at both ends.
     """
     flat = [np.asarray(value, dtype=float).ravel() for value in values]
     every = np.concatenate([*flat, np.asarray(include, dtype=float)]) if flat or include else np.asarray([0.0, 1.0])
@@ -109,17 +82,9 @@ def axis(
 def clear_way(places: Array, rings: Sequence[float], first: complex) -> complex:
     """Return the diagonal direction along which words at rings are farthest from what is drawn.
 
-    Parameters
-    ----------
-    places : complex array (p,)
-        Where something is drawn.
-    rings : sequence of float
-        Distances of the words from the middle.
-    first : complex
-        The diagonal taken where that is as good as any, of length 1.
+    places (p,), complex: where something is drawn; rings: distances of the words from the middle.
+    first: the diagonal taken where that is as good as any, of length 1.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> way = clear_way(np.asarray([1.0 + 1.0j]), [1.4], np.exp(0.25j * np.pi))
     >>> bool(np.isclose(way, np.exp(0.75j * np.pi)))

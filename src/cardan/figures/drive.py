@@ -50,15 +50,7 @@ def drive_figures(drive: Drive) -> tuple[Figure, ...]:
 
 
 def views_figure(drive: Drive, seen: Solids) -> Figure:
-    """Return side and plan view, one above the other, to the same scale.
-
-    Parameters
-    ----------
-    drive : Drive
-        For its names.
-    seen : Solids
-        Its bodies.
-    """
+    """Return side and plan view, one above the other, to the same scale."""
     meshes = _meshes(seen)
     sheets = [_sheet(SIDE, meshes, 3.4), _sheet(PLAN, meshes, 3.4)]
     inch = max(sheet.inch for sheet in sheets)
@@ -80,17 +72,7 @@ def views_figure(drive: Drive, seen: Solids) -> Figure:
 
 
 def space_figure(drive: Drive, seen: Solids, *, name: str = "space") -> Figure:
-    """Return the view in space.
-
-    Parameters
-    ----------
-    drive : Drive
-        For its names.
-    seen : Solids
-        Its bodies.
-    name : str
-        Name of the figure.
-    """
+    """Return the view in space."""
     meshes = _meshes(seen)
     sheet = _sheet(SPACE, meshes, 3.6)
     return Figure(
@@ -257,12 +239,7 @@ def _triad(view: View, corner: Array, inch: float) -> Iterator[Series]:
 def yoke_figure(drive: Drive, seen: Solids) -> Figure:
     """Return every intermediate shaft seen along the power flow, its two yokes and the planes of its two joints.
 
-    Parameters
-    ----------
-    drive : Drive
-        For its yoke angles.
-    seen : Solids
-        Its bodies.
+    drive: for its yoke angles.
     """
     panels = [_clock(drive, seen, k) for k in range(2, len(drive.joints) + 1)]
     across = 4 if len(panels) > 4 else max(len(panels), 3)

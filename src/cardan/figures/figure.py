@@ -29,38 +29,18 @@ Direction: TypeAlias = tuple[float, float, float]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Curve:
-    """A line through points, in the plane or in space.
+    """A line through points, in the plane or in space."""
 
-    Parameters
-    ----------
-    x, y, z : array (p,)
-        Its points; ``z`` only in a panel with a view.
-    label : str
-        Its entry in the legend; none when empty.
-    role : str
-        What it stands for, see `palette`.
-    width : float
-        In points; 0 draws markers alone.
-    dash : str
-        solid, dashed, dotted or dashdot.
-    marker : float
-        Diameter of a dot at every point, in points.
-    arrow : bool
-        Put an arrowhead at its last point.
-    text : str
-        What it is, for whoever points at it in a view that can be turned.
-    """
-
-    x: Array
-    y: Array
-    z: Array | None = None
-    label: Text = ""
-    role: str = "ink"
-    width: float = 1.5
-    dash: Dash = "solid"
-    marker: float = 0.0
-    arrow: bool = False
-    text: Text = ""
+    x: Array  # x, y, z (p,): its points; ``z`` only in a panel with a view
+    y: Array  # (p,)
+    z: Array | None = None  # (p,)
+    label: Text = ""  # its entry in the legend; none when empty
+    role: str = "ink"  # what it stands for, see `palette`
+    width: float = 1.5  # in points; 0 draws markers alone
+    dash: Dash = "solid"  # solid, dashed, dotted or dashdot
+    marker: float = 0.0  # diameter of a dot at every point, in points
+    arrow: bool = False  # put an arrowhead at its last point
+    text: Text = ""  # what it is, for whoever points at it in a view that can be turned
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -99,32 +79,16 @@ class Shape:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Mesh:
-    """A solid's surface in space.
+    """A solid's surface in space."""
 
-    Parameters
-    ----------
-    corners : array (m, 3)
-        Its corners.
-    faces, triangles : sequence of sequence of int
-        The same surface, as flat faces and as triangles.
-    smooth : bool
-        Do not draw the edges of the faces.
-    shade : float
-        Share of white mixed into the colour.
-    opacity : float
-        How much it hides of what is inside it, in a view that can be turned.
-    text : str
-        What it is, for whoever points at it.
-    """
-
-    corners: Array
-    faces: Sequence[Sequence[int]]
+    corners: Array  # (m, 3)
+    faces: Sequence[Sequence[int]]  # faces, triangles: the same surface, as flat faces and as triangles
     triangles: Sequence[Sequence[int]]
     role: str = "muted"
-    smooth: bool = False
-    shade: float = 0.0
-    opacity: float = 1.0
-    text: Text = ""
+    smooth: bool = False  # do not draw the edges of the faces
+    shade: float = 0.0  # share of white mixed into the colour
+    opacity: float = 1.0  # how much it hides of what is inside it, in a view that can be turned
+    text: Text = ""  # what it is, for whoever points at it
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -170,22 +134,12 @@ class Band:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Cells:
-    """A grid of rectangles, each the darker the greater its value.
+    """A grid of rectangles, each the darker the greater its value."""
 
-    Parameters
-    ----------
-    x, y : array (m + 1,), (k + 1,)
-        Edges of the columns and of the rows, rising.
-    values : array (k, m)
-        One for each cell; nan leaves it empty.
-    low, high : float
-        Values of the palest and of the darkest cell.
-    """
-
-    x: Array
-    y: Array
-    values: Array
-    low: float
+    x: Array  # x, y (m + 1,), (k + 1,): edges of the columns and of the rows, rising
+    y: Array  # (m + 1,), (k + 1,)
+    values: Array  # (k, m): one for each cell; nan leaves it empty
+    low: float  # low, high: values of the palest and of the darkest cell
     high: float
 
     @property
@@ -201,43 +155,22 @@ Series: TypeAlias = Curve | Bars | Shape | Mesh | Note | Rule | Band | Cells
 
 @dataclass(frozen=True, kw_only=True)
 class Axis:
-    """An axis with its range and the marks along it.
+    """An axis with its range and the marks along it."""
 
-    Parameters
-    ----------
-    label : Text
-        What runs along it.
-    unit : str
-        In which unit it is given: a unit of its dimension, as in keys, or as it is printed where it has none.
-    dimension : str
-        A key of `cardan.units.DIMENSIONS`, for what a reader may see in another unit.
-    low, high : float
-        Its range.
-    ticks : tuple of float
-        Marked values.
-    texts : tuple of str
-        How they are written.
-    log : bool
-        Logarithmic.
-    grid : bool
-        Draw lines across the panel at the ticks.
-    numeric : bool
-        Whether the texts at its ticks are nothing but the numbers; known once it is written for a reader.
-    turning : bool
-        Whether it is the input angle from the start position [°] that runs along it: a place on it is a position of
-        the drive.
-    """
-
-    label: Text = ""
+    label: Text = ""  # what runs along it
+    # in which unit it is given: a unit of its dimension, as in keys, or as it is printed where it has none
     unit: str = ""
-    dimension: str = ""
-    low: float = 0.0
+    dimension: str = ""  # a key of `cardan.units.DIMENSIONS`, for what a reader may see in another unit
+    low: float = 0.0  # low, high: its range
     high: float = 1.0
-    ticks: tuple[float, ...] = ()
-    texts: tuple[Text, ...] = ()
-    log: bool = False
-    grid: bool = True
+    ticks: tuple[float, ...] = ()  # marked values
+    texts: tuple[Text, ...] = ()  # how they are written
+    log: bool = False  # logarithmic
+    grid: bool = True  # draw lines across the panel at the ticks
+    # whether the texts at its ticks are nothing but the numbers; known once it is written for a reader
     numeric: bool = False
+    # whether it is the input angle from the start position [°] that runs along it: a place on it is a position of the
+    # drive
     turning: bool = False
 
     @property
@@ -272,35 +205,17 @@ class View:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Panel:
-    """One pair of axes with what is drawn in it.
+    """One pair of axes with what is drawn in it."""
 
-    Parameters
-    ----------
-    series : tuple of series
-        From the back to the front.
-    x, y : Axis
-        Its axes; in a view they run along `View.right` and `View.up`.
-    title : Text
-        Its heading; the title of the upright axis when empty.
-    dimension, unit : str
-        Of what its numbers are, where no axis says so; stands behind the title.
-    equal : bool
-        One unit is as long to the right as upwards.
-    bare : bool
-        No frame, ticks or grid.
-    view : View
-        Looks at space.
-    """
-
-    series: tuple[Series, ...]
-    x: Axis = field(default_factory=Axis)
+    series: tuple[Series, ...]  # from the back to the front
+    x: Axis = field(default_factory=Axis)  # x, y: its axes; in a view they run along `View.right` and `View.up`
     y: Axis = field(default_factory=Axis)
-    title: Text = ""
-    dimension: str = ""
+    title: Text = ""  # its heading; the title of the upright axis when empty
+    dimension: str = ""  # dimension, unit: of what its numbers are, where no axis says so; stands behind the title
     unit: str = ""
-    equal: bool = False
-    bare: bool = False
-    view: View | None = None
+    equal: bool = False  # one unit is as long to the right as upwards
+    bare: bool = False  # no frame, ticks or grid
+    view: View | None = None  # looks at space
 
     @property
     def heading(self) -> str:

@@ -28,25 +28,7 @@ class _Scale:
 def for_reader(figure: Figure, reader: Reader) -> Figure:
     """Return a figure as a reader sees it: the same curves over axes in other units, texts as plain words.
 
-    Parameters
-    ----------
-    figure : Figure
-        As a question makes it.
-    reader : Reader
-        Units and decimal sign.
-
-    Examples
-    --------
-    >>> from cardan.answers.quantity import Quantity, say
-    >>> from cardan.figures.axes import axis
-    >>> from cardan.figures.figure import Row
-    >>> way = axis("way", "mm", include=(0.0, 50.8), dimension="length")
-    >>> panel = Panel(series=(Rule(value=25.4),), y=way)
-    >>> text = say("It slides {way}.", way=Quantity(0.0254, "length"))
-    >>> figure = Figure(name="way", title="Way", sentence=text, source="", rows=(Row(panels=(panel,)),))
-    >>> seen = for_reader(figure, Reader(units={"length": "in"}, decimal=","))
-    >>> seen.sentence, seen.panels[0].series[0].value, seen.panels[0].y.title
-    ('It slides 1,000 in.', 1.0, 'way [in]')
+    figure: as a question makes it; reader: units and decimal sign.
     """
     return replace(
         figure,

@@ -14,16 +14,8 @@ def called(figure: Figure, panel: Panel) -> Panel:
 
     A figure lists each curve once, above its panels; a panel that stands alone has to name its curves itself. A curve
     that has only the colour of one in the legend keeps to have no label and says in its text what it belongs to.
+    panel: one of its panels.
 
-    Parameters
-    ----------
-    figure : Figure
-        With the legend.
-    panel : Panel
-        One of its panels.
-
-    Examples
-    --------
     >>> import numpy as np
     >>> from .figure import Row
     >>> looks = {"x": np.arange(2.0), "y": np.arange(2.0), "role": "shaft 2"}

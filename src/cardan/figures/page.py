@@ -46,40 +46,23 @@ class Entry:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Page:
-    """A laid-out figure.
+    """A laid-out figure."""
 
-    Attributes
-    ----------
-    width, height : float
-        Size of the whole.
-    panels : tuple of (Panel, Box)
-        Where the frames of the panels stand.
-    legend : tuple of Entry
-        Where the legend's entries begin.
-    heading, caption : tuple of str
-        Lines of the title, and of the sentence with its source; empty when the figure stands in a page that has them.
-    caption_top : float
-        Where the caption begins.
-    """
-
-    width: float
+    width: float  # width, height: size of the whole
     height: float
-    panels: tuple[tuple[Panel, Box], ...]
-    legend: tuple[Entry, ...]
+    panels: tuple[tuple[Panel, Box], ...]  # where the frames of the panels stand
+    legend: tuple[Entry, ...]  # where the legend's entries begin
+    # heading, caption: lines of the title, and of the sentence with its source; empty when the figure stands in a page
+    # that has them
     heading: tuple[str, ...]
     caption: tuple[str, ...]
-    caption_top: float
+    caption_top: float  # where the caption begins
 
 
 def laid_out(figure: Figure, *, words: bool) -> Page:
     """Return where the parts of a figure stand.
 
-    Parameters
-    ----------
-    figure : Figure
-        The figure.
-    words : bool
-        Draw title, sentence and source too: in a file of its own.
+    words: draw title, sentence and source too: in a file of its own.
     """
     letters = int((figure.width - 0.2) / (0.87 * LETTER))
     heading = _lines(figure.title, 0.66 * letters) if words else ()
@@ -115,8 +98,6 @@ def laid_out(figure: Figure, *, words: bool) -> Page:
 def breadth(text: str) -> float:
     """Return how many average Latin letters are as wide as a text.
 
-    Examples
-    --------
     >>> breadth("joint"), breadth("вал 2")
     (5.0, 5.6)
     """
@@ -129,15 +110,7 @@ def _lines(text: str, letters: float) -> tuple[str, ...]:
 
 
 def ranges(panel: Panel, box: Box) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the ranges of a panel's axes, widened about their middles where both have the same scale.
-
-    Parameters
-    ----------
-    panel : Panel
-        The panel.
-    box : Box
-        Its frame.
-    """
+    """Return the ranges of a panel's axes, widened about their middles where both have the same scale."""
     x, y = (panel.x.low, panel.x.high), (panel.y.low, panel.y.high)
     if not panel.equal:
         return x, y
@@ -161,30 +134,14 @@ def share(axis: Axis, low: float, high: float, values: Array) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class Label:
-    """Where the words of an upright rule or band stand.
+    """Where the words of an upright rule or band stand."""
 
-    Attributes
-    ----------
-    line : int
-        In which line from the top of the frame, so that words side by side do not run into each other.
-    before : bool
-        To the left of the rule, where the frame has no room to its right.
-    """
-
-    line: int = 0
-    before: bool = False
+    line: int = 0  # in which line from the top of the frame, so that words side by side do not run into each other
+    before: bool = False  # to the left of the rule, where the frame has no room to its right
 
 
 def labels(panel: Panel, box: Box) -> dict[int, Label]:
-    """Return where the words of upright rules and bands stand, by their place in the panel's series.
-
-    Parameters
-    ----------
-    panel : Panel
-        The panel.
-    box : Box
-        Its frame.
-    """
+    """Return where the words of upright rules and bands stand, by their place in the panel's series."""
     low, high = ranges(panel, box)[0]
     spans = []
     for k, item in enumerate(panel.series):

@@ -54,24 +54,12 @@ DASHES = ("solid", "dashed", "dotted", "dashdot")
 
 
 def shaft(number: int) -> str:
-    """Return the role of a shaft.
-
-    Examples
-    --------
-    >>> shaft(2)
-    'shaft 2'
-    """
+    """Return the role of a shaft."""
     return f"shaft {number}"
 
 
 def colour(role: str) -> str:
-    """Return the colour of a role.
-
-    Examples
-    --------
-    >>> colour("shaft 2"), colour("failed"), colour("scale 0.75")
-    ('#0072b2', '#b3261e', '#1f4e8c')
-    """
+    """Return the colour of a role."""
     if role.startswith("scale "):
         return scale(float(role[6:]))
     if role.startswith("shaft "):
@@ -80,34 +68,20 @@ def colour(role: str) -> str:
 
 
 def scale(share: float) -> str:
-    """Return the colour of a share between the least, 0, and the greatest, 1.
-
-    Examples
-    --------
-    >>> scale(0.0), scale(0.75), scale(1.0)
-    ('#eef3fa', '#1f4e8c', '#0c2342')
-    """
+    """Return the colour of a share between the least, 0, and the greatest, 1."""
     place = min(max(share, 0.0), 1.0) * (len(SCALE) - 1)
     low = min(int(place), len(SCALE) - 2)
     return mixed(SCALE[low], SCALE[low + 1], place - low)
 
 
 def dash_of(number: int) -> str:
-    """Return how the curve of a shaft is drawn: solid, dashed once the colours are used up.
-
-    Examples
-    --------
-    >>> dash_of(2), dash_of(10)
-    ('solid', 'dashed')
-    """
+    """Return how the curve of a shaft is drawn: solid, dashed once the colours are used up."""
     return DASHES[(number - 1) // len(SHAFTS) % len(DASHES)]
 
 
 def mixed(hexadecimal: str, other: str, share: float) -> str:
     """Return a colour mixed with a share of another one.
 
-    Examples
-    --------
     >>> mixed("#000000", "#ffffff", 0.5)
     '#808080'
     """

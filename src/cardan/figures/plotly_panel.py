@@ -23,20 +23,8 @@ _SIDES = {"left": "left", "centre": "center", "right": "right"}
 class PanelWriter:
     """Puts one panel into the spec.
 
-    Parameters
-    ----------
-    spec : dict
-        Data and layout of the whole figure, added to.
-    page : Page
-        The laid-out figure.
-    panel : Panel
-        What to draw.
-    box : Box
-        Where.
-    number : int
-        Number of the panel, from 1.
-    shown : set of str
-        Labels that stand in the legend already, added to.
+    spec: data and layout of the whole figure, added to; page: the laid-out figure; box: where.
+    number: number of the panel, from 1; shown: labels that stand in the legend already, added to.
     """
 
     def __init__(self, spec: Spec, page: Page, panel: Panel, box: Box, number: int, shown: set[str]) -> None:

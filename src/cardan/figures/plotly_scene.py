@@ -32,14 +32,7 @@ CORNERS = 12
 def scene(panel: Panel, box: Box, across: list[float], upright: list[float]) -> Spec:
     """Return the layout of a scene: where it stands, how it is looked at.
 
-    Parameters
-    ----------
-    panel : Panel
-        With a view.
-    box : Box
-        Where it stands on the page.
-    across, upright : list of float
-        The same as shares of the page.
+    panel: with a view; box: where it stands on the page; across, upright: the same as shares of the page.
     """
     assert panel.view is not None
     hidden = {"visible": False}
@@ -68,14 +61,8 @@ def reach(panel: Panel) -> float:
 def in_space(item: Series, name: str, reach: float) -> tuple[list[Spec], list[Spec]]:
     """Return the traces and the annotations of a series in space.
 
-    Parameters
-    ----------
-    item : series
-        What to draw; what is flat is left out.
-    name : str
-        Name of the scene.
-    reach : float
-        Size of the scene.
+    item: what to draw; what is flat is left out.
+    name: name of the scene; reach: size of the scene.
     """
     if isinstance(item, Mesh):
         tint = palette.mixed(palette.colour(item.role), "#ffffff", item.shade)

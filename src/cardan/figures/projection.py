@@ -18,18 +18,10 @@ LIGHT = np.asarray([0.35, 0.5, 0.79])
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Facet:
-    """A face on paper.
+    """A face on paper."""
 
-    Attributes
-    ----------
-    corners : array (m, 2)
-        Its corners.
-    fill, edge : str
-        Colours.
-    """
-
-    corners: Array
-    fill: str
+    corners: Array  # (m, 2)
+    fill: str  # fill, edge: colours
     edge: str
 
 

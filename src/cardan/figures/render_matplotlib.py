@@ -52,18 +52,8 @@ def render(
 ) -> None:
     """Draw figures, one below the other, in a PDF one a page.
 
-    Parameters
-    ----------
-    figures : Figure or sequence of Figure
-        What to draw.
-    target : binary stream
-        Where the picture goes.
-    format : "png" or "pdf"
-        Kind of picture.
-    dpi : float
-        Dots per inch of a PNG.
-    words : bool
-        With title, sentence and source: in a file of its own.
+    target: where the picture goes; format: kind of picture; dpi: dots per inch of a PNG.
+    words: with title, sentence and source: in a file of its own.
     """
     several = (figures,) if isinstance(figures, Figure) else tuple(figures)
     pages = [laid_out(figure, words=words) for figure in several]

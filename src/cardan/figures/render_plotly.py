@@ -25,10 +25,7 @@ FONT = "Inter, 'Segoe UI', 'Helvetica Neue', Arial, sans-serif"
 def render(figures: Figure | Sequence[Figure]) -> str:
     """Return a page with figures, the drawing program included.
 
-    Parameters
-    ----------
-    figures : Figure or sequence of Figure
-        What to draw, from the top.
+    figures: what to draw, from the top.
     """
     several = (figures,) if isinstance(figures, Figure) else tuple(figures)
     blocks = "\n".join(
@@ -73,13 +70,7 @@ def fragment(figure: Figure) -> str:
 
 
 def described(figure: Figure) -> Spec:
-    """Return a figure as plotly's data and layout.
-
-    Parameters
-    ----------
-    figure : Figure
-        What to draw.
-    """
+    """Return a figure as plotly's data and layout."""
     page = laid_out(figure, words=False)
     spec: Spec = {
         "data": [],

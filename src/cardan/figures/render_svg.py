@@ -47,12 +47,7 @@ Line = Callable[[Array], Array]
 def inline_svg(figure: Figure, *, fonts: str = FONTS) -> str:
     """Return a figure as an SVG element for a page, without its title and sentence.
 
-    Parameters
-    ----------
-    figure : Figure
-        What to draw.
-    fonts : str
-        Fonts of its words, the first that there is.
+    fonts: fonts of its words, the first that there is.
     """
     page = laid_out(figure, words=False)
     label = escape(figure.spoken)
@@ -61,13 +56,7 @@ def inline_svg(figure: Figure, *, fonts: str = FONTS) -> str:
 
 
 def document(figures: Sequence[Figure]) -> str:
-    """Return figures with their titles and sentences as an SVG file, one below the other.
-
-    Parameters
-    ----------
-    figures : sequence of Figure
-        What to draw.
-    """
+    """Return figures with their titles and sentences as an SVG file, one below the other."""
     pages = [laid_out(figure, words=True) for figure in figures]
     width, height = max(page.width for page in pages), sum(page.height for page in pages)
     parts, top = [], 0.0

@@ -21,12 +21,7 @@ LONG = 24
 def across(angle: Array, *, named: bool = False) -> Axis:
     """Return the axis of the input angle [°]; without name and unit where a panel below carries them.
 
-    Parameters
-    ----------
-    angle : array (p,)
-        Input angles [°].
-    named : bool
-        Write what runs along it.
+    angle (p,): input angles [°]; named: write what runs along it.
     """
     label = _("input angle φ₁ from the start position") if named else ""
     stop = float(np.max(angle)) if angle.size else 360.0
@@ -41,8 +36,6 @@ def across(angle: Array, *, named: bool = False) -> Axis:
 def shaft_name(number: int, count: int) -> str:
     """Return what a shaft is called in a legend.
 
-    Examples
-    --------
     >>> shaft_name(1, 3), shaft_name(2, 3), shaft_name(3, 3)
     ('shaft 1, input', 'shaft 2', 'shaft 3, output')
     """
@@ -56,8 +49,6 @@ def shaft_name(number: int, count: int) -> str:
 def support_name(number: int, shaft: int, name: str = "") -> str:
     """Return what a support is called in a legend.
 
-    Examples
-    --------
     >>> support_name(3, 2), support_name(3, 2, "centre bearing")
     ('support 3 on shaft 2', '3 centre bearing')
     """
@@ -69,8 +60,6 @@ def support_name(number: int, shaft: int, name: str = "") -> str:
 def support_dashes(shafts: Sequence[int]) -> tuple[str, ...]:
     """Return how the curve of every support is drawn: in the colour of its shaft, the second on it dashed, and so on.
 
-    Examples
-    --------
     >>> support_dashes([1, 1, 2])
     ('solid', 'dashed', 'solid')
     """

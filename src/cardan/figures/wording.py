@@ -9,13 +9,7 @@ from cardan.answers.numbers import raised, significant
 
 
 def percent(share: float, digits: int = 3) -> str:
-    """Return a share in percent; what is nothing but rounding is 0.
-
-    Examples
-    --------
-    >>> percent(0.12512), percent(3e-16), percent(2.34e-6), percent(0.00069)
-    ('12.5 %', '0 %', '0.000234 %', '0.0690 %')
-    """
+    """Return a share in percent; what is nothing but rounding is 0."""
     if abs(share) < 1e-13:
         return "0 %"
     return f"{significant(100.0 * share, digits)} %"
@@ -24,8 +18,6 @@ def percent(share: float, digits: int = 3) -> str:
 def powers_of_ten(values: Sequence[float]) -> tuple[str, ...]:
     """Return powers of ten, in full where all of them are short.
 
-    Examples
-    --------
     >>> powers_of_ten((0.01, 1.0)), powers_of_ten((1e-6, 1.0))
     (('0.01', '1'), ('10⁻⁶', '10⁰'))
     """

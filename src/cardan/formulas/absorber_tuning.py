@@ -20,26 +20,10 @@ from .absorbers import absorber_response, amplification, arrays, natural_frequen
 def peak(inertia_ratio: ArrayLike, frequency_ratio: ArrayLike, damping: ArrayLike) -> tuple[Array, Array]:
     """Return where the amplification of a system with an absorber is largest, and how large.
 
-    Parameters
-    ----------
-    inertia_ratio, frequency_ratio, damping : arrays (...)
-        α_J, f, ξ; f = 0 for a viscous damper.
-
-    Returns
-    -------
-    beta, amplification : arrays (...)
-        Infinite without damping, at the lower natural frequency.
-
-    Notes
-    -----
+    inertia_ratio, frequency_ratio, damping (...): α_J, f, ξ; f = 0 for a viscous damper.
+    Returns beta, amplification (...): infinite without damping, at the lower natural frequency.
     The square of (249) is a quotient of polynomials in u = β² - 1, stationary at the roots of one of fifth degree. The
     real parts of all its roots are tried: the true maximum is among them.
-
-    Examples
-    --------
-    >>> beta, size = peak(0.05, 1 / 1.05, np.sqrt(0.15 / (8 * 1.05**3)))
-    >>> print(f"{float(size):.4f}, not {np.sqrt(1 + 2 / 0.05):.4f}")
-    6.4084, not 6.4031
     """
     alpha, f, xi = np.broadcast_arrays(
         *(np.asarray(one, dtype=float) for one in (inertia_ratio, frequency_ratio, damping))
@@ -249,63 +233,23 @@ PLACES = 1201
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Variants:
-    """What absorbers and dampers of one inertia make of the same vibration.
+    """What absorbers and dampers of one inertia make of the same vibration."""
 
-    Attributes
-    ----------
-    inertia_ratio : float
-        α_J.
-    beta : array (p,)
-        Frequency of the torque over ω_0.
-    kinds : tuple of str
-        Names of the variants, of `KINDS`.
-    amplification : array (v, p)
-        Amplitude of each over the static angle; infinite at a resonance without damping.
-    frequency_ratio, damping : arrays (v,)
-        f, ξ of each; nan where nothing hangs on the system.
-    peak, peak_beta : arrays (v,)
-        Largest amplification over all frequencies, and where.
-    """
-
-    inertia_ratio: float
-    beta: Array
-    kinds: tuple[str, ...]
-    amplification: Array
-    frequency_ratio: Array
-    damping: Array
-    peak: Array
-    peak_beta: Array
+    inertia_ratio: float  # α_J
+    beta: Array  # (p,): frequency of the torque over ω_0
+    kinds: tuple[str, ...]  # names of the variants, of `KINDS`
+    amplification: Array  # (v, p): amplitude of each over the static angle; infinite at a resonance without damping
+    frequency_ratio: Array  # frequency_ratio, damping (v,): f, ξ of each; nan where nothing hangs on the system
+    damping: Array  # (v,)
+    peak: Array  # peak, peak_beta (v,): largest amplification over all frequencies, and where
+    peak_beta: Array  # (v,)
 
 
 def absorber_variants(inertia_ratio: float, beta: ArrayLike | None = None) -> Variants:
     """Return what absorbers and dampers of one inertia make of the same vibration.
 
-    Parameters
-    ----------
-    inertia_ratio : float
-        α_J, positive.
-    beta : array (p,), optional
-        Frequencies over ω_0, none negative; about the resonance by default.
-
-    Returns
-    -------
-    Variants
-
-    Raises
-    ------
-    InputError
-        α_J ≤ 0 or a negative frequency.
-
-    Examples
-    --------
-    >>> found = absorber_variants(0.1)
-    >>> for kind, peak in zip(found.kinds, found.peak, strict=True):
-    ...     print(f"{kind:10s} {peak:.2f}")
-    none       inf
-    undamped   inf
-    viscous    21.00
-    den_hartog 4.59
-    h_infinity 4.59
+    inertia_ratio: α_J, positive.
+    beta (p,): frequencies over ω_0, none negative; about the resonance by default.
     """
     alpha = float(inertia_ratio)
     check(ratio_problems(inertia_ratio=np.asarray(alpha)))

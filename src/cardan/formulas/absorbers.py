@@ -19,31 +19,16 @@ from cardan.texts import _
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class AbsorberResponse:
-    """Steady vibration of a system with an absorber or a damper, in units of its static angle M_0/c.
+    """Steady vibration of a system with an absorber or a damper, in units of its static angle M_0/c."""
 
-    Attributes
-    ----------
-    beta : array (p,)
-        Frequency of the torque over ω_0.
-    main, absorber : complex arrays (..., p)
-        Amplitude and phase of the system and of the absorber.
-    amplification : array (..., p)
-        Amplitude of the system by Book (249), (252); infinite at a resonance without damping.
-    bare : array (p,)
-        The same without the absorber.
-    natural : array (..., 2)
-        Natural frequencies over ω_0 with the undamped absorber, Book (248).
-    residual : array (..., p)
-        What complex and printed form differ by, over the larger of 1 and the amplification.
-    """
-
-    beta: Array
-    main: Array
-    absorber: Array
+    beta: Array  # (p,): frequency of the torque over ω_0
+    main: Array  # main, absorber (..., p), complex: amplitude and phase of the system and of the absorber
+    absorber: Array  # (..., p), complex
+    # (..., p): amplitude of the system by Book (249), (252); infinite at a resonance without damping
     amplification: Array
-    bare: Array
-    natural: Array
-    residual: Array
+    bare: Array  # (p,): the same without the absorber
+    natural: Array  # (..., 2): natural frequencies over ω_0 with the undamped absorber, Book (248)
+    residual: Array  # (..., p): what complex and printed form differ by, over the larger of 1 and the amplification
 
     @property
     def twist(self) -> Array:
@@ -54,25 +39,9 @@ class AbsorberResponse:
 def natural_frequencies(inertia_ratio: ArrayLike, frequency_ratio: ArrayLike) -> Array:
     """Return the two natural frequencies of a system with an undamped absorber, over that of the system alone.
 
-    Parameters
-    ----------
-    inertia_ratio : array (...)
-        α_J.
-    frequency_ratio : array (...)
-        f.
-
-    Returns
-    -------
-    array (..., 2)
-
-    Notes
-    -----
+    inertia_ratio (...): α_J; frequency_ratio (...): f.
+    Returns (..., 2).
     Book (248): β² = ½ [s ∓ √(s² - 4f²)], s = 1 + (1 + α_J) f²; the root and the smaller one without differences.
-
-    Examples
-    --------
-    >>> natural_frequencies(0.05, 1.0)
-    array([0.89442719, 1.11803399])
     """
     xp, (alpha, f) = arrays(inertia_ratio, frequency_ratio)
     held = (1.0 + alpha) * f * f
@@ -86,29 +55,10 @@ def amplification(
 ) -> Array:
     """Return \\|φ\\| c/M_0 of a system with an absorber, or with a viscous damper where f = 0.
 
-    Parameters
-    ----------
-    beta : array (...)
-        ω/ω_0.
-    inertia_ratio, frequency_ratio, damping : arrays (...)
-        α_J, f, ξ.
-
-    Returns
-    -------
-    array (...)
-        Infinite at a resonance without damping.
-
-    Notes
-    -----
+    beta (...): ω/ω_0; inertia_ratio, frequency_ratio, damping (...): α_J, f, ξ.
+    Returns (...): infinite at a resonance without damping.
     Book (249): √{[(2ξβ)² + (β²-f²)²]/[(2ξβ)²(β²-1+α_Jβ²)² + (α_J f²β² - (β²-1)(β²-f²))²]}; with f = 0 it is (252),
     β² taken out of both.
-
-    Examples
-    --------
-    >>> amplification([0.5, 0.9], 0.05, 1 / 1.05, 0.1273)
-    array([1.36441215, 6.4071148 ])
-    >>> amplification([0.9], 0.5, 0.0, 0.3)
-    array([5.04977189])
     """
     xp, (beta, alpha, f, xi) = arrays(beta, inertia_ratio, frequency_ratio, damping)
     square, tuned = beta * beta, f * f

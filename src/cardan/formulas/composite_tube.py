@@ -11,25 +11,14 @@ from cardan.maths.linear.laminate import PlyStiffness, laminate_moduli
 
 @dataclass(frozen=True, kw_only=True)
 class CompositeTube:
-    """Figures of a thin tube of composite.
+    """Figures of a thin tube of composite."""
 
-    Attributes
-    ----------
-    along, around, shear : float [Pa]
-        E_x along the axis, E_y around it, G_xy.
-    thickness : float [m]
-        Of the wall.
-    mass_per_length : float [kg/m]
-    buckling_torque : float [N·m]
-        Torque at which the wall buckles.
-    """
-
-    along: float
-    around: float
-    shear: float
-    thickness: float
-    mass_per_length: float
-    buckling_torque: float
+    along: float  # along, around, shear [Pa]: E_x along the axis, E_y around it, G_xy
+    around: float  # [Pa]
+    shear: float  # [Pa]
+    thickness: float  # [m]: of the wall
+    mass_per_length: float  # [kg/m]
+    buckling_torque: float  # [N·m]: torque at which the wall buckles
 
 
 def composite_tube(layup: Layup, mean_diameter: float) -> CompositeTube:

@@ -260,30 +260,15 @@ def longest_tube(
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Margin:
-    """How far a drive stays below a critical speed.
+    """How far a drive stays below a critical speed."""
 
-    Attributes
-    ----------
-    critical : float [rad/s]
-        Critical speed as computed.
-    actual : float [rad/s]
-        That of the real shaft, k_n times it.
-    most : float [rad/s]
-        Greatest speed of the drive.
-    violated : tuple of str
-        Rules that it breaks: ``article_1.6``, ``catalogue``, ``supercritical``.
-    band : (float, float) [rad/s]
-        About half the critical speed, where the secondary couples of the joints, twice a turn, excite it.
-    half_inside : bool
-        Whether the drive runs in that band.
-    """
-
-    critical: float
-    actual: float
-    most: float
-    violated: tuple[str, ...]
+    critical: float  # [rad/s]: critical speed as computed
+    actual: float  # [rad/s]: that of the real shaft, k_n times it
+    most: float  # [rad/s]: greatest speed of the drive
+    violated: tuple[str, ...]  # rules that it breaks: ``article_1.6``, ``catalogue``, ``supercritical``
+    # [rad/s]: about half the critical speed, where the secondary couples of the joints, twice a turn, excite it
     band: tuple[float, float]
-    half_inside: bool
+    half_inside: bool  # whether the drive runs in that band
 
     @property
     def ratio(self) -> float:

@@ -9,24 +9,12 @@ from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class DesignTorque:
-    """Torques at a shaft, arrays (...) [N·m].
+    """Torques at a shaft, arrays (...) [N·m]."""
 
-    Attributes
-    ----------
-    drive : array (...)
-        What the engine brings through the gears.
-    adhesion : array (...) or None
-        What the wheels can pass on; None where their load, radius or adhesion is not given.
-    design : array (...)
-        Factor for jerks times the smaller one.
-    by_adhesion : array of bool (...)
-        Whether adhesion is the smaller one.
-    """
-
-    drive: Array
-    adhesion: Array | None
-    design: Array
-    by_adhesion: Array
+    drive: Array  # (...): what the engine brings through the gears
+    adhesion: Array | None  # (...): what the wheels can pass on; None where their load, radius or adhesion is not given
+    design: Array  # (...): factor for jerks times the smaller one
+    by_adhesion: Array  # (...) of bool: whether adhesion is the smaller one
 
 
 def design_torque(

@@ -27,40 +27,22 @@ RELIABILITIES = {0.5: 1.0, 0.9: 0.897, 0.95: 0.868, 0.99: 0.814, 0.999: 0.753, 0
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Fatigue:
-    """Fatigue of a shaft, arrays (...).
+    """Fatigue of a shaft, arrays (...)."""
 
-    Attributes
-    ----------
-    endurance : array (...) [Pa]
-        S_e, fatigue limit of the part.
-    alternating, mean : array (...) [Pa]
-        Equivalent stresses by von Mises.
-    safety : array (...)
-        Against fatigue, by Goodman.
-    yield_safety : array (...)
-        Against yielding in the first cycle.
-    cycles : array (...)
-        Life; infinite where the safety is 1 and more, 0 where the mean stress alone breaks the shaft.
-    """
-
-    endurance: Array
-    alternating: Array
-    mean: Array
-    safety: Array
-    yield_safety: Array
+    endurance: Array  # (...) [Pa]: S_e, fatigue limit of the part
+    alternating: Array  # alternating, mean (...) [Pa]: equivalent stresses by von Mises
+    mean: Array  # (...) [Pa]
+    safety: Array  # (...): against fatigue, by Goodman
+    yield_safety: Array  # (...): against yielding in the first cycle
+    # (...): life; infinite where the safety is 1 and more, 0 where the mean stress alone breaks the shaft
     cycles: Array
 
 
 def reliability_factor(reliability: float) -> float:
     """Return k_e, straight over the normal quantile between the values of the table.
 
-    Parameters
-    ----------
-    reliability : float
-        Share of parts that last, from 0.5 to 0.99999.
+    reliability: share of parts that last, from 0.5 to 0.99999.
 
-    Examples
-    --------
     >>> reliability_factor(0.99), round(reliability_factor(0.98), 3)
     (0.814, 0.836)
     """

@@ -52,19 +52,10 @@ def reduced_friction(material: ArrayLike, *, fit: str = "new") -> Array:
 def swings(sine: Array, cosine: Array, joint_angle: Array) -> tuple[Array, Array]:
     """Return how steeply a joint leans on its journals: tan of the cross's angle from both of its shafts.
 
-    Parameters
-    ----------
-    sine, cosine : arrays (...)
-        sin θ, cos θ of the joint angle, or any common multiple of both.
-    joint_angle : array (...) [rad]
-        α.
-
-    Returns
-    -------
-    driving, driven : arrays (...)
-        tan α \\|sin θ\\| on the side of the driving shaft, \\|sin α cos θ\\|/√(1 - sin²α cos²θ) on that of the driven.
-        κ times them is the share of the torque that the friction of the driven yoke's pins takes from the driving
-        shaft, and that of the driving yoke's pins from the driven shaft.
+    sine, cosine (...): sin θ, cos θ of the joint angle, or any common multiple of both; joint_angle (...) [rad]: α.
+    Returns driving, driven (...): tan α |sin θ| on the side of the driving shaft, |sin α cos θ|/√(1 - sin²α cos²θ) on
+    that of the driven. κ times them is the share of the torque that the friction of the driven yoke's pins takes from
+    the driving shaft, and that of the driving yoke's pins from the driven shaft.
     """
     xp = namespace(sine, cosine, joint_angle)
     c = xp.cos(joint_angle)
@@ -76,33 +67,12 @@ def swings(sine: Array, cosine: Array, joint_angle: Array) -> tuple[Array, Array
 def efficiency_at(angle: Array, joint_angle: Array, drag: Array, *, backwards: bool = False) -> Array:
     """Return the efficiency of a joint at an instant, friction acting on itself.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        Joint angle θ.
-    joint_angle : array (...) [rad]
-        α.
-    drag : array (...)
-        κ = μ d_c/d: friction moment of a pair of journals over the couple of the cross.
-    backwards : bool
-        Power flows from the driven shaft to the driving one: the load drives, as in coasting.
-
-    Returns
-    -------
-    array (...)
-        Zero or less where the joint locks.
-
-    Notes
-    -----
-    (1 - κ tan θ_2)/(1 + κ tan θ_1) with the angles of Book (103), tan θ_1 = tan α \\|sin θ\\|, sin θ_2 = sin α
-    \\|cos θ\\|; backwards 1 and 2 change places.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from cardan.units import deg
-    >>> efficiency_at(np.asarray([0.0, 90 * deg]), np.asarray(30 * deg), np.asarray(0.02))
-    array([0.98845299, 0.9885848])
+    angle (...) [rad]: joint angle θ; joint_angle (...) [rad]: α.
+    drag (...): κ = μ d_c/d: friction moment of a pair of journals over the couple of the cross.
+    backwards: power flows from the driven shaft to the driving one: the load drives, as in coasting.
+    Returns (...): zero or less where the joint locks.
+    (1 - κ tan θ_2)/(1 + κ tan θ_1) with the angles of Book (103), tan θ_1 = tan α |sin θ|, sin θ_2 = sin α
+    |cos θ|; backwards 1 and 2 change places.
     """
     xp = namespace(angle, joint_angle, drag)
     driving, driven = swings(xp.sin(angle), xp.cos(angle), joint_angle)
@@ -113,37 +83,19 @@ def efficiency_at(angle: Array, joint_angle: Array, drag: Array, *, backwards: b
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JointFriction:
-    """What friction takes in single joints over a turn; leading axes are those of joint angles and coefficients.
+    """What friction takes in single joints over a turn; leading axes are those of joint angles and coefficients."""
 
-    Attributes
-    ----------
-    pin_work : array (...)
-        A_2/M, work of a turn in all four journals over the constant torque, friction not acting on itself.
-    driving_pin_work, driven_pin_work : arrays (...)
-        Its two parts: journals in the driving and in the driven yoke.
-    bearing_work : array (...)
-        (A_1 + A_3)/M, work of a turn in the shafts' bearings.
-    first_order : array (...)
-        η with both works.
-    small_angle : array (...)
-        η of Book (137), journals alone.
-    exact : array (...)
-        η of the journals alone, friction acting on itself; nan where the joint locks.
-    mean_pin_load : array (...)
-        Mean load of a journal in the plane of the cross, times span over torque.
-    status : array of int (...)
-        `Turning`.
-    """
-
+    # (...): A_2/M, work of a turn in all four journals over the constant torque, friction not acting on itself
     pin_work: Array
+    # driving_pin_work, driven_pin_work (...): its two parts: journals in the driving and in the driven yoke
     driving_pin_work: Array
-    driven_pin_work: Array
-    bearing_work: Array
-    first_order: Array
-    small_angle: Array
-    exact: Array
-    mean_pin_load: Array
-    status: Array
+    driven_pin_work: Array  # (...)
+    bearing_work: Array  # (...): (A_1 + A_3)/M, work of a turn in the shafts' bearings
+    first_order: Array  # (...): η with both works
+    small_angle: Array  # (...): η of Book (137), journals alone
+    exact: Array  # (...): η of the journals alone, friction acting on itself; nan where the joint locks
+    mean_pin_load: Array  # (...): mean load of a journal in the plane of the cross, times span over torque
+    status: Array  # (...) of int: `Turning`
 
 
 def joint_friction(

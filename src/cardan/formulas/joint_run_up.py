@@ -23,48 +23,20 @@ from .run_up import STEPS, Progress, bad_times, instants, not_positive
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JointRunUp:
-    """Torque behind a joint whose driving shaft runs up evenly.
+    """Torque behind a joint whose driving shaft runs up evenly."""
 
-    Attributes
-    ----------
-    joint_angle : float [rad]
-        α.
-    stiffness : float [N·m/rad]
-        c of the driven shaft.
-    inertia : float [kg·m²]
-        J at its end.
-    damping : float [N·m·s/rad]
-        b of the driven shaft.
-    acceleration : float [rad/s²]
-        a of the driving shaft.
-    time : array (p,) [s]
-        Instants.
-    torque : array (p,) [N·m]
-        In the driven shaft.
-    twist : array (p,) [rad]
-        Of the driven shaft, from the joint to the inertia.
-    peak_torque : float [N·m]
-        Largest \\|torque\\|.
-    peak_time : float [s]
-        When.
-    residual : float
-        Torque at the peak, step by step, against the joint's series in closed forms, over the peak.
-    cancelled : bool
-        Whether ``progress`` stopped the run.
-    """
-
-    joint_angle: float
-    stiffness: float
-    inertia: float
-    damping: float
-    acceleration: float
-    time: Array
-    torque: Array
-    twist: Array
-    peak_torque: float
-    peak_time: float
-    residual: float
-    cancelled: bool = False
+    joint_angle: float  # [rad]: α
+    stiffness: float  # [N·m/rad]: c of the driven shaft
+    inertia: float  # [kg·m²]: J at its end
+    damping: float  # [N·m·s/rad]: b of the driven shaft
+    acceleration: float  # [rad/s²]: a of the driving shaft
+    time: Array  # (p,) [s]: instants
+    torque: Array  # (p,) [N·m]: in the driven shaft
+    twist: Array  # (p,) [rad]: of the driven shaft, from the joint to the inertia
+    peak_torque: float  # [N·m]: largest |torque|
+    peak_time: float  # [s]: when
+    residual: float  # torque at the peak, step by step, against the joint's series in closed forms, over the peak
+    cancelled: bool = False  # whether ``progress`` stopped the run
 
     @property
     def peak_speed(self) -> float:

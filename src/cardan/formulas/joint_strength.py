@@ -13,24 +13,12 @@ TERMS = 20
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class PartStress:
-    """Stresses of a part, arrays (...) [Pa].
+    """Stresses of a part, arrays (...) [Pa]."""
 
-    Attributes
-    ----------
-    bending : array (...)
-        Largest bending stress.
-    shear : array (...)
-        Largest shear stress: of torsion in a yoke, of the force in a journal.
-    mises : array (...)
-        √(σ² + 3τ²); in a yoke both maxima taken at one point, which is on the safe side.
-    mean_shear : array (...) or None
-        Force over area, of a journal.
-    """
-
-    bending: Array
-    shear: Array
-    mises: Array
-    mean_shear: Array | None = None
+    bending: Array  # (...): largest bending stress
+    shear: Array  # (...): largest shear stress: of torsion in a yoke, of the force in a journal
+    mises: Array  # (...): √(σ² + 3τ²); in a yoke both maxima taken at one point, which is on the safe side
+    mean_shear: Array | None = None  # (...): force over area, of a journal
 
 
 def yoke_stress(
@@ -76,18 +64,10 @@ def yoke_stress(
 def rectangle_torsion_modulus(long: ArrayLike, short: ArrayLike) -> Array:
     """Return torque over largest shear stress of a rectangular bar, by Saint-Venant [m³].
 
-    Parameters
-    ----------
-    long, short : array (...) [m]
-        Sides A ≥ B.
-
-    Notes
-    -----
+    long, short (...) [m]: sides A ≥ B.
     I_t = A B³[1/3 - (64/π⁵)(B/A) Σ tanh(kπA/2B)/k⁵], τ_max = (T B/I_t)[1 - (8/π²) Σ 1/(k² cosh(kπA/2B))] in the middle
     of the long side, k = 1, 3, 5 …
 
-    Examples
-    --------
     >>> round(float(rectangle_torsion_modulus(1.0, 1.0)), 4)
     0.2082
     """

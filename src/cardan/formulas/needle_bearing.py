@@ -20,27 +20,13 @@ SHARE = 4.0
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class NeedleRating:
-    """Ratings of a full row of needles, arrays (...).
+    """Ratings of a full row of needles, arrays (...)."""
 
-    Attributes
-    ----------
-    pitch_diameter : array (...) [m]
-        D_pw.
-    slimness : array (...)
-        γ, needle over pitch diameter.
-    static : array (...) [N]
-        C_0r of ISO 76.
-    factor : array (...)
-        f_c of ISO 281.
-    dynamic : array (...) [N]
-        C_r of ISO 281.
-    """
-
-    pitch_diameter: Array
-    slimness: Array
-    static: Array
-    factor: Array
-    dynamic: Array
+    pitch_diameter: Array  # (...) [m]: D_pw
+    slimness: Array  # (...): γ, needle over pitch diameter
+    static: Array  # (...) [N]: C_0r of ISO 76
+    factor: Array  # (...): f_c of ISO 281
+    dynamic: Array  # (...) [N]: C_r of ISO 281
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

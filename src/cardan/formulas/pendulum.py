@@ -23,28 +23,16 @@ TUNED = 1e-12
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Pendulum:
-    """What pendulums on a shaft do at one order, small swings.
+    """What pendulums on a shaft do at one order, small swings."""
 
-    Attributes
-    ----------
-    tuned_order : array (...)
-        Order at which they hold the shaft still.
-    inertia : array (...) [kg·m²]
-        What they weigh on the shaft at the order asked for; negative above the tuned order, nan at it.
-    antiresonance : array of bool (...)
-        The order is the tuned one: the inertia is infinite, the shaft does not swing.
-    answer : array (...) [1/(kg·m²)]
-        Where they absorb a torque at their tuned order, each swings by this times the torque over the square of the
-        speed.
-    swing : array (...)
-        Angle of a pendulum over that of the shaft; nan where the shaft stands still.
-    """
-
-    tuned_order: Array
+    tuned_order: Array  # (...): order at which they hold the shaft still
+    # (...) [kg·m²]: what they weigh on the shaft at the order asked for; negative above the tuned order, nan at it
     inertia: Array
-    antiresonance: Array
+    antiresonance: Array  # (...) of bool: the order is the tuned one: the inertia is infinite, the shaft does not swing
+    # (...) [1/(kg·m²)]: where they absorb a torque at their tuned order, each swings by this times the torque over the
+    # square of the speed
     answer: Array
-    swing: Array
+    swing: Array  # (...): angle of a pendulum over that of the shaft; nan where the shaft stands still
 
 
 def pendulum(
@@ -110,21 +98,8 @@ def pendulum(
 def tuned_length(radius: ArrayLike, order: ArrayLike) -> Array:
     """Return the length of the arm that tunes a pendulum to an order, array (...) [m].
 
-    Parameters
-    ----------
-    radius : array (...) [m]
-        R of the pivot.
-    order : array (...)
-        ν, positive.
-
-    Notes
-    -----
+    radius (...) [m]: R of the pivot; order (...): ν, positive.
     l = R/ν².
-
-    Examples
-    --------
-    >>> float(tuned_length(0.12, 2.0))
-    0.03
     """
     _xp, (r, nu) = arrays(radius, order)
     return r / (nu * nu)

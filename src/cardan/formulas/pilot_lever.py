@@ -23,26 +23,16 @@ REACH = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class LeverChoice:
-    """The pilot lever with the smallest largest error over a range of bends.
+    """The pilot lever with the smallest largest error over a range of bends."""
 
-    Attributes
-    ----------
-    b, c : float
-        b/a and c/a.
-    error : float [rad]
-        Largest error of the cage, reached with one sign between the ends of the range and with the other at its end.
-    below, above : float [rad]
-        Bends at which the error is most negative and most positive.
-    even : float [rad]
-        Bend at which the cage bisects exactly, besides the straight joint.
-    """
-
-    b: float
+    b: float  # b, c: b/a and c/a
     c: float
+    # [rad]: largest error of the cage, reached with one sign between the ends of the range and with the other at its
+    # end
     error: float
-    below: float
-    above: float
-    even: float
+    below: float  # below, above [rad]: bends at which the error is most negative and most positive
+    above: float  # [rad]
+    even: float  # [rad]: bend at which the cage bisects exactly, besides the straight joint
 
 
 def lever_choice(b: float, largest: float, *, smallest: float = 0.0) -> LeverChoice:

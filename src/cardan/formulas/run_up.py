@@ -70,40 +70,18 @@ def passing_time(natural_frequency: float, damping_ratio: float, width: float, r
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RunUp:
-    """Response of an oscillator while the frequency of its force rises through its own, over the static one.
+    """Response of an oscillator while the frequency of its force rises through its own, over the static one."""
 
-    Attributes
-    ----------
-    natural_frequency : float [rad/s]
-        ω_0.
-    damping_ratio : float
-        ζ.
-    acceleration : float [rad/s²]
-        a_s: the frequency of the force is a_s t.
-    time : array (p,) [s]
-        Instants.
-    response : array (p,)
-        y there.
-    peak : float
-        Largest \\|y\\|.
-    peak_time : float [s]
-        When.
-    residual : float
-        Closed form against the impulse response summed step by step, at the peak; nan where the run is too long for
-        that.
-    cancelled : bool
-        Whether ``progress`` stopped the search; the peak is that of what was searched.
-    """
-
-    natural_frequency: float
-    damping_ratio: float
-    acceleration: float
-    time: Array
-    response: Array
-    peak: float
-    peak_time: float
+    natural_frequency: float  # [rad/s]: ω_0
+    damping_ratio: float  # ζ
+    acceleration: float  # [rad/s²]: a_s: the frequency of the force is a_s t
+    time: Array  # (p,) [s]: instants
+    response: Array  # (p,): y there
+    peak: float  # largest |y|
+    peak_time: float  # [s]: when
+    # closed form against the impulse response summed step by step, at the peak; nan where the run is too long for that
     residual: float
-    cancelled: bool = False
+    cancelled: bool = False  # whether ``progress`` stopped the search; the peak is that of what was searched
 
     @property
     def passing_time(self) -> float:

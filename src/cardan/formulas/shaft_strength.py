@@ -13,35 +13,19 @@ RATED_TWIST = math.radians(9.0)
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ShaftStress:
-    """Stresses at the surface of a round shaft, arrays (...) [Pa].
+    """Stresses at the surface of a round shaft, arrays (...) [Pa]."""
 
-    Attributes
-    ----------
-    torsion : array (...)
-        τ = T/W_t.
-    bending : array (...)
-        σ = 2 M/W_t.
-    shear : array (...)
-        Largest shear stress √(T² + M²)/W_t, that of Tresca.
-    mises : array (...)
-        √(σ² + 3τ²).
-    """
-
-    torsion: Array
-    bending: Array
-    shear: Array
-    mises: Array
+    torsion: Array  # (...): τ = T/W_t
+    bending: Array  # (...): σ = 2 M/W_t
+    shear: Array  # (...): largest shear stress √(T² + M²)/W_t, that of Tresca
+    mises: Array  # (...): √(σ² + 3τ²)
 
 
 def torsion_modulus(outer: ArrayLike, inner: ArrayLike = 0.0) -> Array:
     """Return W_t = π(D⁴ - d⁴)/(16 D) of a round section [m³].
 
-    Parameters
-    ----------
-    outer, inner : array (...) [m]
+    outer, inner (...) [m].
 
-    Examples
-    --------
     >>> round(float(torsion_modulus(0.075, 0.070)) * 1e9, 1)
     19976.9
     """
@@ -134,20 +118,11 @@ def shaft_twist(
 def wall_buckling_torque(outer: ArrayLike, inner: ArrayLike, youngs: ArrayLike, poisson: ArrayLike = 0.3) -> Array:
     """Return the torque at which the wall of a long tube buckles, T = 2π r² t τ [N·m].
 
-    Parameters
-    ----------
-    outer, inner : array (...) [m]
-        D and d; for walls that are thin beside the radius.
-    youngs, poisson : array (...) [Pa, -]
-        E and ν.
-
-    Notes
-    -----
+    outer, inner (...) [m]: D and d; for walls that are thin beside the radius.
+    youngs, poisson (...) [Pa, -]: E and ν.
     τ = E (t/r)^(3/2)/(3√2 (1 - ν²)^(3/4)), r the mean radius: Timoshenko and Gere, Theory of elastic stability, 11.11,
     after Schwerin; 0.253 E (t/r)^(3/2) for ν = 0.3. Ends that are held close together hold more.
 
-    Examples
-    --------
     >>> round(float(wall_buckling_torque(0.076, 0.072, 2.06e11)))
     11267
     """

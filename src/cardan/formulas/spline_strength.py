@@ -12,25 +12,14 @@ from cardan.maths.arrays import Array, ArrayLike, floats
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SplineStress:
-    """Stresses of a straight-sided spline, arrays (...).
+    """Stresses of a straight-sided spline, arrays (...)."""
 
-    Attributes
-    ----------
-    mean_diameter, height : array (...) [m]
-        (D + d)/2 and the height of the flanks that bear, (D - d)/2 - 2c.
-    pressure : array (...) [Pa]
-        On the flanks.
-    tooth_shear : array (...) [Pa]
-        At the roots of the teeth.
-    core_shear : array (...) [Pa]
-        Torsion at the root diameter.
-    """
-
+    # mean_diameter, height (...) [m]: (D + d)/2 and the height of the flanks that bear, (D - d)/2 - 2c
     mean_diameter: Array
-    height: Array
-    pressure: Array
-    tooth_shear: Array
-    core_shear: Array
+    height: Array  # (...) [m]
+    pressure: Array  # (...) [Pa]: on the flanks
+    tooth_shear: Array  # (...) [Pa]: at the roots of the teeth
+    core_shear: Array  # (...) [Pa]: torsion at the root diameter
 
 
 def spline_stress(

@@ -14,26 +14,15 @@ from cardan.texts import _
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class UnbalanceBehindJoint:
-    """Force of an unbalance on a shaft that a Hooke joint drives, in the plane across that shaft.
+    """Force of an unbalance on a shaft that a Hooke joint drives, in the plane across that shaft."""
 
-    Attributes
-    ----------
-    joint_angle : array (...) [rad]
-        α of the joint, or of the one that the joints before the shaft are equal to.
-    phase : array (...) [rad]
-        ψ, angle of the driving yoke from the plane of the shafts where φ_1 is 0.
-    order : array of int (N,)
-        n by the turns of the input, odd; negative ones run backward.
-    force : array (..., N), complex
-        Over m e Ω²: force = m e Ω² Σ F_n e^(inφ_1), the unbalance along the first axis at φ_1 = 0, Ω the input speed.
-    residual : array (...)
-        What the squares of the vector's orders, those given and the next ones, miss of their sum, 1.
-    """
-
-    joint_angle: Array
-    phase: Array
-    order: Array
+    joint_angle: Array  # (...) [rad]: α of the joint, or of the one that the joints before the shaft are equal to
+    phase: Array  # (...) [rad]: ψ, angle of the driving yoke from the plane of the shafts where φ_1 is 0
+    order: Array  # (N,) of int: n by the turns of the input, odd; negative ones run backward
+    # (..., N), complex: over m e Ω²: force = m e Ω² Σ F_n e^(inφ_1), the unbalance along the first axis at φ_1 = 0, Ω
+    # the input speed
     force: Array
+    # (...): what the squares of the vector's orders, those given and the next ones, miss of their sum, 1
     residual: Array
 
     @property

@@ -29,30 +29,10 @@ _WORD = re.compile(r"([A-Za-z_][A-Za-z0-9_]*)((?:\[\d+\])*)$")
 def amend(text: str, values: Mapping[str, Any]) -> str:
     """Return a drive file with other values, whether or not it describes a drive.
 
-    Parameters
-    ----------
-    text : str
-        TOML.
-    values : mapping of str to value
-        Path of a key -> what to write there, in the unit of the key; None takes the key out, or the whole table that
-        the path leads to. ``shafts[1]`` is shaft number 2. Other spellings of the same field go.
-
-    Returns
-    -------
-    str
-        The new text; comments and layout of everything else stay.
-
-    Raises
-    ------
-    InputError
-        The text is no TOML, or a path is none of a drive file.
-
-    Examples
-    --------
-    >>> print(amend("joints = []  # soon", {"duty.speed_rpm": 3000}).strip())
-    joints = []  # soon
-    [duty]
-    speed_rpm = 3000
+    values: path of a key -> what to write there, in the unit of the key; None takes the key out, or the whole table
+    that the path leads to. ``shafts[1]`` is shaft number 2. Other spellings of the same field go.
+    Returns: the new text; comments and layout of everything else stay.
+    Raises InputError: the text is no TOML, or a path is none of a drive file.
     """
     document = parsed(text)
     for path, value in values.items():
@@ -77,22 +57,7 @@ def _amended(document: Any, path: str, value: Any) -> None:
 def insert(text: str, path: str, values: Mapping[str, Any]) -> str:
     """Return a drive file with a further table in a list of tables.
 
-    Parameters
-    ----------
-    text : str
-        TOML.
-    path : str
-        Where it is to stand, ``supports[2]``; the tables from there on move back.
-    values : mapping
-        Its keys.
-
-    Examples
-    --------
-    >>> print(insert("format = 1", "supports[0]", {"shaft": 2, "position_mm": 300}).strip())
-    format = 1
-    [[supports]]
-    shaft = 2
-    position_mm = 300
+    path: where it is to stand, ``supports[2]``; the tables from there on move back.
     """
     document = parsed(text)
     *steps, name, place = steps_of(path)
@@ -113,13 +78,7 @@ def insert(text: str, path: str, values: Mapping[str, Any]) -> str:
 
 @contextmanager
 def tables_only(path: str) -> Iterator[None]:
-    """Refuse a change that finds something else where a drive file has tables, or nothing.
-
-    Raises
-    ------
-    InputError
-        The file is so.
-    """
+    """Refuse a change that finds something else where a drive file has tables, or nothing."""
     try:
         yield
     except (AttributeError, IndexError, KeyError, TypeError):
@@ -127,13 +86,7 @@ def tables_only(path: str) -> Iterator[None]:
 
 
 def parsed(text: str) -> Any:
-    """Return the document that a text is.
-
-    Raises
-    ------
-    InputError
-        It is no TOML.
-    """
+    """Return the document that a text is."""
     try:
         return tomlkit.parse(text)
     except (ValueError, RecursionError) as error:  # of the parser, of Python for thousands of digits, too deep
@@ -143,8 +96,6 @@ def parsed(text: str) -> Any:
 def steps_of(path: str) -> tuple[Step, ...]:
     """Return the keys and places that a path goes through.
 
-    Examples
-    --------
     >>> steps_of("joints[1].cross.span_mm")
     ('joints', 1, 'cross', 'span_mm')
     """
@@ -158,13 +109,7 @@ def steps_of(path: str) -> tuple[Step, ...]:
 
 
 def kind_at(document: Any, steps: tuple[Step, ...] | list[Step]) -> Any:
-    """Return the class of the drive model that the table at some steps describes.
-
-    Raises
-    ------
-    InputError
-        A drive file has no such table.
-    """
+    """Return the class of the drive model that the table at some steps describes."""
     cls: Any = Drive
     for k, step in enumerate(steps):
         if isinstance(step, int):

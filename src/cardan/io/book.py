@@ -51,20 +51,9 @@ def opened(stream: IO[bytes], *, title: str, made: datetime.date | None = None) 
     """Return an empty workbook that is written to a stream when it is closed.
 
     The same content gives the same bytes: nothing tells who made it on which machine.
-
-    Parameters
-    ----------
-    stream : binary stream
-        Where it goes.
-    title : str
-        Among its properties.
-    made : date, optional
-        Among its properties; 2000-01-01 when not given.
-
-    Raises
-    ------
-    MissingExtraError
-        What writes workbooks is not installed.
+    stream: where it goes; title: among its properties.
+    made: among its properties; 2000-01-01 when not given.
+    Raises MissingExtraError: what writes workbooks is not installed.
     """
     day = made or datetime.date(2000, 1, 1)
     book = xlsxwriter().Workbook(stream, QUIET)
@@ -79,11 +68,6 @@ def unstretched(data: bytes) -> bytes:
 
     How wide a column of so many letters is differs from spreadsheet to spreadsheet: a picture that ends in a cell is
     stretched, and its circles are ellipses.
-
-    Parameters
-    ----------
-    data : bytes
-        The workbook.
     """
     stream = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as new:
@@ -98,14 +82,7 @@ def unstretched(data: bytes) -> bytes:
 def put(sheet: Any, row: int, column: int, value: object, form: Any = None) -> None:
     """Write a value into a cell: what is not finite as a sign, nothing as an empty cell.
 
-    Parameters
-    ----------
-    sheet : worksheet
-    row, column : int
-        From 0.
-    value : number, str, bool or None
-    form : format, optional
-        How it looks.
+    row, column: from 0.
     """
     if hasattr(value, "item"):
         value = value.item()
@@ -125,18 +102,7 @@ def put(sheet: Any, row: int, column: int, value: object, form: Any = None) -> N
 def leads_to(sheet: Any, row: int, column: int, text: str, other: str, form: Any) -> None:
     """Write words that lead to another sheet.
 
-    Parameters
-    ----------
-    sheet : worksheet
-        Where they stand.
-    row, column : int
-        From 0.
-    text : str
-        The words.
-    other : str
-        Name of the sheet that they lead to.
-    form : format
-        How they look.
+    sheet: where they stand; row, column: from 0; other: name of the sheet that they lead to.
     """
     sheet.write_url(row, column, "internal:'" + other.replace("'", "''") + "'!A1", form, words(text))
 
@@ -144,8 +110,6 @@ def leads_to(sheet: Any, row: int, column: int, text: str, other: str, form: Any
 def words(text: str) -> str:
     """Return a text as a cell can hold it: cut to its length, without marks of control and halves of letters.
 
-    Examples
-    --------
     >>> words("=1+1"), words("a\\x0bb"), len(words("a" * 40_000))
     ('=1+1', 'a\ufffdb', 32767)
     """
@@ -158,22 +122,8 @@ def words(text: str) -> str:
 def sheet_name(wanted: str, taken: set[str], *, ending: str = "") -> str:
     """Return a name that a sheet may have and no other has, and take it.
 
-    Parameters
-    ----------
-    wanted : str
-        What it should be called.
-    taken : set of str
-        Names of the other sheets, in small letters; the new one is added.
-    ending : str
-        Kept when the name has to be cut.
-
-    Examples
-    --------
-    >>> taken = set()
-    >>> sheet_name("Losses: joints/supports", taken), sheet_name("LOSSES joints supports", taken)
-    ('Losses joints supports', 'LOSSES joints supports 2')
-    >>> sheet_name("'Forces on all shafts of the drive'", taken, ending=" data")
-    'Forces on all shafts of th data'
+    taken: names of the other sheets, in small letters; the new one is added.
+    ending: kept when the name has to be cut.
     """
     plain = " ".join(re.sub(r"[\[\]:*?/\\\x00-\x1f]", " ", words(wanted)).split()).strip("' ") or "-"
     count, name = 1, ""

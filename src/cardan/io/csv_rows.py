@@ -21,19 +21,8 @@ NUMBERS = ("", mark("a number"), mark("two numbers"), mark("three numbers"), mar
 def read_rows(path: Path, columns: Sequence[tuple[str, str]], *, least: int) -> list[tuple[float, ...]]:
     """Return the rows of a CSV file in SI.
 
-    Parameters
-    ----------
-    path : Path
-        The file.
-    columns : sequence of (str, str)
-        Word and dimension of every column wanted, the times first; its title is the word with a unit.
-    least : int
-        Rows needed.
-
-    Raises
-    ------
-    InputError
-        The file cannot be read, a column is missing, a row is not so many finite numbers, times do not rise.
+    columns: word and dimension of every column wanted, the times first; its title is the word with a unit.
+    least: rows needed.
     """
     try:
         with path.open("rb") as stream:

@@ -23,21 +23,11 @@ LONG = 7
 
 @dataclass(frozen=True, kw_only=True)
 class Difference:
-    """A key that does not say the same in all drives.
+    """A key that does not say the same in all drives."""
 
-    Attributes
-    ----------
-    path : str
-        Path of the field, without a unit: ``joints[1].centre``; ``shafts[1]`` is shaft number 2.
-    doc : str
-        What it means, in the language spoken.
-    values : tuple of str
-        What each drive says, in a unit that keeps it short; empty where it says nothing.
-    """
-
-    path: str
-    doc: str
-    values: tuple[str, ...]
+    path: str  # path of the field, without a unit: ``joints[1].centre``; ``shafts[1]`` is shaft number 2
+    doc: str  # what it means, in the language spoken
+    values: tuple[str, ...]  # what each drive says, in a unit that keeps it short; empty where it says nothing
 
 
 def differences(drives: Sequence[Drive]) -> tuple[Difference, ...]:
@@ -45,26 +35,7 @@ def differences(drives: Sequence[Drive]) -> tuple[Difference, ...]:
 
     A key that one drive leaves at its default and another gives as just that is no difference. Where a whole table is
     missing in a drive, only the table is told.
-
-    Parameters
-    ----------
-    drives : sequence of Drive
-        At least one.
-
-    Raises
-    ------
-    InputError
-        There is no drive.
-
-    Examples
-    --------
-    >>> from cardan.io import example
-    >>> from cardan.io.edit import edit
-    >>> from cardan.io import example_text, loads
-    >>> turned = loads(edit(example_text("z-arrangement"), {"shafts[1].yoke_angle_deg": 90}))
-    >>> for one in differences([example("z-arrangement"), turned]):
-    ...     print(one.path, one.values)
-    shafts[1].yoke_angle ('0°', '90°')
+    drives: at least one.
     """
     if not drives:
         raise refuse("drives", _("at least one is needed"))

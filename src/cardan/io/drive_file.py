@@ -60,13 +60,7 @@ def load(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Drive:
 
 
 def text_of(where: Path) -> tuple[str, str]:
-    """Return the text of a file, and whether it is ``"toml"`` or ``"json"``.
-
-    Raises
-    ------
-    InputError
-        It cannot be read, is too large, or is no text.
-    """
+    """Return the text of a file, and whether it is ``"toml"`` or ``"json"``."""
     try:
         with where.open("rb") as stream:
             content = stream.read(MAX_BYTES + 1)
@@ -128,18 +122,8 @@ def loads(
 def known_to(drive: Drive, folder: str | Path | Enclosed = ".", catalogues: Sequence[str | Path] = ()) -> Catalogue:
     """Return the catalogue of a drive: the shipped one and the files that its settings name.
 
-    Parameters
-    ----------
-    drive : Drive
-    folder : str, Path or Enclosed
-        Where the files are looked for.
-    catalogues : sequence of str or Path
-        Further files, by their own paths.
-
-    Raises
-    ------
-    InputError
-        What is wrong with the files.
+    folder: where the files are looked for; catalogues: further files, by their own paths.
+    Raises InputError: what is wrong with the files.
     """
     files = [*(folder_of(folder) / name for name in drive.settings.catalogues), *catalogues]
     return with_files(catalogue(), files) if files else catalogue()
@@ -166,13 +150,7 @@ def dumps(thing: Drive | Mechanism, *, form: str = "toml") -> str:
 
 
 def parsed(text: str, form: str, name: str) -> dict[str, Any]:
-    """Return the nested tables of a text.
-
-    Raises
-    ------
-    InputError
-        It is no TOML or JSON, or a table has a key twice.
-    """
+    """Return the nested tables of a text."""
     text = text.removeprefix("\ufeff")
     title = "JSON" if form == "json" else "TOML"
     twice: list[str] = []

@@ -21,35 +21,12 @@ def edit(
 ) -> str:
     """Return a TOML drive file with other values; comments and layout stay.
 
-    Parameters
-    ----------
-    text : str
-        The drive file.
-    values : mapping of str to value
-        Path with unit -> value in that unit, as in `fields.paths`. A field given in another unit, or by its
-        opposite (``yoke_lead``), is replaced; None takes it out.
-    folder : str, Path or Enclosed
-        Where files that the drive file names are looked for.
-    catalogues : sequence of str or Path
-        Catalogue files beside those that it names.
-
-    Returns
-    -------
-    str
-        The new text; it loads.
-
-    Raises
-    ------
-    InputError
-        The text is no drive file, or a path or value does not fit.
-
-    Examples
-    --------
-    >>> print(edit("format = 1  # first" + chr(10) + "[[joints]]" + chr(10) + "joint_angle_deg = 20",
-    ...            {"joints[0].joint_angle_deg": 25}))
-    format = 1  # first
-    [[joints]]
-    joint_angle_deg = 25
+    values: path with unit -> value in that unit, as in `fields.paths`. A field given in another unit, or by its
+    opposite (``yoke_lead``), is replaced; None takes it out.
+    folder: where files that the drive file names are looked for.
+    catalogues: catalogue files beside those that it names.
+    Returns: the new text; it loads.
+    Raises InputError: the text is no drive file, or a path or value does not fit.
     """
     drive = loads(text, folder=folder, catalogues=catalogues)
     wanted = with_values(drive, values)

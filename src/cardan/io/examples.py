@@ -57,13 +57,7 @@ def recording_names() -> tuple[str, ...]:
 
 
 def example_file(name: str) -> Path:
-    """Return the file of a shipped example: a drive, a mechanism or a recording.
-
-    Raises
-    ------
-    InputError
-        There is no example of that name; the message names the nearest.
-    """
+    """Return the file of a shipped example: a drive, a mechanism or a recording."""
     if name in mechanism_names():
         return _folder() / "mechanisms" / f"{name}.toml"
     if name in recording_names():

@@ -41,8 +41,6 @@ CLOSE = 0.8
 def meant(cls: type, key: str) -> str:
     """Return the name of the field that an unknown key most likely meant, or nothing.
 
-    Examples
-    --------
     >>> from cardan.drive.joints import Hooke
     >>> meant(Hooke, "centre"), meant(Hooke, "joint_angle_mm"), meant(Hooke, "colour")
     ('centre', 'bend', '')
@@ -62,8 +60,6 @@ def meant(cls: type, key: str) -> str:
 def unknown(cls: type, key: str) -> str:
     """Return what to say of a key that the table of a class does not know.
 
-    Examples
-    --------
     >>> from cardan.drive.joints import Hooke
     >>> unknown(Hooke, "plane_twist_dg")
     'unknown key; the nearest known one is plane_twist_deg'
@@ -135,8 +131,6 @@ def _knows(cls: type, key: str) -> bool:
 def tables() -> tuple[tuple[str, type], ...]:
     """Return every table of a drive file: how the file names it, and its class.
 
-    Examples
-    --------
     >>> [title for title, cls in tables()][:5]
     ['the head of the file', '[settings]', '[input]', '[output]', "[[joints]] kind = 'hooke'"]
     """

@@ -19,14 +19,9 @@ from cardan.texts import _
 def axis_of(one: Table, drive: Drive | None, seed: int) -> Axis | None:
     """Return the axis that a table describes, None where something is wrong with it, which the table then notes.
 
-    Parameters
-    ----------
-    one : Table
-        An entry of ``vary``.
-    drive : Drive or None
-        Whose values stand for what is not given; None where it could not be read.
-    seed : int
-        Of random numbers, where the table gives none.
+    one: an entry of ``vary``.
+    drive: whose values stand for what is not given; None where it could not be read.
+    seed: of random numbers, where the table gives none.
     """
     before = len(one.problems)
     made: Axis | None

@@ -29,30 +29,15 @@ Read = TypeVar("Read", Goal, Limit)
 
 @dataclass(frozen=True, kw_only=True)
 class Search:
-    """``[search]``: the best point by one goal, or points of which none is better in all of several.
+    """``[search]``: the best point by one goal, or points of which none is better in all of several."""
 
-    Attributes
-    ----------
-    ask : DriveEvaluator
-        What answers over the fields of ``between``.
-    bounds : tuple of (float, float)
-    goals : tuple of Goal
-    limits : tuple of Limit
-    method : {"local", "global"}
-        For one goal.
-    start : tuple of float
-        Where a local search begins; where the drive stands by default.
-    seed, population, generations : int
-        Of a global search or one for several goals.
-    """
-
-    ask: DriveEvaluator
+    ask: DriveEvaluator  # what answers over the fields of ``between``
     bounds: tuple[tuple[float, float], ...]
     goals: tuple[Goal, ...]
     limits: tuple[Limit, ...] = ()
-    method: str = "local"
-    start: tuple[float, ...] = ()
-    seed: int = 0
+    method: str = "local"  # for one goal
+    start: tuple[float, ...] = ()  # where a local search begins; where the drive stands by default
+    seed: int = 0  # seed, population, generations: of a global search or one for several goals
     population: int = 0
     generations: int = 0
 
@@ -82,22 +67,11 @@ class Search:
 
 @dataclass(frozen=True, kw_only=True)
 class Owing:
-    """``[sensitivity]``: which share of the variance of answers each field brings about.
+    """``[sensitivity]``: which share of the variance of answers each field brings about."""
 
-    Attributes
-    ----------
-    ask : DriveEvaluator
-        What answers over the fields that the plan draws from distributions.
-    spread : tuple of Distribution
-    answers : tuple of str
-        Columns looked at; all when empty.
-    samples, seed : int
-    confidence : float
-    """
-
-    ask: DriveEvaluator
+    ask: DriveEvaluator  # what answers over the fields that the plan draws from distributions
     spread: tuple[Distribution, ...]
-    answers: tuple[str, ...] = ()
+    answers: tuple[str, ...] = ()  # columns looked at; all when empty
     samples: int = 1024
     seed: int = 0
     confidence: float = 0.95
@@ -117,20 +91,9 @@ class Owing:
 
 @dataclass(frozen=True, kw_only=True)
 class Following:
-    """``[boundary]``: where limits begin to be broken over two fields.
+    """``[boundary]``: where limits begin to be broken over two fields."""
 
-    Attributes
-    ----------
-    ask : DriveEvaluator
-        What answers over the two fields of ``between``.
-    bounds : tuple of (float, float)
-    limits : tuple of Limit
-    coarse : (int, int)
-    halvings : int
-    accuracy : float
-    """
-
-    ask: DriveEvaluator
+    ask: DriveEvaluator  # what answers over the two fields of ``between``
     bounds: tuple[tuple[float, float], ...]
     limits: tuple[Limit, ...]
     coarse: tuple[int, int] = (16, 16)
@@ -156,16 +119,7 @@ Design: TypeAlias = Search | Owing | Following
 def design_of(plan: Plan, name: str) -> Design:
     """Return a design of a plan, ready to run.
 
-    Parameters
-    ----------
-    plan : Plan
-        With the table of that name.
-    name : {"search", "sensitivity", "boundary"}
-
-    Raises
-    ------
-    InputError
-        All that is wrong with it, each with its path in the plan file.
+    plan: with the table of that name.
     """
     table = Table(given=plan.parts[name], path=name)
     make: Callable[[Plan, Table], Design | None] = {"search": _search, "sensitivity": _owing, "boundary": _following}[

@@ -38,62 +38,30 @@ KEYS = ("search", "sensitivity", "boundary")
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """What a plan file says.
-
-    Attributes
-    ----------
-    drive : Drive
-    known : Catalogue
-        The catalogue of the drive, its own files among it.
-    axes : tuple of Axis
-        What varies.
-    ask : tuple of str
-        Names of questions.
-    reduce : tuple of Reduce
-    constraints : tuple of str
-    title : str
-    seed : int
-    rows : {"kept", "none"}
-    chunk : int or None
-        Rows worked on at a time.
-    device : {"cpu", "gpu"}
-    engine : str
-        One of `ENGINES`.
-    workers : int or None
-    scheduler : str
-        Address of the scheduler of a cluster.
-    parts : mapping of str to mapping
-        The tables of `KEYS` that are given, as they stand.
-    """
+    """What a plan file says."""
 
     drive: Drive
-    known: Catalogue
-    axes: tuple[Axis, ...]
-    ask: tuple[str, ...]
+    known: Catalogue  # the catalogue of the drive, its own files among it
+    axes: tuple[Axis, ...]  # what varies
+    ask: tuple[str, ...]  # names of questions
     reduce: tuple[Reduce, ...] = ()
     constraints: tuple[str, ...] = ()
     title: str = ""
     seed: int = 0
     rows: str = "kept"
-    chunk: int | None = None
+    chunk: int | None = None  # rows worked on at a time
     device: Device = "cpu"
-    engine: str = "in-process"
+    engine: str = "in-process"  # one of `ENGINES`
     workers: int | None = None
-    scheduler: str = ""
+    scheduler: str = ""  # address of the scheduler of a cluster
+    # the tables of `KEYS` that are given, as they stand
     parts: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def work(self, *, device: Device | None = None) -> SweepWork:
         """Return the sweep as work for an engine.
 
-        Parameters
-        ----------
-        device : {"cpu", "gpu"}, optional
-            In place of that of the plan.
-
-        Raises
-        ------
-        InputError
-            All that is wrong with points, questions, constraints and reductions.
+        device: in place of that of the plan.
+        Raises InputError: all that is wrong with points, questions, constraints and reductions.
         """
         return work_of(
             self.drive,
@@ -110,22 +78,10 @@ class Plan:
 def read_plan(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Plan:
     """Return the plan that a file describes.
 
-    Parameters
-    ----------
-    path : str or Path
-        A ``.toml`` file, or ``.json`` with the same tables.
-    catalogues : sequence of str or Path
-        Catalogue files beside those that the drive file names.
-
-    Raises
-    ------
-    InputError
-        The file, or the drive file that it names, cannot be read; every problem of the plan at once, with its path.
-
-    Examples
-    --------
-    >>> read_plan("examples/sweeps/truck-suspension.toml").ask  # doctest: +SKIP
-    ('speed_fluctuation', 'acceleration', 'bend')
+    path: a ``.toml`` file, or ``.json`` with the same tables.
+    catalogues: catalogue files beside those that the drive file names.
+    Raises InputError: the file, or the drive file that it names, cannot be read; every problem of the plan at once,
+    with its path.
     """
     where = Path(path)
     text, form = text_of(where)
@@ -142,23 +98,8 @@ def plan_of(
 ) -> Plan:
     """Return the plan that a text describes; see `read_plan`.
 
-    Parameters
-    ----------
-    text : str
-        The plan file.
-    folder : str, Path or Enclosed
-        Where the drive file is looked for.
-    form : str
-        ``"toml"`` or ``"json"``.
-    name : str
-        What messages call the text.
-    catalogues : sequence of str or Path
-        Catalogue files beside those that the drive file names.
-
-    Raises
-    ------
-    InputError
-        Every problem at once.
+    text: the plan file; folder: where the drive file is looked for; form: ``"toml"`` or ``"json"``.
+    catalogues: catalogue files beside those that the drive file names.
     """
     top = Table(given=parsed(text, form, name))
     if top.whole("format") != FORMAT and isinstance(top.given.get("format"), int):

@@ -31,17 +31,7 @@ from .shifts import read_shifts, read_torques
 def drive_from_tree(tree: Mapping[str, Any], *, folder: Path | Enclosed = Path(".")) -> Drive:
     """Return the drive a file describes.
 
-    Parameters
-    ----------
-    tree : mapping
-        The file as nested tables.
-    folder : Path or Enclosed
-        Where the CSV files that it names are looked for.
-
-    Raises
-    ------
-    InputError
-        Everything that is wrong with it.
+    tree: the file as nested tables; folder: where the CSV files that it names are looked for.
     """
     joints = tree.get("joints")
     if isinstance(joints, list) and len(joints) > MAX_JOINTS:
@@ -54,19 +44,7 @@ def drive_from_tree(tree: Mapping[str, Any], *, folder: Path | Enclosed = Path("
 def read_as(root: Any, tree: Mapping[str, Any], *, folder: Path | Enclosed = Path(".")) -> Any:
     """Return the drive, or other thing of a class with the keys of a file, that a tree describes.
 
-    Parameters
-    ----------
-    root : type
-        Class of what the file describes.
-    tree : mapping
-        The file as nested tables.
-    folder : Path or Enclosed
-        Where the CSV files that it names are looked for.
-
-    Raises
-    ------
-    InputError
-        Everything that is wrong with it.
+    tree: the file as nested tables; folder: where the CSV files that it names are looked for.
     """
     form = Form(
         spelled=spelled,

@@ -24,26 +24,7 @@ Moved = Callable[[int], int | None]
 def with_joint(text: str, at: int) -> str:
     """Return a drive file with a further joint, halfway between its neighbours.
 
-    Parameters
-    ----------
-    text : str
-        TOML.
-    at : int
-        Index that the new joint gets, 0 to n. The shaft that it parts keeps its number before the joint.
-
-    Raises
-    ------
-    InputError
-        The text is no TOML, or has no such place.
-
-    Examples
-    --------
-    >>> text = "[[joints]]" + chr(10) + "joint_angle_deg = 10" + chr(10)
-    >>> print(with_joint(text, 1).strip())
-    [[joints]]
-    joint_angle_deg = 10
-    [[joints]]
-    joint_angle_deg = 10
+    at: index that the new joint gets, 0 to n. The shaft that it parts keeps its number before the joint.
     """
     document = parsed(text)
     joints = _joints(document)
@@ -62,17 +43,7 @@ def with_joint(text: str, at: int) -> str:
 def without_joint(text: str, at: int) -> str:
     """Return a drive file without a joint; the shaft behind it goes with it.
 
-    Parameters
-    ----------
-    text : str
-        TOML.
-    at : int
-        Index of the joint.
-
-    Raises
-    ------
-    InputError
-        The text is no TOML, or it is the only joint.
+    at: index of the joint.
     """
     document = parsed(text)
     joints = _joints(document)
@@ -91,13 +62,7 @@ def joint_moved(text: str, at: int, to: int) -> str:
 
     Two neighbours change places by everything they are but their centre, bend and plane twist: the line of the drive
     stays, the joints on it change.
-
-    Parameters
-    ----------
-    text : str
-        TOML.
-    at, to : int
-        Index of the joint before and behind.
+    at, to: index of the joint before and behind.
     """
     document = parsed(text)
     joints = _joints(document)

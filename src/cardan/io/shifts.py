@@ -23,10 +23,8 @@ MIN_ROWS = 4
 def read_shifts(path: Path) -> tuple[tuple[float, ...], tuple[Point, ...]]:
     """Return times [s] and shifts [m] of a CSV file with the columns time, x, y, z, each with its unit.
 
-    Raises
-    ------
-    InputError
-        The file cannot be read, a column is missing, a row is not four finite numbers, times do not rise.
+    Raises InputError: the file cannot be read, a column is missing, a row is not four finite numbers, times do not
+    rise.
     """
     rows = read_rows(path, (("time", "time"), *((word, "length") for word in "xyz")), least=MIN_ROWS)
     return tuple(row[0] for row in rows), tuple((x, y, z) for _time, x, y, z in rows)
@@ -35,23 +33,14 @@ def read_shifts(path: Path) -> tuple[tuple[float, ...], tuple[Point, ...]]:
 def read_torques(path: Path) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Return times [s] and torques [N·m] of a CSV file with the columns time and torque, each with its unit.
 
-    Raises
-    ------
-    InputError
-        The file cannot be read, a column is missing, a row is not two finite numbers, times do not rise.
+    Raises InputError: the file cannot be read, a column is missing, a row is not two finite numbers, times do not rise.
     """
     rows = read_rows(path, (("time", "time"), ("torque", "torque")), least=2)
     return tuple(row[0] for row in rows), tuple(row[1] for row in rows)
 
 
 def keep_rows(drive: Drive, folder: Path) -> None:
-    """Write the rows of table movements and torque histories to the files they name, unless these hold them already.
-
-    Raises
-    ------
-    InputError
-        A file there holds other rows, or cannot be written; nothing has been written then.
-    """
+    """Write the rows of table movements and torque histories to the files they name, unless these hold them already."""
     missing: dict[Path, str] = {}
     problems: list[Problem] = []
     for field, thing in _named(drive):

@@ -17,38 +17,9 @@ from .writer import toml_text, whole
 def put_station(text: str, drive: Drive, number: int, *, folder: str | Path = ".") -> str:
     """Return a TOML drive file with one of the `[[stations]]` of a drive; comments and layout stay.
 
-    Parameters
-    ----------
-    text : str
-        The drive file.
-    drive : Drive
-        The same drive, but with another thing on this station, or with it as a further one at the end.
-    number : int
-        Of the station, from 0.
-    folder : str or Path
-        Where files that the drive file names are looked for.
-
-    Returns
-    -------
-    str
-        The new text; it loads.
-
-    Examples
-    --------
-    >>> from dataclasses import replace
-    >>> from cardan.drive.station import Absorber, Station
-    >>> text = "format = 1" + chr(10) + "[[joints]]" + chr(10) + "joint_angle_deg = 20  # steep" + chr(10)
-    >>> disc = Station(shaft=2, inertia=0.02, absorber=Absorber(inertia=0.002, stiffness=40.0))
-    >>> print(put_station(text, replace(loads(text), stations=(disc,)), 0))
-    format = 1
-    [[joints]]
-    joint_angle_deg = 20  # steep
-    <BLANKLINE>
-    [[stations]]
-    shaft = 2
-    inertia_kg_m2 = 0.02
-    absorber = {inertia_kg_m2 = 0.002, stiffness_Nm_per_rad = 40}
-    <BLANKLINE>
+    drive: the same drive, but with another thing on this station, or with it as a further one at the end.
+    number: of the station, from 0; folder: where files that the drive file names are looked for.
+    Returns: the new text; it loads.
     """
     wanted: dict[str, Any] = tree_of(drive)["stations"][number]
     document = tomlkit.parse(text)
@@ -76,20 +47,7 @@ def put_station(text: str, drive: Drive, number: int, *, folder: str | Path = ".
 
 
 def station_text(drive: Drive, number: int) -> str:
-    """Return one of the `[[stations]]` of a drive as it can stand in a file, a key a line.
-
-    Examples
-    --------
-    >>> from dataclasses import replace
-    >>> from cardan.drive.station import Station
-    >>> from cardan.drive.station import Absorber
-    >>> disc = Station(shaft=2, absorber=Absorber(inertia=0.002, stiffness=40.0))
-    >>> print(station_text(replace(Drive.from_angles([0.1]), stations=(disc,)), 0))
-    [[stations]]
-    shaft = 2
-    absorber.inertia_kg_m2 = 0.002
-    absorber.stiffness_Nm_per_rad = 40
-    """
+    """Return one of the `[[stations]]` of a drive as it can stand in a file, a key a line."""
     lines = ["[[stations]]"]
     for key, value in tree_of(drive)["stations"][number].items():
         if isinstance(value, dict):

@@ -33,31 +33,12 @@ WIDEST = 34
 def export(results: Results, path: str | Path, *, rows: Rows | None = None, where: str = "") -> int:
     """Write the table of a sweep, or rows of it, to a file, whole or not at all.
 
-    Parameters
-    ----------
-    results : Results
-        The table.
-    path : path
-        Its suffix says how: one of `SUFFIXES`.
-    rows : mapping of str to array (n,), optional
-        What was chosen from the table; the whole of it by default, streamed and never held.
-    where : str
-        Condition in SQL, without chosen rows.
-
-    Returns
-    -------
-    int
-        Rows written.
-
-    Raises
-    ------
-    InputError
-        The suffix is none of these, a sheet has not enough rows, or the file cannot be written.
-    MissingExtraError
-        What writes workbooks is not installed.
-
-    Notes
-    -----
+    path: its suffix says how: one of `SUFFIXES`.
+    rows, mapping of str to array (n,): what was chosen from the table; the whole of it by default, streamed and never
+    held.
+    where: condition in SQL, without chosen rows.
+    Returns: rows written.
+    Raises MissingExtraError: what writes workbooks is not installed.
     What has no answer is an empty cell, in Parquet null. The provenance stands in the metadata of Parquet under
     ``cardan`` and on a sheet of its own; CSV has no room for it.
     """

@@ -67,8 +67,6 @@ _NUMPY = frozenset({np.ndarray, np.float64, np.complex128})
 def namespace(*values: ArrayLike) -> Any:
     """Return the array-API namespace of the values, NumPy when they are lists, `NUMBERS` when they are single numbers.
 
-    Examples
-    --------
     >>> namespace(1.0, [2.0]) is np
     True
     >>> namespace(1.0, 2j) is NUMBERS
@@ -96,8 +94,6 @@ def real(value: ArrayLike, xp: Any) -> Array:
 def floats(*values: ArrayLike) -> tuple[Array, ...]:
     """Return values as 64-bit float arrays of the library of those that are arrays, NumPy's when none is.
 
-    Examples
-    --------
     >>> floats(1, [2, 3])
     (array(1.), array([2., 3.]))
     """
@@ -112,13 +108,7 @@ def complex_of(value: Array, xp: Any) -> Array:
 
 
 def unit_complex(angle: Array) -> Array:
-    """Return e^(i angle), a point of the unit circle.
-
-    Examples
-    --------
-    >>> unit_complex(np.asarray([0.0]))
-    array([1.+0.j])
-    """
+    """Return e^(i angle), a point of the unit circle."""
     xp = namespace(angle)
     return complex_of(xp.cos(angle), xp) + 1j * complex_of(xp.sin(angle), xp)
 

@@ -30,23 +30,11 @@ One = TypeVar("One")
 def alike(values: ArrayLike, *, least: bool = False, scale: ArrayLike | None = None) -> Array:
     """Tell which values are the largest but for rounding.
 
-    Parameters
-    ----------
-    values : array (..., n)
-        To be compared along the last axis; nan is never the largest.
-    least : bool
-        Whether the smallest are asked for.
-    scale : array (...), optional
-        What a share is of; the extreme value itself when not given. Of a curve through zero it is its largest size.
-
-    Returns
-    -------
-    bool array (..., n)
-
-    Examples
-    --------
-    >>> alike([3.0, 5.0, 5.0 + 1e-13, np.nan]).tolist()
-    [False, True, True, False]
+    values (..., n): to be compared along the last axis; nan is never the largest.
+    least: whether the smallest are asked for.
+    scale (...): what a share is of; the extreme value itself when not given. Of a curve through zero it is its largest
+    size.
+    Returns (..., n) of bool.
     """
     given = np.asarray(values, dtype=float)
     table = np.where(np.isnan(given), -np.inf, -given if least else given)
@@ -58,33 +46,14 @@ def alike(values: ArrayLike, *, least: bool = False, scale: ArrayLike | None = N
 def foremost(values: ArrayLike, *, least: bool = False, scale: ArrayLike | None = None) -> Array:
     """Return the place of the largest value, of those that differ by rounding alone the first.
 
-    Parameters
-    ----------
-    values, least, scale
-        As for `alike`.
-
-    Returns
-    -------
-    int array (...)
-        0 where all are nan.
-
-    Examples
-    --------
-    >>> int(foremost([3.0, 5.0, 5.0 + 1e-13])), int(foremost([2.0, 1.0 + 1e-13, 1.0], least=True))
-    (1, 1)
+    values, least, scale: as for `alike`.
+    Returns (...) of int: 0 where all are nan.
     """
     return np.argmax(alike(values, least=least, scale=scale), axis=-1)
 
 
 def foremost_on(curve: ArrayLike, *, least: bool = False) -> Array:
-    """Return the place of the largest value of curves (..., p), where rounding is a share of their largest size.
-
-    Examples
-    --------
-    >>> angle = np.radians(np.arange(360))
-    >>> int(foremost_on(np.cos(2.0 * angle), least=True)), int(foremost_on(1e-15 * np.sin(angle) + 1.0))
-    (90, 0)
-    """
+    """Return the place of the largest value of curves (..., p), where rounding is a share of their largest size."""
     table = np.asarray(curve, dtype=float)
     size = np.max(np.where(np.isfinite(table), np.abs(table), 0.0), axis=-1, initial=0.0)
     return foremost(table, least=least, scale=size)
@@ -93,31 +62,13 @@ def foremost_on(curve: ArrayLike, *, least: bool = False) -> Array:
 def largest(values: ArrayLike) -> tuple[int, ...]:
     """Return the places of all values that are the largest but for rounding, in rising order.
 
-    Parameters
-    ----------
-    values : array (n,)
-
-    Examples
-    --------
-    >>> largest([547.8, 2374.0 - 1e-11, 2374.0, 547.8])
-    (1, 2)
+    values (n,).
     """
     return tuple(int(k) for k in np.flatnonzero(alike(values)))
 
 
 def foremost_of(items: Iterable[One], size: Callable[[One], float], *, least: bool = False) -> One:
-    """Return the first of the items whose size is the largest but for rounding.
-
-    Raises
-    ------
-    ValueError
-        There are none.
-
-    Examples
-    --------
-    >>> foremost_of(("one", "three", "seven"), len)
-    'three'
-    """
+    """Return the first of the items whose size is the largest but for rounding."""
     every = list(items)
     if not every:
         raise ValueError("no items")
@@ -127,8 +78,6 @@ def foremost_of(items: Iterable[One], size: Callable[[One], float], *, least: bo
 def tidied(number: float) -> float:
     """Return a number without a unit, 0 where it is nothing but rounding.
 
-    Examples
-    --------
     >>> tidied(5.4e-18), tidied(0.0031)
     (0.0, 0.0031)
     """
@@ -138,15 +87,7 @@ def tidied(number: float) -> float:
 def power_of(residual: float) -> int | None:
     """Return the power of ten below which a relative residual is, None where it is rounding.
 
-    Parameters
-    ----------
-    residual : float
-        Over the size of what is balanced; not nan or infinite.
-
-    Examples
-    --------
-    >>> power_of(7e-16), power_of(3e-10), power_of(0.02)
-    (None, -9, -1)
+    residual: over the size of what is balanced; not nan or infinite.
     """
     if residual <= ROUNDING:
         return None

@@ -19,27 +19,13 @@ FRAME = -1
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Constraints:
-    """A mechanism as screws, about the middle of its joints, lengths over its size.
+    """A mechanism as screws, about the middle of its joints, lengths over its size."""
 
-    Attributes
-    ----------
-    links : int
-        Number of moving links n.
-    ends : tuple of (int, int)
-        The two links of each joint, counted from 0; `FRAME` is the frame.
-    freedoms : tuple of array (f, 6)
-        What each joint leaves, the second link against the first.
-    middle : array (3,) [m]
-        About which moments are taken.
-    size : float [m]
-        Length that counts as one.
-    """
-
-    links: int
-    ends: tuple[tuple[int, int], ...]
-    freedoms: tuple[Array, ...]
-    middle: Array
-    size: float
+    links: int  # number of moving links n
+    ends: tuple[tuple[int, int], ...]  # the two links of each joint, counted from 0; `FRAME` is the frame
+    freedoms: tuple[Array, ...]  # tuple of array (f, 6): what each joint leaves, the second link against the first
+    middle: Array  # (3,) [m]: about which moments are taken
+    size: float  # [m]: length that counts as one
 
     @property
     def wrenches(self) -> tuple[Array, ...]:
@@ -49,8 +35,6 @@ class Constraints:
     def matrix(self) -> Array:
         """Return the rows w·(t_b - t_a) of every wrench that a joint holds, array (Σs, 6n).
 
-        Notes
-        -----
         Its null space are the small motions, the null space of its transpose are states of reactions that balance each
         other; spec structure, "True mobility and redundant constraints".
         """
@@ -73,8 +57,6 @@ class Constraints:
     def loop_matrix(self) -> Array:
         """Return the freedoms around every loop, array (6k, Σf): the other formulation.
 
-        Notes
-        -----
         Around a loop the relative twists of the joints add up to nought. Loops: every joint that is not of the spanning
         tree, closed through it. Its null space are the joint speeds.
         """
@@ -104,15 +86,7 @@ class Constraints:
 
 
 def constraints(mechanism: Mechanism) -> Constraints:
-    """Return a mechanism as screws.
-
-    Examples
-    --------
-    >>> from .pair import Pair
-    >>> hinge = Pair(id="hinge", type="R", links=("wall", "door"), point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0))
-    >>> constraints(Mechanism(frame="wall", joints=(hinge,))).matrix().shape
-    (5, 6)
-    """
+    """Return a mechanism as screws."""
     points = np.asarray([pair.point for pair in mechanism.joints], dtype=float)
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
     size = float(np.max(frames.norm(points - middle)))
@@ -134,24 +108,12 @@ def constraints(mechanism: Mechanism) -> Constraints:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Tree:
-    """Which joint each link hangs on, seen from the frame.
+    """Which joint each link hangs on, seen from the frame."""
 
-    Attributes
-    ----------
-    parent_joint : tuple of int
-        Of each link, the joint on the way to the frame.
-    parent : tuple of int
-        Of each link, the link next on the way to the frame.
-    order : tuple of int
-        The links, each behind its parent.
-    along : tuple of float
-        Of each link, +1 where its joint names it second, -1 where first.
-    """
-
-    parent_joint: tuple[int, ...]
-    parent: tuple[int, ...]
-    order: tuple[int, ...]
-    along: tuple[float, ...]
+    parent_joint: tuple[int, ...]  # of each link, the joint on the way to the frame
+    parent: tuple[int, ...]  # of each link, the link next on the way to the frame
+    order: tuple[int, ...]  # the links, each behind its parent
+    along: tuple[float, ...]  # of each link, +1 where its joint names it second, -1 where first
 
     def path(self, link: int) -> list[tuple[int, float]]:
         """Return the joints from a link down to the frame, each with the sense in which it is passed."""

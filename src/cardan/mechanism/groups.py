@@ -17,15 +17,9 @@ MOST = 5
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Group:
-    """A chain of links with the pairs between and at both ends of them.
+    """A chain of links with the pairs between and at both ends of them."""
 
-    Attributes
-    ----------
-    constraints : tuple of int
-        s of each pair, along the chain.
-    """
-
-    constraints: tuple[int, ...]
+    constraints: tuple[int, ...]  # s of each pair, along the chain
 
     @property
     def links(self) -> int:
@@ -51,25 +45,8 @@ class Group:
 def group(constraints: Sequence[int]) -> Group:
     """Return a chain by its string of constraints, as 5-4-3.
 
-    Parameters
-    ----------
-    constraints : sequence of int
-        s of each pair, 1 to 5; at least two pairs.
-
-    Raises
-    ------
-    InputError
-        No chain, or a number that no pair has.
-
-    Notes
-    -----
+    constraints: s of each pair, 1 to 5; at least two pairs.
     Book (2): a zero group has 6m = Σs, a minus-s group 6m - Σs = -s.
-
-    Examples
-    --------
-    >>> dyad = group([5, 4, 3])
-    >>> dyad.links, dyad.mobility, dyad.kind
-    (2, 0, 'zero')
     """
     if len(constraints) < 2:
         text = _("{count} pairs given; a group has at least one link and two pairs")

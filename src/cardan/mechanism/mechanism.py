@@ -120,8 +120,6 @@ def _no_link(link: str, frame: str, known: tuple[str, ...]) -> str:
 def joined_to(link: str, joints: Iterable[Pair]) -> set[str]:
     """Return all links that joints connect with one, itself among them.
 
-    Examples
-    --------
     >>> hinge = Pair(id="hinge", type="R", links=("wall", "door"), point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0))
     >>> sorted(joined_to("wall", [hinge]))
     ['door', 'wall']

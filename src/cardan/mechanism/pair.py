@@ -31,24 +31,14 @@ PARALLEL = 1e-6
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Kind:
-    """A kind of pair, by the motions it leaves.
+    """A kind of pair, by the motions it leaves."""
 
-    Attributes
-    ----------
-    name : str
-        In words.
-    turns : str
-        About what it lets turn: nothing, ``axis``, ``both`` axes, or ``all`` directions.
-    slides : str
-        Along what it lets slide: nothing, ``axis``, or all directions ``across`` it.
-    screw : bool
-        Whether turning and sliding are one motion.
-    """
-
-    name: str
+    name: str  # in words
+    # about what it lets turn: nothing, ``axis``, ``both`` axes, or ``all`` directions
     turns: Literal["", "axis", "both", "all"] = ""
+    # along what it lets slide: nothing, ``axis``, or all directions ``across`` it
     slides: Literal["", "axis", "across"] = ""
-    screw: bool = False
+    screw: bool = False  # whether turning and sliding are one motion
 
     @property
     def freedoms(self) -> int:
@@ -125,22 +115,10 @@ class Pair:
 def freedoms(kind: Kind, point: Array, axis: Array, second: Array | None = None, pitch: float = 0.0) -> Array:
     """Return the freedoms of a pair as twists about the origin, array (f, 6).
 
-    Parameters
-    ----------
-    kind : Kind
-    point : array (3,) [m]
-    axis, second : array (3,)
-        Unit vectors.
-    pitch : float [m/rad]
-        How far a helical pair slides per radian.
-
-    Notes
-    -----
+    point (3,) [m]; axis, second (3,): unit vectors; pitch [m/rad]: how far a helical pair slides per radian.
     rot(a) at p is (a; p × a), tra(a) is (0; a). Sliding comes first: a groove or plane belongs to the first link, a
     ball or cylinder, and with it the point, to the second. Of two axes about which a pair turns each link has one.
 
-    Examples
-    --------
     >>> freedoms(PAIRS["C"], np.zeros(3), np.asarray([1.0, 0, 0])) + 0.0
     array([[0., 0., 0., 1., 0., 0.],
            [1., 0., 0., 0., 0., 0.]])

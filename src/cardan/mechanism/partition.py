@@ -39,27 +39,15 @@ class Removed:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Partition:
-    """What counting tells of a graph.
+    """What counting tells of a graph."""
 
-    Attributes
-    ----------
-    formula : int
-        6n - Σs.
-    redundant : int
-        Constraints that are too many whatever the geometry, if the input turns.
-    overconstrained : tuple of str
-        Links among which they are; the smallest set that has them all.
-    groups : tuple of Removed or None
-        Groups of which the mechanism is made, from the output end on; None where the graph is too large to look at
-        every set.
-    excess : int
-        Constraints between frame and input beyond the five that let it turn or slide; not counted in ``redundant``.
-    """
-
-    formula: int
-    redundant: int
-    overconstrained: tuple[str, ...]
+    formula: int  # 6n - Σs
+    redundant: int  # constraints that are too many whatever the geometry, if the input turns
+    overconstrained: tuple[str, ...]  # links among which they are; the smallest set that has them all
+    # groups of which the mechanism is made, from the output end on; None where the graph is too large to look at every
+    # set
     groups: tuple[Removed, ...] | None
+    # constraints between frame and input beyond the five that let it turn or slide; not counted in ``redundant``
     excess: int = 0
 
     @property
@@ -143,8 +131,6 @@ def _problems(pairs: Sequence[Join], frame: str, input_link: str) -> Iterator[Pr
 def numbered(link: str) -> tuple[bool, int, str]:
     """Return by what links are sorted: numbers as such, before words.
 
-    Examples
-    --------
     >>> sorted(["10", "2", "cross"], key=numbered)
     ['2', '10', 'cross']
     """
@@ -168,8 +154,6 @@ def _between(pairs: Iterable[Join], links: set[str]) -> list[Join]:
 def _least(links: Sequence[str], weight: dict[str, int], pairs: Sequence[Join]) -> tuple[int, set[str]]:
     """Return the least of Σ weight - Σ s inside over all sets of links, at most 0, and the smallest set that has it.
 
-    Notes
-    -----
     A maximum closure: profits s of pairs and of links of negative weight, costs of the others. The links that the
     source still reaches when the flow is greatest are the smallest set.
     """

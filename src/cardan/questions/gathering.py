@@ -49,8 +49,6 @@ class Told:
 def has(drive: Drive) -> dict[Aspect, bool]:
     """Return what a drive has that makes conditions of their own: poses, movements, several load cases, errors.
 
-    Examples
-    --------
     >>> has(Drive.from_angles([0.1]))["pose"]
     False
     """
@@ -65,14 +63,7 @@ def has(drive: Drive) -> dict[Aspect, bool]:
 def ways(question: Question, drive: Drive) -> tuple[Way, ...]:
     """Return the conditions in which a question is to be asked, the drive as drawn first.
 
-    Parameters
-    ----------
-    question : Question
-        Which leaves out what it gathers by itself or does not depend on.
-    drive : Drive
-
-    Notes
-    -----
+    question: which leaves out what it gathers by itself or does not depend on.
     Of a movement the instants at which a joint bends most.
     """
     asks = {aspect for aspect in has(drive) if aspect not in (*question.gathered, *question.without)}
@@ -99,13 +90,7 @@ def _moving(one: Condition) -> Iterator[Way]:
 
 
 def principal(question: Question, drive: Drive) -> Drive:
-    """Return the drive that a question is asked of: as it is, or in its heaviest load case where it lacks a torque.
-
-    Parameters
-    ----------
-    question : Question
-    drive : Drive
-    """
+    """Return the drive that a question is asked of: as it is, or in its heaviest load case where it lacks a torque."""
     if "case" in question.gathered or not question.lacking(drive):
         return drive
     loaded = [one for one in conditions(replace(drive, poses=())) if one.torque is not None]
@@ -119,19 +104,8 @@ def principal(question: Question, drive: Drive) -> Drive:
 def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
     """Return an answer with what is said in the other conditions of its drive, and what it leaves out and why.
 
-    Parameters
-    ----------
-    question : Question
-        Of the register.
-    drive : Drive
-        With all its poses, movements and load cases.
-    answer : Answer
-        Of it as drawn.
-
-    Returns
-    -------
-    Answer
-        Its key figures are those of the condition that governs, which they name; a table has those of all.
+    drive: with all its poses, movements and load cases; answer: of it as drawn.
+    Returns Answer: its key figures are those of the condition that governs, which they name; a table has those of all.
     """
     left = [aspect for aspect, there in has(drive).items() if there and aspect in question.without]
     remarks = [Remark(text=_(question.without[aspect]), code=f"without_{aspect}") for aspect in left]

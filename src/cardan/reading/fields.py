@@ -17,27 +17,13 @@ WORD_OR_FLAG: Any = bool | str
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """A field that may stand in a file.
+    """A field that may stand in a file."""
 
-    Attributes
-    ----------
-    name : str
-        Its name in Python.
-    key : Key
-        What it means.
-    type : type
-        What it holds, without None.
-    required : bool
-        Whether it must be given.
-    default : object
-        Value when it is not given; None when required.
-    """
-
-    name: str
-    key: Key
-    type: Any
-    required: bool
-    default: Any
+    name: str  # its name in Python
+    key: Key  # what it means
+    type: Any  # what it holds, without None
+    required: bool  # whether it must be given
+    default: Any  # value when it is not given; None when required
 
     @property
     def spellings(self) -> dict[str, float]:
@@ -64,14 +50,7 @@ class Field:
 
 
 def fields_of(cls: Any) -> dict[str, Field]:
-    """Return the fields of a class of the drive model that may stand in a file, by their names in Python.
-
-    Examples
-    --------
-    >>> from cardan.drive.duty import Duty
-    >>> list(fields_of(Duty)["speed"].spellings)
-    ['speed_rpm', 'speed_rad_s', 'speed_deg_s']
-    """
+    """Return the fields of a class of the drive model that may stand in a file, by their names in Python."""
     return _fields_of(cls)
 
 
@@ -107,13 +86,7 @@ def _spellings_of(cls: Any) -> dict[str, tuple[str, float]]:
 
 
 def in_unit(value: float, factor: float) -> float:
-    """Return an SI value in a unit, as the shortest decimal that gives the value back, the nearest one if none does.
-
-    Examples
-    --------
-    >>> in_unit(0.3490658503988659, 0.017453292519943295), in_unit(0.3, 0.001)
-    (20.0, 300.0)
-    """
+    """Return an SI value in a unit, as the shortest decimal that gives the value back, the nearest one if none does."""
     found = exact_in_unit(value, factor)
     return value / factor if found is None else found
 

@@ -224,8 +224,6 @@ def _dimension(key: str) -> str | None:
 def without_unit(key: str, dimension: str | None) -> str:
     """Return a key without its unit: the one it ends in, else one amid it.
 
-    Examples
-    --------
     >>> without_unit("alpha_deg", "angle"), without_unit("delta_min", None), without_unit("tol_mm_a1", "length")
     ('alpha', 'delta_min', 'tol_a1')
     """

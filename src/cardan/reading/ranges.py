@@ -12,13 +12,7 @@ HUGE = 1e12
 
 
 def shown(value: float, key: Key, unit: str = "") -> str:
-    """Return a value in SI as the user would write it, in the preferred unit or a given one.
-
-    Examples
-    --------
-    >>> shown(0.02, Key("", "length")), shown(0.0254, Key("", "length"), "in")
-    ('20 mm', '1 in')
-    """
+    """Return a value in SI as the user would write it, in the preferred unit or a given one."""
     if key.dimension is None:
         return f"{value:.6g}"
     unit = unit or preferred(key.dimension)
@@ -29,19 +23,8 @@ def shown(value: float, key: Key, unit: str = "") -> str:
 def allowed(key: Key, unit: str = "", *, mirrored: bool = False) -> str:
     """Return the allowed range of a key in words.
 
-    Parameters
-    ----------
-    key : Key
-        The key.
-    unit : str
-        Unit of the words; the preferred one when empty.
-    mirrored : bool
-        The range of the key with the opposite sign.
-
-    Examples
-    --------
-    >>> allowed(Key("", "angle", low=0.0, below=1.0), "rad")
-    'at least 0 rad and less than 1 rad'
+    unit: unit of the words; the preferred one when empty.
+    mirrored: the range of the key with the opposite sign.
     """
     low, above, high, below = key.low, key.above, key.high, key.below
     if mirrored:
@@ -75,8 +58,6 @@ def out_of_range(given: str, key: Key, value: float, unit: str = "", *, mirrored
 def range_code(key: Key, value: float) -> str:
     """Return the word of `cardan.errors.CODES` for a number in SI that is not `in_range`.
 
-    Examples
-    --------
     >>> range_code(Key("", "length", above=0.0), 0.0), range_code(Key("", "torque", low=0.0), -1.0)
     ('not_positive', 'negative')
     >>> range_code(Key("", "angle", low=0.0, below=1.57), -0.1), range_code(Key(""), math.nan)

@@ -31,21 +31,10 @@ class Wrong:
 def scalar(kind: Any, value: Any, key: Key, factor: float = 1.0, unit: str = "") -> Any:
     """Return a number in SI, a flag or a word as its type wants it, or what is `Wrong` with it.
 
-    Parameters
-    ----------
-    kind : type
-        One of `SCALARS`.
-    value : object
-        As it stands in the file.
-    key : Key
-        What it means and may be.
-    factor : float
-        To SI; below 0 where the key has the opposite sign.
-    unit : str
-        In which the range is told; the preferred one when empty.
+    kind: one of `SCALARS`; value: as it stands in the file; key: what it means and may be.
+    factor: to SI; below 0 where the key has the opposite sign.
+    unit: in which the range is told; the preferred one when empty.
 
-    Examples
-    --------
     >>> length = Key("", "length", above=0.0)
     >>> scalar(float, 20, length, 1e-3), scalar(float, "x", length)
     (0.02, Wrong(message="must be a number, not 'x'", code=''))
@@ -85,8 +74,6 @@ def in_si(value: float, factor: float) -> float:
 def unknown_key(key: str, known: Iterable[str]) -> str:
     """Return what to say of a key that a table does not know.
 
-    Examples
-    --------
     >>> unknown_key("speeed_rpm", ["speed_rpm", "torque_Nm"])
     'unknown key; the nearest known one is speed_rpm'
     """
@@ -106,8 +93,6 @@ def nearest_of(word: Any, known: Iterable[str]) -> str:
 def as_given(value: Any) -> str:
     """Return a value as the user wrote it, shortened.
 
-    Examples
-    --------
     >>> as_given("x"), as_given(True), as_given({})
     ("'x'", 'true', 'a table')
     """

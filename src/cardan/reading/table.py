@@ -14,21 +14,11 @@ from .scalar import ANY, Wrong, as_given, scalar, unknown_key
 
 @dataclass(kw_only=True)
 class Table:
-    """A table of a file while it is read.
+    """A table of a file while it is read."""
 
-    Attributes
-    ----------
-    given : mapping
-        Its keys and values.
-    path : str
-        Where it stands in the file; empty for the file itself.
-    problems : list of Problem
-        What was found; tables within share it.
-    """
-
-    given: Mapping[str, Any]
-    path: str = ""
-    problems: list[Problem] = field(default_factory=list)
+    given: Mapping[str, Any]  # its keys and values
+    path: str = ""  # where it stands in the file; empty for the file itself
+    problems: list[Problem] = field(default_factory=list)  # what was found; tables within share it
     known: dict[str, None] = field(default_factory=dict)
 
     def at(self, key: str) -> str:

@@ -21,32 +21,20 @@ def _near(cls: type, key: str) -> tuple[str, str]:
 
 @dataclass(frozen=True, kw_only=True)
 class Form:
-    """What a reader must know of a sort of file beside its classes.
+    """What a reader must know of a sort of file beside its classes."""
 
-    Attributes
-    ----------
-    spelled : function
-        Path in Python and class of the whole -> path as we write it.
-    kinds : mapping
-        Base class -> its kinds by the value of the key ``kind``, and the default kind.
-    named : mapping
-        Class of a table that may be given by a name alone -> field that holds the name.
-    unknown : function
-        Class and key it does not know -> what to say of it, and the field it meant.
-    own : mapping
-        Name of a field that is read in a way of its own -> function of value and reading place.
-    finished : function
-        What is done to each thing that was read, at its reading place.
-    index : function
-        Class, table and place in a list -> its index in paths.
-    """
-
-    spelled: Callable[[str, Any], str]
+    spelled: Callable[[str, Any], str]  # path in Python and class of the whole -> path as we write it
+    # base class -> its kinds by the value of the key ``kind``, and the default kind
     kinds: Mapping[type, tuple[Mapping[str, type], str | None]] = field(default_factory=dict)
+    # class of a table that may be given by a name alone -> field that holds the name
     named: Mapping[type, str] = field(default_factory=dict)
+    # class and key it does not know -> what to say of it, and the field it meant
     unknown: Callable[[type, str], tuple[str, str]] = _near
+    # name of a field that is read in a way of its own -> function of value and reading place
     own: Mapping[str, Callable[[Any, Place], Any]] = field(default_factory=dict)
+    # what is done to each thing that was read, at its reading place
     finished: Callable[[Any, Place], Any] = lambda thing, _place: thing
+    # class, table and place in a list -> its index in paths
     index: Callable[[Any, Any, int], int] = lambda _cls, _table, k: k
 
 
@@ -56,28 +44,14 @@ class Findings:
 
     A field that was refused gets a placeholder that keeps the whole in its form, so that the rest of the file can
     still be judged; what is then said about the placeholder is left out.
-
-    Attributes
-    ----------
-    root : type
-        What the file describes.
-    form : Form
-    problems : list of Problem
-        With paths as written in the file.
-    spelled : dict
-        Path in Python -> path as written.
-    doubtful : set of str
-        Paths in Python of fields that were refused.
-    at : str
-        Path of the whole in its file.
     """
 
-    root: Any
+    root: Any  # what the file describes
     form: Form
-    at: str = ""
-    problems: list[Problem] = field(default_factory=list)
-    spelled: dict[str, str] = field(default_factory=dict)
-    doubtful: set[str] = field(default_factory=set)
+    at: str = ""  # path of the whole in its file
+    problems: list[Problem] = field(default_factory=list)  # with paths as written in the file
+    spelled: dict[str, str] = field(default_factory=dict)  # path in Python -> path as written
+    doubtful: set[str] = field(default_factory=set)  # paths in Python of fields that were refused
 
     def follow(self, problem: Problem) -> None:
         """Note a problem of the whole, unless it only follows from another one."""
@@ -132,15 +106,7 @@ def _joined(path: str, name: str) -> str:
 def read_table(cls: Any, table: Mapping[str, Any], form: Form, at: str = "") -> tuple[Any, list[Problem]]:
     """Return the thing of a class with the keys of a file that a table describes, and all that is wrong with it.
 
-    Parameters
-    ----------
-    cls : type
-        Class of what the table describes.
-    table : mapping
-        The table, with the tables in it.
-    form : Form
-    at : str
-        Path of the table in the file.
+    table: the table, with the tables in it; at: path of the table in the file.
     """
     found = Findings(cls, form, at)
     thing = None

@@ -88,14 +88,7 @@ class _Single:
 def read(takes: tuple[Given, ...], inputs: Mapping[str, Any], before: str = "") -> tuple[Values, list[Problem]]:
     """Return the values in SI by name, and what is wrong with them one by one.
 
-    Parameters
-    ----------
-    takes : tuple of Given
-        What may be given.
-    inputs : mapping
-        Key with unit -> value.
-    before : str
-        Path of the table that they stand in, with its dot.
+    inputs: key with unit -> value; before: path of the table that they stand in, with its dot.
     """
     found, keys, problems = _sort(takes, inputs, before)
     values: dict[str, Any] = {}

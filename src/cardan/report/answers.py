@@ -29,12 +29,8 @@ Choices: TypeAlias = Mapping[str, Any]
 def subject(drive: Drive, *, known: Catalogue | None = None) -> Subject:
     """Return a drive to be asked about.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive, of joints of any kinds.
-    known : Catalogue, optional
-        Norms, types and sizes that it is judged by; the shipped ones when not given.
+    drive: the drive, of joints of any kinds.
+    known: norms, types and sizes that it is judged by; the shipped ones when not given.
     """
     if unmapped(drive.joints):
         # What the pages ask for it has under the same names.
@@ -45,24 +41,8 @@ def subject(drive: Drive, *, known: Catalogue | None = None) -> Subject:
 def answered(name: str, on: Subject, progress: Progress | None = None, choices: Choices | None = None) -> Page:
     """Return the answer to one question about a drive; where there is none, a page that says what it lacks.
 
-    Parameters
-    ----------
-    name : str
-        One of `cardan.register.QUESTIONS`.
-    on : Subject
-        The drive, as of `subject`.
-    progress : function, optional
-        Called with the share done; answering "stop" ends the work.
-    choices : mapping of str to value, optional
-        What the user chose: of "selection" the number of the ``joint``.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> answered("motion", subject(Drive.from_angles([20 * deg, 20 * deg]))).title
-    'Motion'
-    >>> answered("losses", subject(Drive.from_angles([20 * deg]))).answer[:46]
-    'This answer needs more in the drive file: duty'
+    name: one of `cardan.register.QUESTIONS`; on: the drive, as of `subject`.
+    choices: what the user chose: of "selection" the number of the ``joint``.
     """
     return page_of(QUESTIONS[name], on, progress, choices or {})
 

@@ -24,38 +24,16 @@ SHOWN = 3
 
 @dataclass(frozen=True, kw_only=True)
 class Applicable:
-    """A change of the drive file that has a name.
+    """A change of the drive file that has a name."""
 
-    Parameters
-    ----------
-    label : str
-        What it is called.
-    effect : str
-        What it comes to, in a few words.
-    values : mapping of str to value
-        Path with unit -> value, as `cardan.io.edit.edit` takes them; empty where the file has it so.
-    """
-
-    label: str
-    effect: str = ""
+    label: str  # what it is called
+    effect: str = ""  # what it comes to, in a few words
+    # path with unit -> value, as `cardan.io.edit.edit` takes them; empty where the file has it so
     values: Mapping[str, float | int | str] = field(default_factory=dict)
 
 
 def settings(on: Subject) -> tuple[Applicable, ...]:
-    """Return the settings of the yokes that can be applied, as in the table of settings, without the one as built.
-
-    Parameters
-    ----------
-    on : Subject
-        The drive.
-
-    Examples
-    --------
-    >>> from cardan.drive.drive import Drive
-    >>> uneven = Drive.from_angles([0.3, 0.3], yoke_angles=[0.7])
-    >>> [(one.label, one.effect) for one in settings(Subject(drive=uneven))]
-    [('A', 'leaves 0 %')]
-    """
+    """Return the settings of the yokes that can be applied, as in the table of settings, without the one as built."""
     found = _phasing(on)
     if found is None:
         return ()
@@ -64,19 +42,7 @@ def settings(on: Subject) -> tuple[Applicable, ...]:
 
 
 def synchronous(on: Subject) -> Applicable | str:
-    """Return the setting that makes the drive synchronous, or in a sentence why there is none to apply.
-
-    Parameters
-    ----------
-    on : Subject
-        The drive.
-
-    Examples
-    --------
-    >>> from cardan.drive.drive import Drive
-    >>> synchronous(Subject(drive=Drive.from_angles([0.3])))
-    'A single joint has no second one to undo it.'
-    """
+    """Return the setting that makes the drive synchronous, or in a sentence why there is none to apply."""
     if on.joints == 1:
         return _("A single joint has no second one to undo it.")
     try:

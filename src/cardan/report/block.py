@@ -77,30 +77,14 @@ Block: TypeAlias = Table | Words | Points | Listing | Picture
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Page:
-    """A numbered part of the report.
+    """A numbered part of the report."""
 
-    Parameters
-    ----------
-    name : str
-        For links.
-    title : str
-        Heading.
-    answer : Text
-        What it comes to, in a sentence.
-    blocks : sequence of block
-        From the top.
-    keys : sequence of KeyFigure
-        What of it stands on the first page.
-    alarms : sequence of Words
-        What of it the reader of the first page must not overlook.
-    """
-
-    name: str
-    title: str
-    answer: Text
-    blocks: Sequence[Block]
-    keys: Sequence[Any] = ()
-    alarms: Sequence[Words] = ()
+    name: str  # for links
+    title: str  # heading
+    answer: Text  # what it comes to, in a sentence
+    blocks: Sequence[Block]  # from the top
+    keys: Sequence[Any] = ()  # what of it stands on the first page
+    alarms: Sequence[Words] = ()  # what of it the reader of the first page must not overlook
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "answer", shown(self.answer))

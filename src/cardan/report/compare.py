@@ -62,21 +62,11 @@ MOST_USED = 1000.0
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Variant:
-    """A drive to be compared.
+    """A drive to be compared."""
 
-    Parameters
-    ----------
-    name : str
-        What it is called.
-    drive : Drive
-        What it is.
-    known : Catalogue, optional
-        Norms, types and sizes that it is judged by; the shipped ones when not given.
-    """
-
-    name: str
+    name: str  # what it is called
     drive: Drive
-    known: Catalogue | None = None
+    known: Catalogue | None = None  # norms, types and sizes that it is judged by; the shipped ones when not given
 
     @cached_property
     def subject(self) -> Subject:
@@ -100,24 +90,7 @@ class Variant:
 def compared(variants: Sequence[Variant], progress: Progress | None = None) -> Page:
     """Return several drives side by side.
 
-    Parameters
-    ----------
-    variants : sequence of Variant
-        At least one.
-    progress : function, optional
-        Called with the share done; answering "stop" ends the work with what there is by then.
-
-    Raises
-    ------
-    InputError
-        There is none, or two have the same name.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> plain, better = Drive.from_angles([20 * deg]), Drive.from_angles([20 * deg, 20 * deg])
-    >>> compared([Variant(name="one", drive=plain), Variant(name="two", drive=better)]).answer
-    'two is the most uniform: 0 % speed fluctuation, one 12.5 %.'
+    variants: at least one.
     """
     names = [one.name for one in variants]
     if not variants or len(set(names)) < len(names):
@@ -143,12 +116,7 @@ def compared(variants: Sequence[Variant], progress: Progress | None = None) -> P
 def differences_table(names: Sequence[str], drives: Sequence[Drive]) -> Table:
     """Return the keys that do not say the same in all drives, a column for each drive.
 
-    Parameters
-    ----------
-    names : sequence of str
-        What the drives are called.
-    drives : sequence of Drive
-        As many.
+    drives: as many.
     """
     found = differences(drives)
     rows = [[words(one.path), *(words(value or "–") for value in one.values), words(one.doc)] for one in found]

@@ -54,73 +54,31 @@ def today() -> str:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Content:
-    """A report before it is written.
+    """A report before it is written."""
 
-    Attributes
-    ----------
-    title : str
-        Name of the drive.
-    note : str
-        What its file says about it.
-    version : str
-        Version of cardan that calculated it.
-    date : str
-        Day of the report, as in 2026-01-31.
-    judgement : Words
-        The sentence the reader came for.
-    warnings : tuple of Words
-        What the reader must not overlook.
-    lights : Table or None
-        The verdicts that matter most; None where nothing was judged.
-    remedies : Table or None
-        The changes that help most against failed verdicts; None where nothing fails.
-    sketch : Figure
-        The drive in space.
-    figures : Table
-        Key figures with their limits.
-    changes : Table or Words
-        Changes that make the output more even.
-    pages : tuple of Page
-        What follows the summary, in order.
-    """
-
-    title: str
-    note: str
-    version: str
-    date: str
-    judgement: Words
-    warnings: tuple[Words, ...]
-    lights: Table | None
-    remedies: Table | None
-    sketch: Figure
-    figures: Table
-    changes: Table | Words
-    pages: tuple[Page, ...]
+    title: str  # name of the drive
+    note: str  # what its file says about it
+    version: str  # version of cardan that calculated it
+    date: str  # day of the report, as in 2026-01-31
+    judgement: Words  # the sentence the reader came for
+    warnings: tuple[Words, ...]  # what the reader must not overlook
+    lights: Table | None  # the verdicts that matter most; None where nothing was judged
+    remedies: Table | None  # the changes that help most against failed verdicts; None where nothing fails
+    sketch: Figure  # the drive in space
+    figures: Table  # key figures with their limits
+    changes: Table | Words  # changes that make the output more even
+    pages: tuple[Page, ...]  # what follows the summary, in order
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Excerpt:
-    """A page of a report by itself.
+    """A page of a report by itself."""
 
-    Attributes
-    ----------
-    title : str
-        Name of the drive; that of the page where it has none.
-    note : str
-        Below the title.
-    page : Page
-        The page.
-    version : str
-        Version of cardan that calculated it.
-    date : str
-        Day of the excerpt, as in 2026-01-31.
-    """
-
-    title: str
+    title: str  # name of the drive; that of the page where it has none
     page: Page
-    note: str = ""
-    version: str = VERSION
-    date: str = field(default_factory=today)
+    note: str = ""  # below the title
+    version: str = VERSION  # version of cardan that calculated it
+    date: str = field(default_factory=today)  # day of the excerpt, as in 2026-01-31
 
 
 def content(

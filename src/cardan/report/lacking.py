@@ -13,15 +13,7 @@ from .block import Page, Words
 def told(lacking: Lacking) -> str:
     """Return in a sentence what is to be added to the drive file.
 
-    Parameters
-    ----------
-    lacking : tuple of tuple of str
-        Paths; of each inner tuple any one would do.
-
-    Examples
-    --------
-    >>> told((("duty.torque",), ("joints[0].friction", "supports[0].friction")))
-    'This answer needs more in the drive file: duty.torque_Nm; joints[0].friction or supports[0].friction.'
+    lacking: paths; of each inner tuple any one would do.
     """
     either = _(" or ")
     keys = "; ".join(either.join(map(key_of, some)) for some in lacking)

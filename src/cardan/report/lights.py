@@ -28,78 +28,28 @@ REMEDIES = 3
 
 @dataclass(frozen=True, kw_only=True)
 class Light:
-    """One verdict, or several that differ in joint or shaft alone.
+    """One verdict, or several that differ in joint or shaft alone."""
 
-    Parameters
-    ----------
-    name : str
-        The same for the same verdict of another drive.
-    title : str
-        What was judged.
-    tone : str
-        How that came out: good, warning, failed.
-    verdict : str
-        The same in a word.
-    value : Cell
-        The value, in `unit`.
-    unit : str
-        Unit that people read it in.
-    limit : str
-        The limit with its sense.
-    used : float
-        Share of the limit that is used.
-    source, why : str
-        Where the limit comes from; what it means or assumes.
-    path : str
-        Part of the drive that it is about: ``joints[1]``; empty for the whole drive.
-    design_variables : tuple of str
-        Paths of keys that move the value.
-    advice : bool
-        A rule of thumb that fails no drive.
-    remedies : tuple of Applicable
-        Smallest changes of one key that make it pass; empty before they were looked for.
-    verdicts : tuple of Verdict
-        Those it stands for.
-    """
-
-    name: str
-    title: str
-    tone: Tone
-    verdict: str
-    value: Cell
-    unit: str
-    limit: str
-    used: float
-    source: str
+    name: str  # the same for the same verdict of another drive
+    title: str  # what was judged
+    tone: Tone  # how that came out: good, warning, failed
+    verdict: str  # the same in a word
+    value: Cell  # the value, in `unit`
+    unit: str  # unit that people read it in
+    limit: str  # the limit with its sense
+    used: float  # share of the limit that is used
+    source: str  # source, why: where the limit comes from; what it means or assumes
     why: str
-    path: str
-    design_variables: tuple[str, ...] = ()
-    advice: bool = False
+    path: str  # part of the drive that it is about: ``joints[1]``; empty for the whole drive
+    design_variables: tuple[str, ...] = ()  # paths of keys that move the value
+    advice: bool = False  # a rule of thumb that fails no drive
+    # smallest changes of one key that make it pass; empty before they were looked for
     remedies: tuple[Applicable, ...] = ()
-    verdicts: tuple[Verdict, ...] = ()
+    verdicts: tuple[Verdict, ...] = ()  # those it stands for
 
 
 def lights(on: Subject) -> tuple[Light, ...]:
-    """Return the verdicts on a drive, the worst first, rules of thumb last; without remedies.
-
-    Parameters
-    ----------
-    on : Subject
-        The drive.
-
-    Raises
-    ------
-    InputError
-        The drive cannot be judged.
-
-    Examples
-    --------
-    >>> from cardan.drive.drive import Drive
-    >>> from cardan.drive.duty import Limits
-    >>> bent = replace(Drive.from_angles([0.5]), limits=Limits(joint_angle=0.4))
-    >>> print(lights(Subject(drive=bent))[0].title)
-    joint angle of joint 1
-    """
+    """Return the verdicts on a drive, the worst first, rules of thumb last; without remedies."""
     run = [one for one in check(on.drive, known=on.known) if one.run]
     return tuple(_light(group) for group in alike(sorted(run, key=lambda one: (one.advice, -float(one.utilisation)))))
 
@@ -107,12 +57,7 @@ def lights(on: Subject) -> tuple[Light, ...]:
 def with_remedies(on: Subject, progress: Progress | None = None) -> tuple[Light, ...]:
     """Return the same with the remedies of the failed ones.
 
-    Parameters
-    ----------
-    on : Subject
-        The drive.
-    progress : function, optional
-        Called with the share done; answering "stop" leaves the verdicts that come after without remedies.
+    progress: called with the share done; answering "stop" leaves the verdicts that come after without remedies.
     """
     shown = lights(on)
     if all(one.tone != "failed" for one in shown):
@@ -172,10 +117,7 @@ def _effect(one: Remedy) -> str:
 def sentence(shown: Sequence[Light]) -> str:
     """Return in a sentence how verdicts came out.
 
-    Parameters
-    ----------
-    shown : sequence of Light
-        All of a drive.
+    shown: all of a drive.
     """
     return capital(told(said([verdict for one in shown for verdict in one.verdicts]), reader()))
 

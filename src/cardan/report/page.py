@@ -19,22 +19,7 @@ MOST = 1000.0
 def page(answer: Answer, reader: Reader, depth: Depth = "full") -> Page:
     """Return an answer as a page: its figures, its tables, what to mind.
 
-    Parameters
-    ----------
-    answer : Answer
-        What is said.
-    reader : Reader
-        Units and decimal sign.
-    depth : str
-        How deep it goes.
-
-    Examples
-    --------
-    >>> from cardan.answers.quantity import say
-    >>> from cardan.answers.reader import USUAL
-    >>> said = say("It slides {way}.", way=Quantity(0.0254, "length"))
-    >>> page(Answer(name="way", title="Way", sentence=said), USUAL).answer
-    'It slides 25.40 mm.'
+    reader: units and decimal sign.
     """
     return Page(
         name=answer.name,
@@ -62,10 +47,8 @@ def _blocks(answer: Answer, reader: Reader, depth: Depth) -> Iterator[Block]:
 def key_figures(told: Iterable[Sequence[KeyFigure]]) -> list[KeyFigure]:
     """Return the key figures of the first page, by which drives are compared.
 
-    Parameters
-    ----------
-    told : iterable of sequence of KeyFigure
-        Those of each answer. Of a name that several tell the last one counts, which knows more, where the first stood.
+    told: those of each answer. Of a name that several tell the last one counts, which knows more, where the first
+    stood.
     """
     found: dict[str, list[KeyFigure]] = {}
     for keys in told:
@@ -97,8 +80,6 @@ def row(key: KeyFigure, reader: Reader) -> list[Cell]:
 def capital(text: str) -> str:
     """Return a sentence that begins with a capital letter.
 
-    Examples
-    --------
     >>> capital("joint 2 fails first.")
     'Joint 2 fails first.'
     """

@@ -35,75 +35,36 @@ WAYS = tuple(one for one in DIRECTIONS if one)
 
 @dataclass(frozen=True, kw_only=True)
 class Said:
-    """What is said of a recording that its file does not tell.
+    """What is said of a recording that its file does not tell."""
 
-    Parameters
-    ----------
-    tacho : str, optional
-        Channel that tells how the shaft turns; the likeliest when not given.
-    pulses_per_turn : float
-        Pulses of the tacho in a turn.
-    titles : tuple of str
-        What the channels measure, all in order, as ``acceleration_front_z_m_s2``.
-    rate : float, optional
-        Values a second [Hz].
-    full_scale : float, optional
-        What the greatest number of a WAV file stands for.
-    places : tuple of (str, str, str)
-        Channel, key path of the part that it sits on, direction in which it looks; empty where nothing is said.
-    channel : str, optional
-        Channel whose orders are shown; the loudest when not given.
-    """
-
-    tacho: str | None = None
-    pulses_per_turn: float = 1.0
-    titles: tuple[str, ...] = ()
-    rate: float | None = None
-    full_scale: float | None = None
+    tacho: str | None = None  # channel that tells how the shaft turns; the likeliest when not given
+    pulses_per_turn: float = 1.0  # pulses of the tacho in a turn
+    titles: tuple[str, ...] = ()  # what the channels measure, all in order, as ``acceleration_front_z_m_s2``
+    rate: float | None = None  # values a second [Hz]
+    full_scale: float | None = None  # what the greatest number of a WAV file stands for
+    # channel, key path of the part that it sits on, direction in which it looks; empty where nothing is said
     places: tuple[tuple[str, str, str], ...] = ()
-    channel: str | None = None
+    channel: str | None = None  # channel whose orders are shown; the loudest when not given
 
 
 @dataclass(frozen=True, kw_only=True)
 class Sensor:
-    """A channel of a recording, as it was taken.
-
-    Parameters
-    ----------
-    name : str
-        Its name.
-    place, direction : str
-        Where it sits and looks; empty where not known.
-    turns : bool
-        Whether it can tell how the shaft turns.
-    shakes : bool
-        Whether it measures vibration.
-    """
+    """A channel of a recording, as it was taken."""
 
     name: str
-    place: str = ""
+    place: str = ""  # place, direction: where it sits and looks; empty where not known
     direction: str = ""
-    turns: bool = False
-    shakes: bool = False
+    turns: bool = False  # whether it can tell how the shaft turns
+    shakes: bool = False  # whether it measures vibration
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Recorded:
-    """What a recording tells.
+    """What a recording tells."""
 
-    Parameters
-    ----------
-    page : Page
-        Its diagnosis, or why there is none.
-    sensors : tuple of Sensor
-        Its channels.
-    tacho : str
-        Name of the channel taken as tacho; empty where there is none.
-    """
-
-    page: Page
-    sensors: tuple[Sensor, ...]
-    tacho: str
+    page: Page  # its diagnosis, or why there is none
+    sensors: tuple[Sensor, ...]  # its channels
+    tacho: str  # name of the channel taken as tacho; empty where there is none
 
 
 def recorded(
@@ -111,23 +72,9 @@ def recorded(
 ) -> Recorded:
     """Return what a recording in a file tells of a drive.
 
-    Parameters
-    ----------
-    path : Path
-        The file; it is read as data.
-    drive : Drive
-        The drive in order.
-    said : Said
-        What the file does not tell.
-    known : Catalogue, optional
-        With the table of faults; the shipped one when not given.
-    progress : function, optional
-        Called with the share done; answering "stop" ends the work with what is known by then.
-
-    Raises
-    ------
-    InputError
-        The file is none that can be read.
+    path: the file; it is read as data.
+    drive: the drive in order; said: what the file does not tell.
+    Raises InputError: the file is none that can be read.
     """
     told = progress or (lambda _share: None)
     found = _placed(

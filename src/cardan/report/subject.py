@@ -35,29 +35,13 @@ ALONE = 12
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Subject:
-    """A drive and the answers to all questions about it, each calculated when it is read first.
+    """A drive and the answers to all questions about it, each calculated when it is read first."""
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive with the duty asked for.
-    watched : Phasing or None
-        What its yokes can do, where somebody watched the search for it; None to search when it is needed.
-    complete : bool
-        False when the reader stopped the work; what was found by then is shown.
-    known : Catalogue or None
-        Norms, types and sizes that it is judged by; None for the shipped ones.
-
-    Examples
-    --------
-    >>> Subject(drive=Drive.from_angles([0.3, 0.3])).even
-    True
-    """
-
-    drive: Drive
+    drive: Drive  # the drive with the duty asked for
+    # what its yokes can do, where somebody watched the search for it; None to search when it is needed
     watched: Phasing | None = None
-    complete: bool = True
-    known: Catalogue | None = None
+    complete: bool = True  # False when the reader stopped the work; what was found by then is shown
+    known: Catalogue | None = None  # norms, types and sizes that it is judged by; None for the shipped ones
 
     @cached_property
     def place(self) -> Geometry:
@@ -167,10 +151,7 @@ class Subject:
     def rounding(self, share: float) -> bool:
         """Tell whether a fluctuation is no more than rounding, see `cardan.questions.motion.rounding.is_rounding`.
 
-        Parameters
-        ----------
-        share : float
-            Speed fluctuation of this drive at some setting of its yokes.
+        share: speed fluctuation of this drive at some setting of its yokes.
         """
         return is_rounding(self.drive, share, self.closing.length)
 
@@ -205,14 +186,8 @@ class Subject:
 def asked(drive: Drive, duty: Duty | None, progress: Progress | None) -> Subject:
     """Return a drive to be asked about, the search for its yokes watched.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-    duty : Duty or None
-        What it does, instead of its own duty.
-    progress : function or None
-        Told the share done; answering "stop" leaves out what is still to do.
+    duty: what it does, instead of its own duty.
+    progress: told the share done; answering "stop" leaves out what is still to do.
     """
     on = Subject(drive=drive if duty is None else replace(drive, duty=duty))
     if progress is None:

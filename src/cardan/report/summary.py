@@ -38,13 +38,7 @@ def judgement(on: Subject, pages: Sequence[Page] = ()) -> Words:
 
     It is red where a limit or a part of the report fails, amber where a limit is nearly used up or what follows asks
     for attention, and then says so; rules of thumb colour nothing.
-
-    Parameters
-    ----------
-    on : Subject
-        The drive.
-    pages : sequence of Page
-        Parts of the report; one that failed is not hidden behind a uniform motion.
+    pages: parts of the report; one that failed is not hidden behind a uniform motion.
     """
     turns, alarms = uniformity(on), {alarm.tone for page in pages for alarm in page.alarms}
     limits = _limits(pages)
@@ -170,12 +164,7 @@ def _in_poses(on: Subject) -> tuple[float, str]:
 def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
     """Yield what the reader must not overlook.
 
-    Parameters
-    ----------
-    on : Subject
-        The drive.
-    pages : sequence of Page
-        Parts of the report that may have such of their own.
+    pages: parts of the report that may have such of their own.
     """
     limits = _limits(pages)
     yield from (Words(text=one.text, tone="warning") for one in doubts(on.drive))

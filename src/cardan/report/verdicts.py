@@ -22,24 +22,12 @@ from .subject import Subject
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Judged:
-    """Verdicts on a drive and what of them stands where in the report.
+    """Verdicts on a drive and what of them stands where in the report."""
 
-    Attributes
-    ----------
-    page : Page or None
-        All of them; None where nothing was judged.
-    lights : Table or None
-        Those that matter most, for the first page.
-    changes : Table or None
-        The changes that help most, for the first page; None where nothing fails.
-    keys : sequence of KeyFigure
-        Key figures with their limits.
-    """
-
-    page: Page | None = None
-    lights: Table | None = None
-    changes: Table | None = None
-    keys: Sequence[KeyFigure] = ()
+    page: Page | None = None  # all of them; None where nothing was judged
+    lights: Table | None = None  # those that matter most, for the first page
+    changes: Table | None = None  # the changes that help most, for the first page; None where nothing fails
+    keys: Sequence[KeyFigure] = ()  # key figures with their limits
 
 
 def judged(on: Subject) -> Judged:

@@ -54,24 +54,8 @@ class _Buffer:
 def render(shown: Scene, *, seconds: float = 4.0) -> bytes:
     """Return a scene as a binary glTF file (.glb), its bodies turning.
 
-    Parameters
-    ----------
-    shown : Scene
-        Of a drive.
-    seconds : float [s]
-        How long a turn of the input takes.
-
-    Returns
-    -------
-    bytes
-        Lengths in m, y up, as glTF 2.0 asks (Khronos, ISO/IEC 12113); what is drawn round the bodies is left out.
-
-    Examples
-    --------
-    >>> from cardan.drive.drive import Drive
-    >>> from .scene import scene
-    >>> render(scene(Drive.from_angles([0.2]), frames=24))[:4]
-    b'glTF'
+    seconds [s]: how long a turn of the input takes.
+    Returns: lengths in m, y up, as glTF 2.0 asks (Khronos, ISO/IEC 12113); what is drawn round the bodies is left out.
     """
     buffer = _Buffer()
     materials: dict[tuple[str, bool], int] = {}

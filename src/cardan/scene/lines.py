@@ -100,12 +100,7 @@ class _Paper:
 def drawn_round(build: Build, size: float) -> Drawn:
     """Return lines, areas and labels round the bodies of a drive, and the switches of their groups.
 
-    Parameters
-    ----------
-    build : Build
-        Its bodies.
-    size : float [m]
-        Of the whole.
+    size [m].
     """
     paper = _Paper(build=build)
     _axes(paper)

@@ -36,13 +36,8 @@ Loads = tuple[tuple[SceneArrow, ...], tuple[SceneGroup, ...], dict[str, str]]
 def loads(drive: Drive, build: Build, size: float) -> Loads:
     """Return arrows of the forces and couples of a drive as drawn, their switches, and why there are none.
 
-    Parameters
-    ----------
-    drive : Drive
-    build : Build
-        Its bodies; in a pose or while it moves no arrows are drawn that belong to another place.
-    size : float [m]
-        Of the whole.
+    build: its bodies; in a pose or while it moves no arrows are drawn that belong to another place.
+    size [m].
     """
     if not np.allclose(build.place.points, geometry(drive).points, rtol=0.0, atol=1e-9 * size):
         return (), (), _both(_("Forces are shown for the drive as drawn and in its poses, not while it moves."))
@@ -148,8 +143,6 @@ def _scaled(
 def amount(value: float, unit: str) -> str:
     """Return a force [N] or couple [N·m] as who reads here is told it.
 
-    Examples
-    --------
     >>> amount(2314.0, "N"), amount(0.04, "Nm")
     ('2.31 kN', '0.0400 N·m')
     """

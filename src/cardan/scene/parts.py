@@ -18,47 +18,21 @@ DIGITS = 6
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SceneBody:
-    """A body of a scene; its corners lie in the frame of its track.
+    """A body of a scene; its corners lie in the frame of its track."""
 
-    Attributes
-    ----------
-    name : str
-        Unlike that of any other body.
-    part : str
-        What it is.
-    number : int
-        Of its shaft, joint or support.
-    path : str
-        Where the drive file speaks of it.
-    text : str
-        What it is, in words.
-    track : int
-    positions : array (m, 3) [m]
-    indices : int array (t, 3)
-        Triangles, counter-clockwise seen from outside; corners at sharp edges are doubled.
-    smooth : bool
-        Whether normals are averaged over the triangles of a corner.
-    colour : str
-    metal : bool
-    utilisation : float or None
-        Largest share of a limit that it uses.
-    utilisation_colour : str
-        Of that share.
-    """
-
-    name: str
+    name: str  # unlike that of any other body
     part: str
-    number: int
-    path: str
-    text: str
+    number: int  # of its shaft, joint or support
+    path: str  # where the drive file speaks of it
+    text: str  # what it is, in words
     track: int
-    positions: Array
-    indices: Array
-    smooth: bool
+    positions: Array  # (m, 3) [m]
+    indices: Array  # (t, 3) of int: triangles, counter-clockwise seen from outside; corners at sharp edges are doubled
+    smooth: bool  # whether normals are averaged over the triangles of a corner
     colour: str
     metal: bool
-    utilisation: float | None = None
-    utilisation_colour: str = palette.ROLES["faint"]
+    utilisation: float | None = None  # largest share of a limit that it uses
+    utilisation_colour: str = palette.ROLES["faint"]  # of that share
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -37,10 +37,7 @@ Use = tuple[float, str]
 def used(verdicts: Sequence[Verdict]) -> Callable[[Solid], Use | None]:
     """Return a function from a body to the largest share of a limit it uses, and that in words.
 
-    Parameters
-    ----------
-    verdicts : sequence of Verdict
-        Of one drive; rules of thumb and what could not be judged are left out.
+    verdicts: of one drive; rules of thumb and what could not be judged are left out.
     """
     worst: dict[tuple[str, str], Use] = {}
     for one in verdicts:
@@ -77,13 +74,7 @@ def scale() -> tuple[tuple[float, str, str], ...]:
 
 
 def use_colour(share: float | None) -> str:
-    """Return the colour of a share of a limit: pale to blue, amber close to the limit, red beyond it.
-
-    Examples
-    --------
-    >>> use_colour(0.95) == palette.ROLES["warning"], use_colour(1.2) == palette.ROLES["failed"], use_colour(None)
-    (True, True, '#e7eaef')
-    """
+    """Return the colour of a share of a limit: pale to blue, amber close to the limit, red beyond it."""
     if share is None:
         return palette.ROLES["grid"]
     if share > 1.0:

@@ -38,14 +38,8 @@ LOOK = 0.15
 class Answers:
     """The tabs with the answers.
 
-    Parameters
-    ----------
-    session : Session
-        Whose drive they are about.
-    jobs : Jobs
-        Where long answers are made.
-    export : function, optional
-        Takes a figure or a page along; no buttons for it when not given.
+    jobs: where long answers are made.
+    export: takes a figure or a page along; no buttons for it when not given.
     """
 
     def __init__(self, session: Session, jobs: Jobs, *, export: Export | None = None) -> None:
@@ -82,12 +76,7 @@ class Answers:
     def add(self, name: str, title: str, made: Callable[[], Sheet]) -> None:
         """Add a tab, behind the others, for an answer of a kind of its own.
 
-        Parameters
-        ----------
-        name, title : str
-            What it is called here and on the page.
-        made : function
-            Builds its sheet.
+        name, title: what it is called here and on the page; made: builds its sheet.
         """
         with self._tabs:
             ui.tab(name, label=title).props(f'data-mark="tab-{name}"')
@@ -140,16 +129,8 @@ class Answers:
 class Sheet:
     """One answer.
 
-    Parameters
-    ----------
-    name : str
-        Which of `cardan.register.QUESTIONS`.
-    session : Session
-        Whose drive it is about.
-    jobs : Jobs
-        Where it is made if it takes long.
-    export : function or None
-        Takes a figure or the page along.
+    name: which of `cardan.register.QUESTIONS`; jobs: where it is made if it takes long.
+    export: takes a figure or the page along.
     """
 
     def __init__(self, name: str, session: Session, jobs: Jobs, export: Export | None) -> None:
@@ -305,13 +286,7 @@ class Sheet:
 
 
 class Progress:
-    """How far a long answer is, and the buttons to stop it or to begin again.
-
-    Parameters
-    ----------
-    cancel, begin : function
-        What the buttons do.
-    """
+    """How far a long answer is, and the buttons to stop it or to begin again."""
 
     def __init__(self, cancel: Callable[[], object], begin: Callable[[], object]) -> None:
         self.body = ui.element("div").classes("progress").props("role=group")

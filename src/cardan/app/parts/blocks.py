@@ -26,8 +26,6 @@ BUTTONS = "(event) => { const one = event.target.closest('[data-do]'); if (one) 
 def words_html(block: Words) -> str:
     """Return a paragraph; with a tone a remark with its sign.
 
-    Examples
-    --------
     >>> words_html(Words(text="a < b"))
     '<p>a &lt; b</p>'
     """
@@ -52,19 +50,7 @@ def listing_html(block: Listing) -> str:
 def cell_html(cell: Cell, *, left: bool, button: str = "") -> str:
     """Return a cell of a table: its tone as sign and colour, its number in full for whoever points at it.
 
-    Parameters
-    ----------
-    cell : Cell
-        What it says.
-    left : bool
-        Words, not a number.
-    button : str
-        A button behind it, as HTML.
-
-    Examples
-    --------
-    >>> cell_html(Cell(text="0.79", full="0.7912", tone="good"), left=False)
-    '<td class="good" title="0.7912"><span class="sign" aria-hidden="true">✓</span>0.79</td>'
+    left: words, not a number; button: a button behind it, as HTML.
     """
     names = " ".join(filter(None, ["left" if left else "", "" if cell.tone == "plain" else cell.tone]))
     attributes = (f' class="{names}"' if names else "") + (f' title="{escape(cell.full)}"' if cell.full else "")
@@ -76,12 +62,7 @@ def cell_html(cell: Cell, *, left: bool, button: str = "") -> str:
 def table_html(block: Table, buttons: Mapping[str, str] | None = None) -> str:
     """Return a table, its numbers to the right under headings with their units.
 
-    Parameters
-    ----------
-    block : Table
-        What it holds.
-    buttons : mapping of str to str
-        First cell of a row, or heading of a column -> what its button says.
+    buttons: first cell of a row, or heading of a column -> what its button says.
     """
     given = buttons or {}
 
@@ -187,12 +168,8 @@ class Drawn:
 class PageView:
     """A page of the report in the app; another state of it takes its place without a flicker.
 
-    Parameters
-    ----------
-    export : function, optional
-        Takes a figure or the page along; no buttons for it when not given.
-    pressed : function, optional
-        Called with the name of a button of a table.
+    export: takes a figure or the page along; no buttons for it when not given.
+    pressed: called with the name of a button of a table.
     """
 
     def __init__(self, export: Export | None = None, pressed: Callable[[str], object] = lambda name: None) -> None:
@@ -214,12 +191,7 @@ class PageView:
     def show(self, page: Page, buttons: Mapping[str, str] | None = None) -> None:
         """Show a page, or another state of it.
 
-        Parameters
-        ----------
-        page : Page
-            What to show.
-        buttons : mapping of str to str
-            Name -> what a button beside it says, in the first table that has such names.
+        buttons: name -> what a button beside it says, in the first table that has such names.
         """
         self.page = page
         if self._export is not None:

@@ -45,10 +45,7 @@ class DragViews(Element, component="drag.js"):
 class Centres:
     """The geometry as a table, and the views to drag it in.
 
-    Parameters
-    ----------
-    session : Session
-        Whose drive it shows and changes.
+    session: whose drive it shows and changes.
     """
 
     def __init__(self, session: Session) -> None:

@@ -20,13 +20,6 @@ from cardan.figures.render_plotly import described
 class Chart(Element, component="chart.js"):
     """A figure that can be pointed at.
 
-    Parameters
-    ----------
-    figure : Figure
-        What it shows at first.
-
-    Notes
-    -----
     Curves over the input angle show where the drive stands: the window's event ``cardan-angle`` with ``detail.angle``
     [rad] moves their cursor, and pressing on them sends ``cardan-go-to``. The server has no part in it.
     """
@@ -50,19 +43,10 @@ class Chart(Element, component="chart.js"):
 def changed(before: Mapping[str, Any], after: Mapping[str, Any]) -> dict[str, Any]:
     """Return what turns a described figure into another one.
 
-    Parameters
-    ----------
-    before, after : mapping
-        As `cardan.figures.render_plotly.described` gives them.
+    before, after: as `cardan.figures.render_plotly.described` gives them.
+    Returns: ``heights``: place of a curve -> its values as base 64 of their bytes, where nothing but these differs in
+    the data; else ``data``. ``layout`` where that differs.
 
-    Returns
-    -------
-    dict
-        ``heights``: place of a curve -> its values as base 64 of their bytes, where nothing but these differs in the
-        data; else ``data``. ``layout`` where that differs.
-
-    Examples
-    --------
     >>> line = {"mode": "lines", "x": [0, 1], "y": [2, 3]}
     >>> changed({"data": [line], "layout": {}}, {"data": [line | {"y": [2, 4]}], "layout": {}})
     {'heights': {0: 'AAAAAAAAAEAAAAAAAAAQQA=='}}

@@ -29,14 +29,7 @@ MOST_PULSES = 10_000
 class Diagnosis(Sheet):
     """What a recording of the drive tells.
 
-    Parameters
-    ----------
-    session : Session
-        Whose drive and recording it is about.
-    jobs : Jobs
-        Where it is made.
-    export : function or None
-        Takes a figure or the page along.
+    session: whose drive and recording it is about; jobs: where it is made; export: takes a figure or the page along.
     """
 
     def __init__(self, session: Session, jobs: Jobs, export: Export | None) -> None:

@@ -16,16 +16,7 @@ from . import toasts
 def asking(mark: str, *, names: str = "", role: str = "dialog", whole: bool = False) -> Iterator[ui.dialog]:
     """Open a dialog with what is built within; it goes once it is closed.
 
-    Parameters
-    ----------
-    mark : str
-        What tests call it.
-    names : str
-        Classes of its look.
-    role : str
-        What it is for readers of the screen.
-    whole : bool
-        Over the whole window.
+    names: classes of its look; role: what it is for readers of the screen.
     """
     with ui.context.client.content:
         dialog = ui.dialog().props("maximized" if whole else "")
@@ -46,18 +37,9 @@ def sending(
 ) -> None:
     """Ask for a file from the user's disk.
 
-    Parameters
-    ----------
-    mark, upload : str
-        What tests call the dialog, and the field within it.
-    title : str
-        What is asked for.
-    taken : function
-        Takes the file in, and returns what is done with it once the dialog is closed.
-    suffixes : iterable of str
-        Ends of names that are offered.
-    most : int
-        Bytes that a file may have.
+    mark, upload: what tests call the dialog, and the field within it.
+    taken: takes the file in, and returns what is done with it once the dialog is closed.
+    suffixes: ends of names that are offered; most: bytes that a file may have.
     """
     larger = _("The file is larger than {size} MB.").format(size=most // 10**6)
     with asking(mark) as dialog:

@@ -51,17 +51,8 @@ def _kinds() -> dict[str, str]:
 class ReportMenu:
     """The menu of reports and exports.
 
-    Parameters
-    ----------
-    session : Session
-        Whose drive is reported.
-    jobs : Jobs
-        Where reports are made.
-
-    Attributes
-    ----------
-    snapshot : function or None
-        Gives a picture of the view in space; the page sets it.
+    jobs: where reports are made.
+    snapshot: gives a picture of the view in space; the page sets it.
     """
 
     def __init__(self, session: Session, jobs: Jobs) -> None:
@@ -120,12 +111,7 @@ class ReportMenu:
 class Exports:
     """Takes figures and pages away: asks for the kind of file, makes it, gives it to the browser.
 
-    Parameters
-    ----------
-    session : Session
-        About whose drive they are.
-    jobs : Jobs
-        Where they are made.
+    session: about whose drive they are; jobs: where they are made.
     """
 
     def __init__(self, session: Session, jobs: Jobs) -> None:

@@ -13,13 +13,7 @@ from .source import Source
 
 
 class Editor:
-    """The drive file, in three ways that stay in step.
-
-    Parameters
-    ----------
-    session : Session
-        Whose file it is.
-    """
+    """The drive file, in three ways that stay in step."""
 
     def __init__(self, session: Session) -> None:
         self.session = session

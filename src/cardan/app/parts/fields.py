@@ -25,14 +25,7 @@ TYPED = "(value) => emit(value?.target ? value.target.value : value)"
 class Triple:
     """Three numbers beside each other, of a point or a direction.
 
-    Parameters
-    ----------
-    value : str
-        The three, with blanks between.
-    told : str
-        What screen readers call them.
-    typed : function
-        Called with all three once one of them changed.
+    value: the three, with blanks between; typed: called with all three once one of them changed.
     """
 
     def __init__(self, value: str, told: str, typed: Callable[[str], None]) -> None:
@@ -71,14 +64,7 @@ class Triple:
 class KeyField:
     """A key: its name, what stands there, its unit, what is wrong with it.
 
-    Parameters
-    ----------
-    session : Session
-        Whose file it changes.
-    entry : Entry
-        The key.
-    removable : bool
-        Show what takes the key out of the file.
+    removable: show what takes the key out of the file.
     """
 
     def __init__(self, session: Session, entry: Entry, *, removable: bool = True) -> None:

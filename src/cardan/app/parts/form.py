@@ -28,10 +28,7 @@ NEW: dict[str, Mapping[str, Any]] = {
 class Form:
     """The file as a form.
 
-    Parameters
-    ----------
-    session : Session
-        Whose file it shows and changes.
+    session: whose file it shows and changes.
     """
 
     def __init__(self, session: Session) -> None:

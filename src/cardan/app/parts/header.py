@@ -24,12 +24,7 @@ from .variants import VariantsMenu
 class Header:
     """The top of the page.
 
-    Parameters
-    ----------
-    session : Session
-        What the user works on.
-    jobs : Jobs
-        Where reports are made.
+    jobs: where reports are made.
     """
 
     def __init__(self, session: Session, jobs: Jobs) -> None:

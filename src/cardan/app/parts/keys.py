@@ -32,11 +32,6 @@ class Keys:
     """Listens to ctrl Z, ctrl shift Z, ctrl Y and ctrl S; inside a text the browser's own undo goes first.
 
     It belongs to the window: parts of the page that are built anew do not bring another one.
-
-    Parameters
-    ----------
-    session : Session
-        What the user works on.
     """
 
     def __init__(self, session: Session) -> None:

@@ -10,13 +10,6 @@ from nicegui.element import Element
 class Live(Element, component="live.js"):
     """A piece of the page whose content changes with every edit.
 
-    Parameters
-    ----------
-    html : str
-        What it shows at first.
-
-    Notes
-    -----
     An update of an element has the browser look through the whole page; a message to it changes what it shows and
     nothing else.
     """

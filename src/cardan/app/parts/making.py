@@ -21,18 +21,7 @@ LOOK = 0.2
 class Making:
     """A dialog that follows a job until it ends; who closes it stops the job.
 
-    Parameters
-    ----------
-    session : Session
-        Who asks.
-    jobs : Jobs
-        Where it is made.
-    question : Question
-        What is asked.
-    title : str
-        What is made, for the reader.
-    done : function
-        Takes what came out.
+    jobs: where it is made; title: what is made, for the reader; done: takes what came out.
     """
 
     def __init__(

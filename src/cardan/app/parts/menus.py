@@ -12,18 +12,8 @@ from nicegui import ui
 def drop_down(title: str, mark: str, *, icon: str = "", look: str = "", closes: bool = True) -> ui.element:
     """Return a button with a menu below it; what is built within stands in the menu.
 
-    Parameters
-    ----------
-    title : str
-        What stands on the button.
-    mark : str
-        What tests call it.
-    icon : str
-        Name of the icon before the title, none if empty.
-    look : str
-        More of the button's properties.
-    closes : bool
-        Whether a click in the menu closes it.
+    icon: name of the icon before the title, none if empty; look: more of the button's properties.
+    closes: whether a click in the menu closes it.
     """
     button = ui.element("q-btn-dropdown").props("flat dense no-caps color=primary").props(look)
     button.props["label"] = title

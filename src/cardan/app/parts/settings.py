@@ -15,13 +15,7 @@ CHOSEN = ("length", "angle", "angular_speed", "torque", "force", "mass", "stress
 
 
 class SettingsMenu:
-    """The menu of the user's choices.
-
-    Parameters
-    ----------
-    session : Session
-        Whose choices they are.
-    """
+    """The menu of the user's choices."""
 
     def __init__(self, session: Session) -> None:
         self.session = session

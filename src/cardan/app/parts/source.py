@@ -18,10 +18,7 @@ QUIET = 0.4
 class Source:
     """The text of the file, with what is wrong with it below.
 
-    Parameters
-    ----------
-    session : Session
-        Whose file it shows and changes.
+    session: whose file it shows and changes.
     """
 
     def __init__(self, session: Session) -> None:

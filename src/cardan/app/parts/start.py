@@ -18,10 +18,7 @@ FIRST = ("truck-printed-angles", "car-propshaft", "two-piece-rear-drive", "pto-d
 class Start:
     """What the user sees before a drive is open.
 
-    Parameters
-    ----------
-    session : Session
-        What the user will work on.
+    session: what the user will work on.
     """
 
     def __init__(self, session: Session) -> None:

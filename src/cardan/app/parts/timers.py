@@ -14,21 +14,9 @@ from cardan.app.state.session import Session
 class Timer:
     """Calls a function after a while, in the user's language; it ends with the part it belongs to.
 
-    Parameters
-    ----------
-    session : Session
-        Whose language it is.
-    body : Element
-        What it belongs to.
-    seconds : float
-        Until it calls, and from call to call.
-    what : function
-        What it calls; it may be awaited.
-    once : bool
-        Whether it calls a single time.
-
-    Notes
-    -----
+    seconds: until it calls, and from call to call.
+    what: what it calls; it may be awaited.
+    once: whether it calls a single time.
     Unlike NiceGUI's timer it is no element: the browser hears nothing of it.
     """
 

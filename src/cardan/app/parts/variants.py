@@ -26,12 +26,7 @@ from .menus import drop_down
 class VariantsMenu:
     """The menu of the variants.
 
-    Parameters
-    ----------
-    session : Session
-        Whose variants they are.
-    jobs : Jobs
-        Where they are compared.
+    jobs: where they are compared.
     """
 
     def __init__(self, session: Session, jobs: Jobs) -> None:

@@ -43,14 +43,8 @@ PRESSED = """(event) => {
 class Verdicts:
     """The list of verdicts.
 
-    Parameters
-    ----------
-    session : Session
-        Whose drive they are about.
-    jobs : Jobs
-        Where cures are looked for.
-    compare : function, optional
-        Called to compare the drive with others; no button for it when not given.
+    jobs: where cures are looked for.
+    compare: called to compare the drive with others; no button for it when not given.
     """
 
     def __init__(self, session: Session, jobs: Jobs, *, compare: Callable[[], object] | None = None) -> None:
@@ -177,17 +171,7 @@ class Verdicts:
 
 
 def field_of(light: Light) -> str:
-    """Return the path of what a failed verdict is to be cured at: its first remedy, a design variable, or its part.
-
-    Examples
-    --------
-    >>> from cardan.report.block import Cell
-    >>> light = Light(name="angle", title="angle", tone="failed", verdict="failed", value=Cell(text="50"), unit="°",
-    ...               limit="≤ 40 °", used=1.25, source="", why="", path="joints[0]",
-    ...               design_variables=("joints[0].joint_angle",))
-    >>> field_of(light)
-    'joints[0].joint_angle'
-    """
+    """Return the path of what a failed verdict is to be cured at: its first remedy, a design variable, or its part."""
     paths = [path for remedy in light.remedies for path in remedy.values]
     return next(iter((*paths, *light.design_variables, light.path)), "")
 
@@ -195,12 +179,7 @@ def field_of(light: Light) -> str:
 def lights_html(lights: Sequence[Light], opened: set[str]) -> str:
     """Return the list of verdicts, rules of thumb under a heading of their own.
 
-    Parameters
-    ----------
-    lights : sequence of Light
-        The verdicts.
-    opened : set of str
-        Names of those that show more.
+    opened: names of those that show more.
     """
     parts = [_light(one, one.name in opened) for one in lights if not one.advice]
     advice = [_light(one, one.name in opened) for one in lights if one.advice]

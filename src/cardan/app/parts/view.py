@@ -43,13 +43,7 @@ FOLLOWING = (
 
 
 class View:
-    """The view in space with its controls.
-
-    Parameters
-    ----------
-    session : Session
-        Whose drive it shows.
-    """
+    """The view in space with its controls."""
 
     def __init__(self, session: Session) -> None:
         self.session = session

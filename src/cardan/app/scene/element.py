@@ -29,17 +29,9 @@ Message = dict[str, Any]
 class SceneView(Element, component="cardan_scene.js", esm={"cardan-scene": "js"}):
     """Three-dimensional view of a drive that turns.
 
-    Parameters
-    ----------
-    on_touched : function, optional
-        Called with the key path of a body that was touched, such as ``joints[1]``.
-    on_angle : function, optional
-        Called with the input angle [rad] while the drive turns, at most ten times a second.
-    on_playing : function, optional
-        Called with true or false when turning starts or stops, the space key in the browser included.
-
-    Notes
-    -----
+    on_touched: called with the key path of a body that was touched, such as ``joints[1]``.
+    on_angle: called with the input angle [rad] while the drive turns, at most ten times a second.
+    on_playing: called with true or false when turning starts or stops, the space key in the browser included.
     Parts of the page that follow the angle without the server listen to the event ``cardan-angle`` of the window,
     with ``detail.angle``, and send ``cardan-go-to`` with ``detail.angle`` to turn the drive.
     """
@@ -165,19 +157,10 @@ class SceneView(Element, component="cardan_scene.js", esm={"cardan-scene": "js"}
 def packed(scene: Mapping[str, Any], there: frozenset[str] = frozenset()) -> tuple[Message, frozenset[str]]:
     """Return a scene as it is sent, and the names of its meshes.
 
-    Parameters
-    ----------
-    scene : mapping
-        As ``Scene.described()`` gives it.
-    there : set of str
-        Meshes the browser has already; they are named, not sent.
-
-    Returns
-    -------
-    message : dict
-        Long lists of numbers as base 64 of their bytes; each mesh once, under a name made from its content.
-    meshes : set of str
-        All names that the scene uses.
+    scene: as ``Scene.described()`` gives it.
+    there: meshes the browser has already; they are named, not sent.
+    Returns message: long lists of numbers as base 64 of their bytes; each mesh once, under a name made from its
+    content; meshes: all names that the scene uses.
     """
     meshes: dict[str, Message] = {}
     used: set[str] = set()

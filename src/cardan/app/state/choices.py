@@ -14,24 +14,13 @@ Theme: TypeAlias = Literal["auto", "light", "dark"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Choices:
-    """What a user chose.
+    """What a user chose."""
 
-    Parameters
-    ----------
-    language : str
-        One of `cardan.texts.LANGUAGES`.
-    units : mapping of str to str
-        Dimension -> unit, as in the keys of a drive file, where it is not the usual one.
-    decimal : str
-        Sign between whole and part: ``"."`` or ``","``.
-    theme : str
-        auto, light or dark.
-    """
-
-    language: str = "en"
+    language: str = "en"  # one of `cardan.texts.LANGUAGES`
+    # dimension -> unit, as in the keys of a drive file, where it is not the usual one
     units: Mapping[str, str] = field(default_factory=dict)
-    decimal: str = "."
-    theme: Theme = "auto"
+    decimal: str = "."  # sign between whole and part: ``"."`` or ``","``
+    theme: Theme = "auto"  # auto, light or dark
 
     def kept(self) -> dict[str, Any]:
         """Return the choices as plain data, to be kept for the next time."""
@@ -39,13 +28,7 @@ class Choices:
 
 
 def choices_of(kept: Mapping[str, Any]) -> Choices:
-    """Return the choices kept as plain data; what makes no sense is left at its default.
-
-    Examples
-    --------
-    >>> choices_of({"language": "ru", "theme": "loud"})
-    Choices(language='ru', units={}, decimal='.', theme='auto')
-    """
+    """Return the choices kept as plain data; what makes no sense is left at its default."""
     units = kept.get("units")
     given = dict(units) if isinstance(units, Mapping) else {}
     sound = {

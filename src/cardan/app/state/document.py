@@ -20,21 +20,11 @@ from .workspace import MAX_UPLOAD
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Document:
-    """A drive file as it stands, right or wrong.
+    """A drive file as it stands, right or wrong."""
 
-    Attributes
-    ----------
-    text : str
-        The file, TOML.
-    drive : Drive or None
-        What it describes; None while something is wrong with it.
-    problems : tuple of Problem
-        All that is wrong with it, in the loader's own words.
-    """
-
-    text: str
-    drive: Drive | None = None
-    problems: tuple[Problem, ...] = ()
+    text: str  # the file, TOML
+    drive: Drive | None = None  # what it describes; None while something is wrong with it
+    problems: tuple[Problem, ...] = ()  # all that is wrong with it, in the loader's own words
 
     @cached_property
     def tree(self) -> dict[str, Any] | None:
@@ -50,12 +40,7 @@ class Document:
 def read(text: str, folder: Enclosed) -> Document:
     """Return the document that a text is, with all its problems.
 
-    Parameters
-    ----------
-    text : str
-        A drive file.
-    folder : Enclosed
-        Where files that it names are looked for, and nowhere else.
+    text: a drive file; folder: where files that it names are looked for, and nowhere else.
     """
     try:
         return Document(text=text, drive=loads(text, folder=folder))
@@ -66,10 +51,7 @@ def read(text: str, folder: Enclosed) -> Document:
 def changed(document: Document, change: Callable[[str], str], folder: Enclosed) -> Document:
     """Return the document after a change of its text; a change that cannot be made leaves it and tells why.
 
-    Raises
-    ------
-    InputError
-        The change cannot be made.
+    Raises InputError: the change cannot be made.
     """
     return read(change(document.text), folder)
 
@@ -78,11 +60,6 @@ def sent(name: str, content: bytes, folder: Enclosed) -> str:
     """Return the TOML text of a file that a user sent, JSON translated.
 
     A file that is TOML but no sound drive is taken as it is: what is wrong with it is then shown beside it.
-
-    Raises
-    ------
-    InputError
-        It is too large, no text, or neither TOML nor a drive in JSON.
     """
     if len(content) > MAX_UPLOAD:
         raise refuse(name, _("is larger than {limit} MB; no drive file is").format(limit=MAX_UPLOAD // 10**6))

@@ -31,48 +31,20 @@ OFFERED = {"type": "joint_types", "size": "joint_sizes", "grade": "materials", "
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Entry:
-    """A key of a table: what it means, what it takes, what stands there.
+    """A key of a table: what it means, what it takes, what stands there."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the field, without a unit.
-    path : str
-        Path of the table.
-    sort : str
-        What it takes.
-    doc : str
-        What it means, in the user's language.
-    value : object
-        What stands there, in ``unit``; None where the file does not give it.
-    unit : str
-        Unit that the file uses, or the one we prefer; empty without a dimension.
-    units : mapping of str to float
-        All units that may be chosen, each with its factor to SI.
-    choices : tuple of str
-        Words that may be chosen; empty for free text.
-    offered : tuple of str
-        Words of the catalogue that are likely; others may be written.
-    default : object
-        What holds where the file does not give it.
-    required : bool
-        Whether it must be given.
-    size : int
-        How many numbers it takes; 0 for any, -2 for pairs.
-    """
-
-    name: str
-    path: str
-    sort: Sort
-    doc: str
-    value: Any
-    unit: str
-    units: Mapping[str, float]
-    choices: tuple[str, ...]
-    default: Any
-    required: bool
-    size: int = 0
-    offered: tuple[str, ...] = ()
+    name: str  # name of the field, without a unit
+    path: str  # path of the table
+    sort: Sort  # what it takes
+    doc: str  # what it means, in the user's language
+    value: Any  # what stands there, in ``unit``; None where the file does not give it
+    unit: str  # unit that the file uses, or the one we prefer; empty without a dimension
+    units: Mapping[str, float]  # all units that may be chosen, each with its factor to SI
+    choices: tuple[str, ...]  # words that may be chosen; empty for free text
+    default: Any  # what holds where the file does not give it
+    required: bool  # whether it must be given
+    size: int = 0  # how many numbers it takes; 0 for any, -2 for pairs
+    offered: tuple[str, ...] = ()  # words of the catalogue that are likely; others may be written
 
     @property
     def given(self) -> bool:
@@ -88,30 +60,14 @@ class Entry:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Section:
-    """A table of the file.
+    """A table of the file."""
 
-    Attributes
-    ----------
-    path : str
-        Its path; empty for the head of the file.
-    title : str
-        What it is.
-    kind : str
-        Its kind, where there are several.
-    kinds : tuple of str
-        Those it may be.
-    entries : tuple of Entry
-        All keys that it may have.
-    removable : str
-        Path by which it can be taken out; empty where it cannot.
-    """
-
-    path: str
+    path: str  # its path; empty for the head of the file
     title: str
-    kind: str = ""
-    kinds: tuple[str, ...] = ()
-    entries: tuple[Entry, ...] = ()
-    removable: str = ""
+    kind: str = ""  # its kind, where there are several
+    kinds: tuple[str, ...] = ()  # those it may be
+    entries: tuple[Entry, ...] = ()  # all keys that it may have
+    removable: str = ""  # path by which it can be taken out; empty where it cannot
 
     @property
     def given(self) -> tuple[Entry, ...]:
@@ -133,13 +89,7 @@ def tree_of(text: str) -> dict[str, Any] | None:
 
 
 def parts(tree: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """Yield path and title of every table at the top, in the order of the power flow.
-
-    Examples
-    --------
-    >>> [path for path, title in parts({"joints": [{}]})][:5]
-    ['', 'input', 'shafts[0]', 'joints[0]', 'shafts[1]']
-    """
+    """Yield path and title of every table at the top, in the order of the power flow."""
     yield "", _("Drive")
     yield "input", _("Input")
     joints = tables(tree, "joints")
@@ -166,20 +116,8 @@ def parts(tree: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 def section(tree: Mapping[str, Any], path: str, title: str = "") -> Section:
     """Return a table of the file with all its keys.
 
-    Parameters
-    ----------
-    tree : mapping
-        The file as nested tables.
-    path : str
-        Path of the table, which need not be there yet; ``shafts[1]`` is shaft number 2.
-    title : str
-        What it is.
-
-    Examples
-    --------
-    >>> head = section({"joints": [{"centre_mm": [0, 0, 0]}]}, "joints[0]")
-    >>> head.kind, [one.key() for one in head.given]
-    ('hooke', ['joints[0].centre_mm'])
+    tree: the file as nested tables.
+    path: path of the table, which need not be there yet; ``shafts[1]`` is shaft number 2.
     """
     cls, table, base = _found(tree, path)
     kind, kinds = "", tuple[str, ...]()
@@ -197,15 +135,7 @@ def section(tree: Mapping[str, Any], path: str, title: str = "") -> Section:
 
 
 def written(entry: Entry, text: str) -> Any:
-    """Return what a user typed as a value for the file; the text itself where it is none of the sort.
-
-    Examples
-    --------
-    >>> head = section({}, "duty")
-    >>> speed = next(one for one in head.entries if one.name == "speed")
-    >>> written(speed, "1 500,5"), written(speed, "fast")
-    (1500.5, 'fast')
-    """
+    """Return what a user typed as a value for the file; the text itself where it is none of the sort."""
     plain = text.strip()
     if entry.sort in ("number", "whole"):
         return _number(plain)
@@ -220,14 +150,7 @@ def written(entry: Entry, text: str) -> Any:
 
 
 def shown(entry: Entry) -> str:
-    """Return what stands there as a user would type it.
-
-    Examples
-    --------
-    >>> head = section({"joints": [{"centre_mm": [0, 1.5, -20]}]}, "joints[0]")
-    >>> shown(head.given[0])
-    '0 1.5 -20'
-    """
+    """Return what stands there as a user would type it."""
     value = entry.value
     if value is None:
         return ""
@@ -238,14 +161,7 @@ def shown(entry: Entry) -> str:
 
 
 def converted(entry: Entry, unit: str) -> Any:
-    """Return what stands there in another of its units.
-
-    Examples
-    --------
-    >>> head = section({"joints": [{"centre_mm": [0, 1.5, -20]}]}, "joints[0]")
-    >>> converted(head.given[0], "m")
-    [0, 0.0015, -0.02]
-    """
+    """Return what stands there in another of its units."""
     share = entry.units[entry.unit] / entry.units[unit]
 
     def turned(value: Any) -> Any:
@@ -286,8 +202,6 @@ def _number(text: str) -> float | int | str | None:
 def tables(tree: Mapping[str, Any], name: str) -> Sequence[Mapping[str, Any]]:
     """Return the tables of a list; empty ones where something else stands.
 
-    Examples
-    --------
     >>> tables({"joints": [{"joint_angle_deg": 20}, 5]}, "joints"), tables({"joints": 5}, "joints")
     ([{'joint_angle_deg': 20}, {}], [])
     """

@@ -13,15 +13,7 @@ ROOM = 20_000_000
 
 @dataclass(frozen=True, slots=True)
 class History:
-    """The texts before and after the present one.
-
-    Examples
-    --------
-    >>> history = History().after("a")
-    >>> back = history.undone("b")
-    >>> back[0], back[1].redone("a")[0]
-    ('a', 'b')
-    """
+    """The texts before and after the present one."""
 
     before: tuple[str, ...] = ()
     behind: tuple[str, ...] = ()

@@ -29,23 +29,8 @@ KEPT = 48
 class Job:
     """A question on its way; read it as often as you like, from any thread.
 
-    Parameters
-    ----------
-    question : Question
-        What is asked.
-    owner : hashable
-        Who asks.
-
-    Attributes
-    ----------
-    state : str
-        waiting, running, done, failed or cancelled.
-    share : float
-        How much is done, 0 to 1.
-    result : object
-        The answer, once it is done.
-    message : str
-        Why it failed, in the language of the question.
+    state: waiting, running, done, failed or cancelled; share: how much is done, 0 to 1.
+    result: the answer, once it is done; message: why it failed, in the language of the question.
     """
 
     def __init__(self, question: Question, owner: Hashable) -> None:
@@ -85,12 +70,7 @@ class Job:
 class Jobs:
     """Work for all users of a server: so many processes at a time, started when they are needed first.
 
-    Parameters
-    ----------
-    workers : int
-        Processes at most.
-    made : function
-        What answers a question there.
+    workers: processes at most.
     """
 
     def __init__(self, workers: int = 2, *, made: Made = result) -> None:
@@ -119,12 +99,7 @@ class Jobs:
     def ask(self, question: Question, owner: Hashable) -> Job:
         """Return the job that answers a question; an older one on the same question of the same owner ends.
 
-        Parameters
-        ----------
-        question : Question
-            What is asked.
-        owner : hashable
-            Who asks; all owners are served alike.
+        owner: who asks; all owners are served alike.
         """
         self.start()
         job = Job(question, owner)

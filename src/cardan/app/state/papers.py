@@ -31,15 +31,10 @@ REPORT, PART, COMPARE = "report", "part", "compare"
 def asked_for(session: Session, name: str, **choices: Any) -> Question | None:
     """Return the question for a paper about the drive that a user works on; None while there is none.
 
-    Parameters
-    ----------
-    session : Session
-        What the user works on: units and decimal sign are those of its choices.
-    name : str
-        One of `REPORT`, `PART` and `COMPARE`.
-    **choices
-        Of a report its ``form``; of a part the ``thing`` and its ``kind``; of a comparison the ``variants``, names and
-        drives.
+    session: what the user works on: units and decimal sign are those of its choices.
+    name: one of `REPORT`, `PART` and `COMPARE`.
+    **choices: of a report its ``form``; of a part the ``thing`` and its ``kind``; of a comparison the ``variants``,
+    names and drives.
     """
     return asked(session, name, **choices)
 
@@ -56,21 +51,8 @@ def of_report(session: Session, form: Form) -> Question | None:
 def made(question: Question, known: Catalogue | None, progress: Progress | None = None) -> Exported | Page:
     """Return the paper that a question asks for, in the language spoken.
 
-    Parameters
-    ----------
-    question : Question
-        Of `asked_for`.
-    known : Catalogue or None
-        Norms, types and sizes that the drive is judged by.
-    progress : function, optional
-        Called with the share done; answering "stop" ends the work.
-
-    Raises
-    ------
-    InputError
-        There is no such paper.
-    MissingExtraError
-        What writes it is not installed.
+    question: of `asked_for`; known: norms, types and sizes that the drive is judged by.
+    Raises MissingExtraError: what writes it is not installed.
     """
     how = dict(question.choices)
     if question.name == REPORT:
@@ -105,11 +87,5 @@ def _most(progress: Progress | None) -> Callable[[float], object] | None:
 
 
 def safe(name: str, otherwise: str = "drive") -> str:
-    """Return a name that every file system takes.
-
-    Examples
-    --------
-    >>> safe("Truck: 4 joints / rear"), safe("../..")
-    ('Truck-4-joints-rear', 'drive')
-    """
+    """Return a name that every file system takes."""
     return re.sub(r"[\W_]+", "-", name).strip("-")[:60].strip("-") or otherwise

@@ -20,30 +20,15 @@ Progress: TypeAlias = Callable[[float], object]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Question:
-    """What somebody wants to know.
+    """What somebody wants to know."""
 
-    Parameters
-    ----------
-    name : str
-        A question of `cardan.register.QUESTIONS`, `VERDICTS`, `REMEDIES`, one of `papers`, or `recordings.DIAGNOSIS`.
-    drive : Drive
-        About which drive.
-    folder : Path
-        Where files that the drive names are looked for, and nowhere else.
-    language : str
-        In which language.
-    reader : Reader
-        In which units, with which decimal sign.
-    choices : mapping of str to value
-        What the user chose beside the drive.
-    """
-
+    # a question of `cardan.register.QUESTIONS`, `VERDICTS`, `REMEDIES`, one of `papers`, or `recordings.DIAGNOSIS`
     name: str
-    drive: Drive
-    folder: Path
+    drive: Drive  # about which drive
+    folder: Path  # where files that the drive names are looked for, and nowhere else
     language: str = "en"
-    reader: Reader = USUAL
-    choices: Mapping[str, Any] = field(default_factory=dict)
+    reader: Reader = USUAL  # in which units, with which decimal sign
+    choices: Mapping[str, Any] = field(default_factory=dict)  # what the user chose beside the drive
 
     @property
     def key(self) -> str:
@@ -63,14 +48,7 @@ class Question:
 def asked(session: Session, name: str, **choices: Any) -> Question | None:
     """Return the question about the drive that a user works on; None while there is none.
 
-    Parameters
-    ----------
-    session : Session
-        What the user works on.
-    name : str
-        Which question.
-    **choices
-        What the user chose beside the drive.
+    **choices: what the user chose beside the drive.
     """
     if session.drive is None:
         return None

@@ -31,38 +31,18 @@ DIAGNOSIS = "diagnosis"
 
 @dataclass(frozen=True, kw_only=True)
 class Recording:
-    """A recording that is open.
+    """A recording that is open."""
 
-    Parameters
-    ----------
-    name : str
-        As the user calls it.
-    path : Path
-        Its file.
-    stamp : (int, int)
-        Time of its last change and its size: another state of the file is another recording.
-    said : Said
-        What the user says of it.
-    """
-
-    name: str
-    path: Path
-    stamp: tuple[int, int]
-    said: Said = field(default_factory=Said)
+    name: str  # as the user calls it
+    path: Path  # its file
+    stamp: tuple[int, int]  # time of its last change and its size: another state of the file is another recording
+    said: Said = field(default_factory=Said)  # what the user says of it
 
 
 class Recordings:
     """The recording of one user, sent, or opened from the folder.
 
-    Parameters
-    ----------
-    workspace : Workspace
-        The folder with the user's files.
-
-    Attributes
-    ----------
-    opened : Recording or None
-        The one that is open.
+    workspace: the folder with the user's files; opened: the one that is open.
     """
 
     def __init__(self, workspace: Workspace) -> None:
@@ -85,20 +65,14 @@ class Recordings:
     def open(self, name: str) -> None:
         """Open a recording of the folder.
 
-        Raises
-        ------
-        InputError
-            There is none of that name in the folder.
+        Raises InputError: there is none of that name in the folder.
         """
         self._open(name, self.workspace.place(name))
 
     def open_example(self, name: str) -> None:
         """Open a shipped recording.
 
-        Raises
-        ------
-        InputError
-            There is none of that name.
+        Raises InputError: there is none of that name.
         """
         path = example_file(name)
         self._open(path.name, path)
@@ -106,10 +80,7 @@ class Recordings:
     def room(self, name: str) -> Path:
         """Return where the content of a file that the user sends is put; `take` opens it then.
 
-        Parameters
-        ----------
-        name : str
-            As the browser calls it; nothing but its letters and its end are taken from it.
+        name: as the browser calls it; nothing but its letters and its end are taken from it.
         """
         self._delete_coming()
         folder = Path(mkdtemp(prefix="cardan-"))
@@ -118,13 +89,7 @@ class Recordings:
         return folder / (plain or "recording")
 
     def take(self, name: str, path: Path) -> None:
-        """Open the file that was put into its room; what was sent before is deleted.
-
-        Raises
-        ------
-        InputError
-            It is too large.
-        """
+        """Open the file that was put into its room; what was sent before is deleted."""
         if path.stat().st_size > MAX_RECORDING:
             self._delete_coming()
             raise refuse(name, _("larger than {size} MB").format(size=MAX_RECORDING // 10**6), "out_of_range")
@@ -169,20 +134,7 @@ def heard(
 ) -> Recorded:
     """Return what a recording tells of a drive, in the language spoken.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive in order.
-    recording : Recording
-        The recording.
-    known : Catalogue or None
-        With the table of faults.
-    progress : function, optional
-        Called with the share done; answering "stop" ends the work.
-
-    Raises
-    ------
-    InputError
-        The file is none that can be read.
+    drive: the drive in order.
+    Raises InputError: the file is none that can be read.
     """
     return recorded(recording.path, drive, recording.said, known=known, progress=progress)

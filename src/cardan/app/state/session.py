@@ -28,35 +28,17 @@ Listener: TypeAlias = Callable[[], None]
 class Session:
     """What one user works on; two sessions share nothing but the folder.
 
-    Parameters
-    ----------
-    workspace : Workspace
-        The folder with the user's files.
-    choices : Choices
-        How the user likes to see things.
-
-    Attributes
-    ----------
-    document : Document
-        The file as it stands.
-    drive : Drive or None
-        The last sound drive; answers are about this one.
-    name : str
-        Name of the file in the workspace; empty for one that was never saved.
-    selected : str
-        Path of the part the user looks at, ``joints[1]``, ``shafts[2]``; empty for none.
-    notice : str
-        What the user should be told first; empty for nothing.
-    dark : bool
-        Whether the system of the user is dark; asked of the browser.
-    variants : Variants
-        The variants kept, also while another file is opened.
-    recordings : Recordings
-        The recording that is open, which nobody else sees.
-    rebuild : function
-        Builds the parts of the page anew: another file, another language.
-    later : function
-        Calls a function once what cannot wait has gone out to the browser; at once unless a page says otherwise.
+    workspace: the folder with the user's files; choices: how the user likes to see things.
+    document: the file as it stands.
+    drive: the last sound drive; answers are about this one.
+    name: name of the file in the workspace; empty for one that was never saved.
+    selected: path of the part the user looks at, ``joints[1]``, ``shafts[2]``; empty for none.
+    notice: what the user should be told first; empty for nothing.
+    dark: whether the system of the user is dark; asked of the browser.
+    variants: the variants kept, also while another file is opened.
+    recordings: the recording that is open, which nobody else sees.
+    rebuild: builds the parts of the page anew: another file, another language.
+    later: calls a function once what cannot wait has gone out to the browser; at once unless a page says otherwise.
     """
 
     def __init__(self, workspace: Workspace, choices: Choices | None = None) -> None:
@@ -83,16 +65,8 @@ class Session:
     def listen(self, change: Change, listener: Listener, *, first: bool = False, lasting: bool = False) -> None:
         """Have a function called after every change of a sort.
 
-        Parameters
-        ----------
-        change : str
-            The sort.
-        listener : function
-            What is called.
-        first : bool
-            Of an edit it is told before all others and at once: it shows what the user waits for.
-        lasting : bool
-            It stays when the parts of the page are built anew.
+        first: of an edit it is told before all others and at once: it shows what the user waits for.
+        lasting: it stays when the parts of the page are built anew.
         """
         kept = self._lasting if lasting else self._first if first else self._listeners
         kept.setdefault(change, []).append(listener)
@@ -144,14 +118,8 @@ class Session:
     def open(self, text: str, name: str = "", *, saved: bool = True) -> None:
         """Begin with another file; the page is built anew for it.
 
-        Parameters
-        ----------
-        text : str
-            The file.
-        name : str
-            Its name in the workspace; empty for a new one.
-        saved : bool
-            Whether the workspace has it so.
+        name: its name in the workspace; empty for a new one.
+        saved: whether the workspace has it so.
         """
         self.history, self.selected, self.name = History(), "", name
         self.end_gesture()
@@ -163,10 +131,7 @@ class Session:
     def take(self, name: str, content: bytes) -> None:
         """Begin with a file that the user sent; it is read as data and written nowhere.
 
-        Raises
-        ------
-        InputError
-            It is too large, no text, or no TOML or JSON.
+        Raises InputError: it is too large, no text, or no TOML or JSON.
         """
         self.open(sent(name, content, self.workspace.enclosed), saved=False)
 
@@ -178,17 +143,8 @@ class Session:
     def change(self, how: Callable[[str], str], *, gesture: str = "") -> None:
         """Change the text by a function of it.
 
-        Parameters
-        ----------
-        how : function
-            Text before -> text behind.
-        gesture : str
-            Changes of the same gesture, such as a drag, are undone together.
-
-        Raises
-        ------
-        InputError
-            The change cannot be made; everything stays as it was.
+        how: text before -> text behind; gesture: changes of the same gesture, such as a drag, are undone together.
+        Raises InputError: the change cannot be made; everything stays as it was.
         """
         after = changed(self.document, how, self.workspace.enclosed)
         if after.text == self.document.text:
@@ -218,10 +174,7 @@ class Session:
     def save(self, name: str = "") -> None:
         """Write the file into the workspace.
 
-        Raises
-        ------
-        InputError
-            It has no name yet, the name leads out of the workspace, or it cannot be written.
+        Raises InputError: it has no name yet, the name leads out of the workspace, or it cannot be written.
         """
         self.name = self.workspace.write(name or self.name, self.document.text)
         self._saved = self.document.text

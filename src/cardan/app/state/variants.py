@@ -18,34 +18,16 @@ LONGEST = 40
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Variant:
-    """A drive file as it was when it was kept.
+    """A drive file as it was when it was kept."""
 
-    Parameters
-    ----------
-    name : str
-        What it is called.
-    text : str
-        The file.
-    drive : Drive
-        What it describes.
-    """
-
-    name: str
-    text: str
-    drive: Drive
+    name: str  # what it is called
+    text: str  # the file
+    drive: Drive  # what it describes
 
 
 @dataclass(frozen=True, eq=False)
 class Variants:
-    """The variants of one window, in the order in which they were kept.
-
-    Examples
-    --------
-    >>> from cardan.io import example, example_text
-    >>> kept = Variants().keeping("as built", example_text("z-arrangement"), example("z-arrangement"))
-    >>> kept.names, kept.free_name()
-    (('as built',), 'variant 2')
-    """
+    """The variants of one window, in the order in which they were kept."""
 
     kept: tuple[Variant, ...] = ()
 
@@ -68,13 +50,7 @@ class Variants:
         return len(self.kept) >= MOST
 
     def named(self, name: str) -> Variant:
-        """Return the one of a name.
-
-        Raises
-        ------
-        InputError
-            There is none.
-        """
+        """Return the one of a name."""
         found = next((one for one in self.kept if one.name == name), None)
         if found is None:
             raise refuse("variant", _("there is no variant {name}").format(name=name))
@@ -92,13 +68,7 @@ class Variants:
         return _("variant {number}").format(number=number)
 
     def keeping(self, name: str, text: str, drive: Drive) -> Variants:
-        """Return them with one more, or with another one under a name that is there.
-
-        Raises
-        ------
-        InputError
-            The name is empty or too long, or there is no room for one more.
-        """
+        """Return them with one more, or with another one under a name that is there."""
         new = Variant(name=_sound(name), text=text, drive=drive)
         if new.name in self.names:
             return Variants(tuple(new if one.name == new.name else one for one in self.kept))
@@ -107,13 +77,7 @@ class Variants:
         return Variants((*self.kept, new))
 
     def renaming(self, name: str, new: str) -> Variants:
-        """Return them with one called otherwise.
-
-        Raises
-        ------
-        InputError
-            There is none of that name, or the new name is empty, too long or taken.
-        """
+        """Return them with one called otherwise."""
         self.named(name)
         sound = _sound(new)
         if sound != name and sound in self.names:
@@ -127,12 +91,7 @@ class Variants:
     def compared(self, text: str, drive: Drive | None) -> tuple[tuple[str, Drive], ...]:
         """Return names and drives to be compared: what the user works on first, unless it is one of them.
 
-        Parameters
-        ----------
-        text : str
-            The file as it stands.
-        drive : Drive or None
-            The last sound drive that it described.
+        text: the file as it stands; drive: the last sound drive that it described.
         """
         rows = tuple((one.name, one.drive) for one in self.kept)
         if drive is None or self.of_text(text) is not None:

@@ -27,17 +27,7 @@ VERDICTS, REMEDIES = "verdicts", "remedies"
 def result(question: Question, progress: Progress | None = None) -> Result:
     """Return the answer to a question, in its language.
 
-    Parameters
-    ----------
-    question : Question
-        What is asked.
-    progress : function, optional
-        Called with the share done; answering "stop" ends the work.
-
-    Raises
-    ------
-    InputError
-        The files that the drive names cannot be read, or it cannot be judged.
+    Raises InputError: the files that the drive names cannot be read, or it cannot be judged.
     """
     with speaking(question.language), reading(question.reader):
         known = known_to(question.drive, Enclosed(question.folder)) if question.drive.settings.catalogues else None

@@ -46,13 +46,7 @@ class Failed:
 
 
 class Worker:
-    """A process and the line to it; it is started at once and lives until it is ended.
-
-    Parameters
-    ----------
-    made : function
-        What answers a question there.
-    """
+    """A process and the line to it; it is started at once and lives until it is ended."""
 
     def __init__(self, made: Made) -> None:
         context = multiprocessing.get_context("spawn")
@@ -72,10 +66,7 @@ class Worker:
     def heard(self, timeout: float) -> Share | Done | Failed | None:
         """Return what it says within a time; None where it says nothing.
 
-        Raises
-        ------
-        EOFError, OSError
-            It is no more.
+        Raises EOFError, OSError: it is no more.
         """
         return self.line.recv() if self.line.poll(timeout) else None
 

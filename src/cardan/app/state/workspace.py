@@ -20,15 +20,9 @@ MAX_LISTED = 200
 
 @dataclass(frozen=True, slots=True)
 class Workspace:
-    """A folder with drive files.
+    """A folder with drive files."""
 
-    Parameters
-    ----------
-    folder : Path
-        Where they are.
-    """
-
-    folder: Path
+    folder: Path  # where they are
 
     @property
     def enclosed(self) -> Enclosed:
@@ -44,33 +38,21 @@ class Workspace:
     def read(self, name: str) -> str:
         """Return the text of a file.
 
-        Raises
-        ------
-        InputError
-            There is none of that name in the folder, or it is no text.
+        Raises InputError: there is none of that name in the folder, or it is no text.
         """
         return text_of(self.place(name))[0]
 
     def write(self, name: str, text: str) -> str:
         """Write a file and return its name, with .toml at its end.
 
-        Raises
-        ------
-        InputError
-            The name is none, leads out of the folder, or the file cannot be written.
+        Raises InputError: the name is none, leads out of the folder, or the file cannot be written.
         """
         full = name if name.endswith(".toml") or not name else f"{name}.toml"
         write_text(self.place(full), text)
         return full
 
     def place(self, name: str) -> Path:
-        """Return where the file of a name is.
-
-        Raises
-        ------
-        InputError
-            The name is none, or leads out of the folder.
-        """
+        """Return where the file of a name is."""
         if not re.fullmatch(r"[^/\\\x00-\x1f:*?\"<>|.][^/\\\x00-\x1f:*?\"<>|]{0,120}", name):
             raise refuse("name", _("{name} is not a file name").format(name=repr(name)))
         return self.enclosed / name

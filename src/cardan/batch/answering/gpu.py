@@ -31,10 +31,7 @@ Each size is compiled once, which takes seconds; a piece of the largest takes ab
 def jax_numpy() -> tuple[Any, Any]:
     """Return JAX and its array library, set to 64 bits.
 
-    Raises
-    ------
-    MissingExtraError
-        It is not installed.
+    Raises MissingExtraError: it is not installed.
     """
     jax().config.update("jax_enable_x64", True)
     return jax(), numpy()
@@ -45,20 +42,9 @@ def answered(
 ) -> tuple[list[tuple[str, Array]], Array]:
     """Return answers to questions about motion, and which points are drives.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive in which places and angles vary.
-    questions : tuple of str
-        Names of questions about motion.
-    si : mapping of str to array (count,)
-        Path without unit -> values in SI.
-    count : int
-
-    Returns
-    -------
-    list of (str, array (count,)), array of bool (count,)
-        In NumPy.
+    drive: the drive in which places and angles vary; questions: names of questions about motion.
+    si, mapping of str to array (count,): path without unit -> values in SI.
+    Returns list of (str, array (count,)), array of bool (count,).
     """
     _jax, xp = jax_numpy()
     piece = next((size for size in PIECES if size >= count), PIECES[-1])

@@ -44,25 +44,14 @@ class OneShaft:
 class Many:
     """Drives in arrays (n,), one of each attribute for all.
 
-    Attributes
-    ----------
-    chain : Chain (n, joints)
-        The Hooke joints that turn alike.
-    joint_angle : array (n, joints) [rad]
-        Bends of the joints themselves.
-    length : array (n, joints + 1) [m] or None
-        Lengths of the shafts, where the joint centres give them.
-    speed, acceleration : arrays (n,) or float [rad/s, rad/s²]
-        Of the input; nan where the drive does not say.
-    method : Plain or Compiled, optional
-        How extremes are computed.
+    speed, acceleration (n,) [rad/s, rad/s²]: of the input; nan where the drive does not say.
     """
 
-    chain: Chain
-    joint_angle: Array
-    length: Array | None
+    chain: Chain  # Chain (n, joints): the Hooke joints that turn alike
+    joint_angle: Array  # (n, joints) [rad]: bends of the joints themselves
+    length: Array | None  # (n, joints + 1) [m]: lengths of the shafts, where the joint centres give them
     speed: Array | float
-    method: Method | None = None
+    method: Method | None = None  # how extremes are computed
 
     @cached_property
     def output(self) -> Extremes | OneShaft:
@@ -76,13 +65,7 @@ class Many:
 
     @property
     def lengths(self) -> Array:
-        """Lengths of the shafts between two joints, array (n, joints - 1) [m].
-
-        Raises
-        ------
-        InputError
-            The joint centres do not give them.
-        """
+        """Lengths of the shafts between two joints, array (n, joints - 1) [m]."""
         if self.length is None:
             raise refuse("joints", _("only drives given by joint centres have lengths here"))
         return self.length[..., 1:-1]
@@ -118,8 +101,6 @@ class Seen(Many):
 def one(drive: Drive) -> Many:
     """Return a single drive, n = 1.
 
-    Examples
-    --------
     >>> one(Drive.from_angles([0.3])).output.joint_angle
     array([0.3])
     """
@@ -144,31 +125,10 @@ def many(
 ) -> tuple[Many, Array]:
     """Return drives that differ in places and angles, and which of them are drives.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive in which values vary.
-    varied : mapping of str to array (count,)
-        Path without unit -> values in SI.
-    count : int
-    method : Plain or Compiled, optional
-    xp : array-API namespace, optional
-        Library that computes.
-
-    Returns
-    -------
-    Many
-        Where there is no drive, its arrays hold the drive as it is.
-    real : array of bool (count,)
-        Whether bends are below 90°, points do not coincide and joints turn at their bends.
-
-    Examples
-    --------
-    >>> pair = Drive.from_angles([0.3, 0.3])
-    >>> found, real = many(pair, {"joints[1].joint_angle": np.asarray([0.3, 2.0])}, 2)
-    >>> found.joint_angle, real
-    (array([[0.3, 0.3],
-           [0.3, 0.3]]), array([ True, False]))
+    drive: the drive in which values vary; varied, mapping of str to array (count,): path without unit -> values in SI.
+    xp: library that computes.
+    Returns Many: where there is no drive, its arrays hold the drive as it is; real, array of bool (count,): whether
+    bends are below 90°, points do not coincide and joints turn at their bends.
     """
     here = {path: xp.asarray(values, dtype=xp.float64) for path, values in varied.items()}
 

@@ -12,13 +12,7 @@ from cardan.units import nearest
 
 
 def questions() -> dict[str, SweepQuestion]:
-    """Return everything that a sweep may ask, by its name.
-
-    Examples
-    --------
-    >>> list(questions())[:3]
-    ['speed_fluctuation', 'alpha_eq', 'ratio']
-    """
+    """Return everything that a sweep may ask, by its name."""
     return {one.name: one for question in QUESTIONS.values() for one in question.columns}
 
 
@@ -31,13 +25,6 @@ def _found(name: str) -> Iterator[SweepQuestion]:
 def asked(names: Sequence[str]) -> tuple[SweepQuestion, ...]:
     """Return questions by their names.
 
-    Raises
-    ------
-    InputError
-        Every name that is no question, with the nearest that is; a name given twice.
-
-    Examples
-    --------
     >>> [one.name for one in asked(["speed_fluctuation", "life"])]
     ['speed_fluctuation', 'life']
     """

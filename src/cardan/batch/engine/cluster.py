@@ -230,13 +230,7 @@ class _Link:
             time.sleep(OFTEN)
 
     def _like_us(self) -> None:
-        """Refuse workers that would compute something else.
-
-        Raises
-        ------
-        InputError
-            Some run another version of Python or of this program, or lack it.
-        """
+        """Refuse workers that would compute something else."""
         ask = "(__import__('sys').version_info[:2], __import__('cardan').__version__)"
         here = (sys.version_info[:2], VERSION)
         found = self.client.run(eval, ask, on_error="return") if self.client is not None else {}
@@ -246,13 +240,7 @@ class _Link:
             raise refuse("scheduler", _odd(str(where), told, here), "inconsistent")
 
     def threads(self) -> int:
-        """Return how many threads the workers have, as of a moment ago.
-
-        Raises
-        ------
-        EngineLostError
-            There has been no worker for too long.
-        """
+        """Return how many threads the workers have, as of a moment ago."""
         now = time.monotonic()
         if now - self._looked >= LOOK and self.client is not None and self.up():
             with suppress(Exception):  # a scheduler that is busy or gone tells nothing; the line will show which
@@ -273,13 +261,7 @@ class _Link:
             return None
 
     def taken(self, chunk: Chunk, future: Any) -> Done[Any] | None:
-        """Return what became of a chunk; None where it has to be waited for once more, or done again.
-
-        Raises
-        ------
-        _KilledError
-            Workers died.
-        """
+        """Return what became of a chunk; None where it has to be waited for once more, or done again."""
         if future.status in GONE or future.status == "pending":
             return None
         try:

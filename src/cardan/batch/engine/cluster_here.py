@@ -28,20 +28,8 @@ library = later("distributed", mark("a cluster needs dask.distributed: pip insta
 def local_cluster(workers: int) -> Iterator[str]:
     """Start a cluster on this machine that nobody else can reach, and end it afterwards.
 
-    Parameters
-    ----------
-    workers : int
-        How many processes, one thread each.
-
-    Yields
-    ------
-    str
-        Address of its scheduler.
-
-    Raises
-    ------
-    EngineLostError
-        Its processes cannot begin.
+    workers: how many processes, one thread each.
+    Yields: address of its scheduler.
     """
     if getattr(multiprocessing.current_process(), "_inheriting", False):
         raise RuntimeError(stillborn(""))  # a script without a guard, which a worker of ours imports as it begins

@@ -40,21 +40,11 @@ class EngineLostError(CardanError):
 
 @dataclass(frozen=True, slots=True)
 class Done(Generic[T_co]):
-    """What became of a chunk.
-
-    Attributes
-    ----------
-    chunk : Chunk
-        The chunk.
-    value : object or None
-        What the task gave; None where it failed.
-    failure : str or None
-        Why there is nothing.
-    """
+    """What became of a chunk."""
 
     chunk: Chunk
-    value: T_co | None = None
-    failure: str | None = None
+    value: T_co | None = None  # what the task gave; None where it failed
+    failure: str | None = None  # why there is nothing
 
 
 class Engine(Protocol):
@@ -70,20 +60,10 @@ class Engine(Protocol):
     ) -> Generator[Done[T], None, None]:
         """Work on chunks.
 
-        Parameters
-        ----------
-        task : function of Chunk
-            Pure, and picklable where the engine has other processes.
-        chunks : iterable of Chunk
-            Taken as they are needed.
-        heard : function, optional
-            Called between chunks, and every `OFTEN` seconds while waiting for one; may answer "stop", which ends the
-            iterator.
-
-        Yields
-        ------
-        Done
-            As chunks are ready, in any order.
+        task: pure, and picklable where the engine has other processes; chunks: taken as they are needed.
+        heard: called between chunks, and every `OFTEN` seconds while waiting for one; may answer "stop", which ends the
+        iterator.
+        Yields Done: as chunks are ready, in any order.
         """
         ...
 
@@ -118,13 +98,7 @@ class InProcess:
 
 
 def reason(error: BaseException) -> str:
-    """Return why something failed, in one sentence.
-
-    Examples
-    --------
-    >>> reason(ZeroDivisionError("division by zero"))
-    'ZeroDivisionError: division by zero'
-    """
+    """Return why something failed, in one sentence."""
     if isinstance(error, InputError):
         return "; ".join(str(problem) for problem in error.problems)
     told = " ".join(str(error).split())

@@ -45,35 +45,14 @@ def run(
 ) -> Sweep:
     """Run a sweep, or what is missing of it.
 
-    Parameters
-    ----------
-    work : Work
-        The sweep.
-    engine : Engine
-        Where its chunks are worked on.
-    into : path, optional
-        Folder for the table. Chunks that are there and whole are not done again, so a run that was ended goes on.
-    rows : {"kept", "none"}
-        Whether the table is kept; without it only the reductions are.
-    chunk : int, optional
-        Rows of a chunk; measured by default. A folder keeps to those it was begun with.
-    progress : function of float, optional
-        Called often with the share of rows done; may answer "stop".
-
-    Returns
-    -------
-    Sweep
-        The same one, bit for bit, on whatever engine and after however many interruptions, for the same chunks.
-
-    Raises
-    ------
-    InputError
-        The folder cannot be used; the table is too large to be held; the engine cannot be reached.
-    MissingExtraError
-        A library is not installed.
-
-    Notes
-    -----
+    engine: where its chunks are worked on.
+    into: folder for the table. Chunks that are there and whole are not done again, so a run that was ended goes on.
+    rows: whether the table is kept; without it only the reductions are.
+    chunk: rows of a chunk; measured by default. A folder keeps to those it was begun with.
+    progress: called often with the share of rows done; may answer "stop".
+    Returns Sweep: the same one, bit for bit, on whatever engine and after however many interruptions, for the same
+    chunks.
+    Raises MissingExtraError: a library is not installed.
     Summaries are merged in the order of the chunks, as JSON holds them, whatever order the chunks are ready in.
     """
     keeps = rows == "kept"
@@ -97,40 +76,20 @@ def run(
 
 @dataclass(frozen=True, kw_only=True)
 class Made:
-    """What a worker made of a chunk.
+    """What a worker made of a chunk."""
 
-    Attributes
-    ----------
-    states : str
-        States of the reductions, as JSON.
-    rows : dict of str to array (n,), or None
-        The rows, where they are not written there.
-    refused : str
-        Why they could not be written there.
-    """
-
-    states: str
-    rows: Rows | None = None
-    refused: str = ""
+    states: str  # states of the reductions, as JSON
+    rows: Rows | None = None  # dict of str to array (n,),: the rows, where they are not written there
+    refused: str = ""  # why they could not be written there
 
 
 @dataclass(frozen=True, kw_only=True)
 class Making:
-    """What a worker does with a chunk: evaluates it, sums it up, and writes it or sends it.
+    """What a worker does with a chunk: evaluates it, sums it up, and writes it or sends it."""
 
-    Attributes
-    ----------
-    work : Work
-        The sweep.
-    keeps : bool
-        Whether rows are kept; without them the work sums up as it goes, where it can.
-    folder : Folder or None
-        Where to write; None where rows are sent.
-    """
-
-    work: Work
-    keeps: bool
-    folder: Folder | None = None
+    work: Work  # the sweep
+    keeps: bool  # whether rows are kept; without them the work sums up as it goes, where it can
+    folder: Folder | None = None  # where to write; None where rows are sent
 
     def __call__(self, chunk: Chunk) -> Made:
         """Return what a chunk holds."""

@@ -36,12 +36,7 @@ def sensitivity_figures(found: Sensitivity) -> tuple[Figure, ...]:
 def sensitivity_figure(found: Sensitivity, answer: int = 0) -> Figure:
     """Return the shares of the variance of one answer, the greatest field first, with their ranges.
 
-    Parameters
-    ----------
-    found : Sensitivity
-        Of one drive.
-    answer : int
-        Which answer.
+    found: of one drive.
     """
     order = found.ranked(answer)[:BARS][::-1]  # the greatest stands on top
     at = np.arange(len(order), dtype=float)
@@ -111,12 +106,7 @@ def swings_figures(found: Swings) -> tuple[Figure, ...]:
 def swings_figure(found: Swings, answer: int = 0) -> Figure:
     """Return how far one answer moves when one field at a time goes from end to end, the farthest on top.
 
-    Parameters
-    ----------
-    found : Swings
-        Of one drive.
-    answer : int
-        Which answer.
+    found: of one drive.
     """
     column = found.answers[answer]
     low, high, here = found.at_low[answer], found.at_high[answer], float(found.middle[answer])
@@ -156,10 +146,7 @@ def swings_figure(found: Swings, answer: int = 0) -> Figure:
 def ranks_figure(found: Ranks) -> Figure:
     """Return how an answer rises and falls with each field, the weightiest on top.
 
-    Parameters
-    ----------
-    found : Ranks
-        Of the table of a sweep.
+    found: of the table of a sweep.
     """
     order = list(range(len(found.fields)))[:BARS][::-1]
     at = np.arange(len(order), dtype=float)
@@ -193,10 +180,7 @@ def ranks_figure(found: Ranks) -> Figure:
 def boundary_figure(found: Boundary) -> Figure:
     """Return the lines at which limits begin to be broken, with the places that were evaluated.
 
-    Parameters
-    ----------
-    found : Boundary
-        Over two fields.
+    found: over two fields.
     """
     step = max(1, -(-len(found.places) // DOTS))
     places, kept = found.places[::step], found.kept[::step]
@@ -239,10 +223,7 @@ def pareto_set_figure(found: ParetoSet) -> Figure:
 def optimum_figure(found: Optimum) -> Figure:
     """Return how the best value became better with the points evaluated.
 
-    Parameters
-    ----------
-    found : Optimum
-        Of one search.
+    found: of one search.
     """
     column = next(one for one in found.answers if one.name == found.goal.name)
     asked, best = found.history.T if len(found.history) else (np.empty(0), np.empty(0))

@@ -33,18 +33,10 @@ def heat_figure(
 ) -> Figure:
     """Return a column over two fields as a map, the darker the greater.
 
-    Parameters
-    ----------
-    across, up, value : Column
-        What runs to the right and upwards, and what is shown.
-    x, y : array (m,), (k,)
-        Middles of the columns and rows of the map, rising, or words.
-    values : array (k, m)
-        nan leaves a hole.
-    how : str
-        What was made of points that share a cell: a word for the sentence below.
-    lines : sequence of array (p, 2)
-        Lines over the map: boundaries.
+    across, up, value: what runs to the right and upwards, and what is shown.
+    x, y (m,), (k,): middles of the columns and rows of the map, rising, or words; values (k, m): nan leaves a hole.
+    how: what was made of points that share a cell: a word for the sentence below.
+    lines, sequence of array (p, 2): lines over the map: boundaries.
     """
     places = [levels(one)[0] for one in (x, y)]
     known = values[np.isfinite(values)]
@@ -131,18 +123,8 @@ def histogram_figure(
 ) -> Figure:
     """Return how often values of a column occur.
 
-    Parameters
-    ----------
-    column : Column
-        What is counted.
-    edges : array (m + 1,)
-        Between the bars.
-    counts : array (m,)
-        Points in each.
-    marks : mapping of str to float, optional
-        Word -> value ruled in: a mean, a limit.
-    unknown : int
-        Points without an answer.
+    column: what is counted; edges (m + 1,): between the bars; counts (m,): points in each.
+    marks: word -> value ruled in: a mean, a limit; unknown: points without an answer.
     """
     middle = 0.5 * (edges[1:] + edges[:-1])
     bars = Bars(at=middle, size=np.asarray(counts, dtype=float), thick=float(0.94 * (edges[1] - edges[0])))

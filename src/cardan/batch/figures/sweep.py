@@ -36,16 +36,9 @@ def parallel_figure(
 ) -> Figure:
     """Return every point as a line across its columns, the darker the better it meets a goal.
 
-    Parameters
-    ----------
-    columns : sequence of Column
-        From the left; those beyond `MOST_COLUMNS` are left out.
-    rows : mapping of str to array (n,)
-        Points, all of the table or some drawn from it.
-    goal : Goal, optional
-        By which lines are shaded and drawn one over the other.
-    total : int, optional
-        Points of the whole table.
+    columns: from the left; those beyond `MOST_COLUMNS` are left out.
+    rows, mapping of str to array (n,): points, all of the table or some drawn from it.
+    goal: by which lines are shaded and drawn one over the other; total: points of the whole table.
     """
     shown = list(columns[:MOST_COLUMNS])
     count = len(rows[shown[0].name]) if shown else 0
@@ -161,16 +154,10 @@ def _named(columns: Sequence[Column], name: str) -> str:
 def pareto_figure(columns: Sequence[Column], goals: Sequence[Goal], front: Rows, others: Rows | None = None) -> Figure:
     """Return points by two goals, those that none beats in ink; a third goal shades them.
 
-    Parameters
-    ----------
-    columns : sequence of Column
-        Those of the goals at least.
-    goals : sequence of Goal
-        Two or more; the first runs across, the second upwards, the third is the shade.
-    front : mapping of str to array (n,)
-        The rows that none beats.
-    others : mapping of str to array (m,), optional
-        Other rows, drawn pale.
+    columns: those of the goals at least.
+    goals: two or more; the first runs across, the second upwards, the third is the shade.
+    front, mapping of str to array (n,): the rows that none beats.
+    others, mapping of str to array (m,): other rows, drawn pale.
     """
     by = {column.name: column for column in columns}
     across, up = (by[goal.name] for goal in goals[:2])

@@ -22,8 +22,6 @@ LONG = 34
 def name_of(column: Column) -> str:
     """Return what a column is called: an answer by its meaning, what stands in the file by its path.
 
-    Examples
-    --------
     >>> name_of(Column(name="alpha_eq_deg", unit="deg", role="answer", text="equivalent angle"))
     'equivalent angle'
     >>> name_of(Column(name="joints[1].centre_mm[2]", unit="mm", role="point", text="joint centre"))
@@ -37,8 +35,6 @@ def name_of(column: Column) -> str:
 def shortened(text: str, most: int = LONG) -> str:
     """Return a text that is not too long: of words the first, of a path the last.
 
-    Examples
-    --------
     >>> shortened("shafts[1].spline.mean_diameter_mm", 20), shortened("speed_fluctuation of the output", 20)
     ('…ne.mean_diameter_mm', 'speed fluctuation of the…')
     """
@@ -55,8 +51,6 @@ def unit_of(column: Column) -> str:
 def title_of(column: Column) -> str:
     """Return what a column is called, with its unit where the name has none: paths have theirs.
 
-    Examples
-    --------
     >>> title_of(Column(name="alpha_eq_deg", unit="deg", role="answer", text="equivalent angle"))
     'equivalent angle [°]'
     """
@@ -67,8 +61,6 @@ def title_of(column: Column) -> str:
 def amount(column: Column, value: Any, digits: int = 3) -> str:
     """Return a value with its unit.
 
-    Examples
-    --------
     >>> amount(Column(name="alpha_eq_deg", unit="deg", role="answer", text=""), 1.25)
     '1.25°'
     """
@@ -91,16 +83,7 @@ def levels(values: Array) -> tuple[Array, tuple[str, ...]]:
 def axis_of(column: Column, values: Array, *, margin: float = 0.05, count: int = 5) -> Axis:
     """Return the axis of a column: round ticks, or its words.
 
-    Parameters
-    ----------
-    column : Column
-        What runs along it.
-    values : array (n,)
-        What it is to hold.
-    margin : float
-        Share of the range left free at both ends.
-    count : int
-        About how many ticks.
+    values (n,); margin: share of the range left free at both ends; count: about how many ticks.
     """
     numbers, words = levels(values)
     if words:
@@ -126,8 +109,6 @@ def ends(values: Array) -> tuple[str, str]:
 def counted(count: int) -> str:
     """Return a number of points with thin grouping.
 
-    Examples
-    --------
     >>> counted(100000)
     '100\u202f000'
     """

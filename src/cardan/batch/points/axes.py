@@ -307,23 +307,9 @@ class SampledAxis:
 
 @dataclass(frozen=True, kw_only=True)
 class Points:
-    """All points of a sweep: the product of its axes, the first one slowest.
+    """All points of a sweep: the product of its axes, the first one slowest."""
 
-    Attributes
-    ----------
-    axes : tuple of Axis
-        None of them: one point, the drive as it is.
-
-    Examples
-    --------
-    >>> speeds = GridAxis(field="duty.speed_rpm", start=1000, stop=2000, count=2)
-    >>> sizes = TableAxis(fields=("joints[0].size",), rows=(("a",), ("b",), ("c",)))
-    >>> points = Points(axes=(speeds, sizes))
-    >>> points.size, points.values(2, 5)["joints[0].size"]
-    (6, array(['c', 'a', 'b'], dtype='<U1'))
-    """
-
-    axes: tuple[Axis, ...]
+    axes: tuple[Axis, ...]  # None of them: one point, the drive as it is
 
     def __post_init__(self) -> None:
         seen: set[str] = set()
@@ -373,8 +359,6 @@ def _holds(value: object) -> bool:
 def column(values: Sequence[Value]) -> Array:
     """Return values of one field as an array: numbers as floats, words and flags as they are.
 
-    Examples
-    --------
     >>> column((1, 2.5)), column((True, False))
     (array([1. , 2.5]), array([ True, False]))
     """

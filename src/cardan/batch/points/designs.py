@@ -26,22 +26,8 @@ _ROUNDS = 4
 def uniforms(method: str, dimensions: int, seed: int, start: int, stop: int, count: int) -> Array:
     """Return points ``start`` to ``stop`` of a design in the unit cube, array (stop - start, dimensions) in (0, 1).
 
-    Parameters
-    ----------
-    method : str
-        One of `METHODS`.
-    dimensions : int
-    seed : int
-    start, stop : int
-        Numbers of the points, from 0.
-    count : int
-        Points of the whole design; a Latin hypercube divides its axes into so many cells.
-
-    Examples
-    --------
-    >>> whole = uniforms("sobol", 2, 7, 0, 64, 64)
-    >>> bool(np.all(whole[40:50] == uniforms("sobol", 2, 7, 40, 50, 64)))
-    True
+    method: one of `METHODS`; start, stop: numbers of the points, from 0.
+    count: points of the whole design; a Latin hypercube divides its axes into so many cells.
     """
     if method == "sobol":
         found = _sobol(dimensions, seed, start, stop)
@@ -107,23 +93,9 @@ def _latin(dimensions: int, seed: int, start: int, stop: int, count: int) -> Arr
 def shuffled(number: Array, count: int, key: int) -> Array:
     """Return the places of numbers in a shuffled row of ``count``, each made by itself.
 
-    Parameters
-    ----------
-    number : array of int (k,)
-        In [0, count).
-    count : int
-    key : int
-        Chooses the order.
-
-    Notes
-    -----
+    number (k,) of int: in [0, count); key: chooses the order.
     A Feistel cipher on the smallest square of powers of two that holds ``count``, applied until the place lies within:
     a bijection whatever the round function.
-
-    Examples
-    --------
-    >>> sorted(shuffled(np.arange(10), 10, 3).tolist())
-    [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]
     """
     half = np.uint64(max(1, -(-max(count - 1, 1).bit_length() // 2)))
     mask = np.uint64((1 << int(half)) - 1)

@@ -197,19 +197,8 @@ DISTRIBUTIONS: dict[str, type[Any]] = {one.kind: one for one in (Uniform, Normal
 def correlated(paths: Sequence[str], correlations: Sequence[tuple[str, str, float]]) -> Array | None:
     """Return the factor L of the correlation matrix L Lᵀ of normal scores, array (k, k); None where all is independent.
 
-    Parameters
-    ----------
-    paths : sequence of k str
-    correlations : sequence of (str, str, float)
-        Two of the paths and their correlation.
+    correlations: two of the paths and their correlation.
 
-    Raises
-    ------
-    InputError
-        A path that does not vary, a correlation outside (-1, 1), or correlations that contradict each other.
-
-    Examples
-    --------
     >>> correlated(("a", "b"), (("a", "b", 0.6),))
     array([[1. , 0. ],
            [0.6, 0.8]])

@@ -28,21 +28,11 @@ _MOTION = re.compile(
 
 @dataclass(frozen=True, kw_only=True)
 class Spot:
-    """A field that varies.
+    """A field that varies."""
 
-    Attributes
-    ----------
-    path : str
-        With its unit, as in the drive file.
-    bare : str
-        As Python writes it, without.
-    there : Place
-        Where it leads in the drive.
-    """
-
-    path: str
-    bare: str
-    there: Place
+    path: str  # with its unit, as in the drive file
+    bare: str  # as Python writes it, without
+    there: Place  # where it leads in the drive
 
     @property
     def unit(self) -> str:
@@ -107,13 +97,6 @@ class Spot:
 def spots_of(drive: Drive, paths: Iterable[str]) -> tuple[Spot, ...]:
     """Return where paths lead in a drive.
 
-    Raises
-    ------
-    InputError
-        Every path that leads nowhere, or to a list of values instead of one.
-
-    Examples
-    --------
     >>> spots_of(Drive.from_angles([0.1, 0.2]), ["joints[1].joint_angle_deg"])[0].unit
     'deg'
     """
@@ -140,8 +123,6 @@ def spots_of(drive: Drive, paths: Iterable[str]) -> tuple[Spot, ...]:
 def spread_out(path: str, values: Sequence[Any]) -> tuple[tuple[str, ...], list[tuple[Any, ...]]]:
     """Return the paths of the single numbers of a path with lists of them, and their values row by row.
 
-    Examples
-    --------
     >>> spread_out("joints[0].centre_mm", [[0, 1, 2], [3, 4, 5]])[0][2]
     'joints[0].centre_mm[2]'
     """
@@ -156,8 +137,6 @@ def spread_out(path: str, values: Sequence[Any]) -> tuple[tuple[str, ...], list[
 def present(drive: Drive, path: str) -> float | None:
     """Return the number at a path of a drive, in the path's unit; None where there is none.
 
-    Examples
-    --------
     >>> present(Drive.from_angles([0.0, 0.2]), "joints[0].joint_angle_deg")
     0.0
     """
@@ -167,20 +146,11 @@ def present(drive: Drive, path: str) -> float | None:
 
 @dataclass(frozen=True, kw_only=True)
 class Maker:
-    """Makes the drive of a point: the given one with other values, checked as a file would be.
+    """Makes the drive of a point: the given one with other values, checked as a file would be."""
 
-    Attributes
-    ----------
-    drive : Drive
-        The drive that everything else stands in.
-    spots : tuple of Spot
-    known : Catalogue
-        Where grades and sizes are looked up anew.
-    """
-
-    drive: Drive
+    drive: Drive  # the drive that everything else stands in
     spots: tuple[Spot, ...]
-    known: Catalogue = field(default_factory=catalogue)
+    known: Catalogue = field(default_factory=catalogue)  # where grades and sizes are looked up anew
 
     @cached_property
     def _bare(self) -> Drive:
@@ -191,15 +161,8 @@ class Maker:
     def drive_at(self, values: Mapping[str, Any]) -> Drive:
         """Return the drive of one point.
 
-        Parameters
-        ----------
-        values : mapping of str to value
-            Path -> value in its unit.
-
-        Raises
-        ------
-        InputError
-            Everything that makes the drive impossible.
+        values: path -> value in its unit.
+        Raises InputError: everything that makes the drive impossible.
         """
         given = {one.path: one.plain(values[one.path]) for one in self.spots}
         made = with_values(self._bare, given)

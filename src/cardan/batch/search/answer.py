@@ -26,10 +26,7 @@ SHOWN = 12
 def answer(found: Optimum | ParetoSet | Sensitivity | Boundary) -> Answer:
     """Return what there is to say of what a design found.
 
-    Parameters
-    ----------
-    found : Optimum, ParetoSet, Sensitivity or Boundary
-        As its ``run`` returns it.
+    found: as its ``run`` returns it.
     """
     if isinstance(found, Optimum):
         return answer_of_optimum(found)
@@ -41,17 +38,8 @@ def answer(found: Optimum | ParetoSet | Sensitivity | Boundary) -> Answer:
 def quantity(column: Field, value: float, digits: int = 4) -> Quantity:
     """Return a value of a column, told in the unit of the column unless the reader chose another.
 
-    Parameters
-    ----------
-    column : Column
-        Of a sweep.
-    value : float
-        In its unit.
-    digits : int
-        Significant digits.
+    value: in its unit; digits: significant digits.
 
-    Examples
-    --------
     >>> from cardan.answers.reader import Reader
     >>> joint_angle = Field(name="greatest_joint_angle_deg", unit="deg", role="answer", text="")
     >>> quantity(joint_angle, 12.0).told(Reader())

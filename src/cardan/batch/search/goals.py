@@ -103,14 +103,7 @@ class Limit:
 def excess(limits: Sequence[Limit], rows: Rows, count: int) -> Array:
     """Return the worst excess over several limits, array (n,): positive where one is broken, nan where one is unknown.
 
-    Parameters
-    ----------
-    limits : sequence of Limit
-        None of them are always kept.
-    rows : mapping of str to array (n,)
-        The table.
-    count : int
-        Its rows.
+    limits: None of them are always kept; rows, mapping of str to array (n,).
     """
     found = np.full(count, -math.inf)
     for limit in limits:
@@ -119,18 +112,7 @@ def excess(limits: Sequence[Limit], rows: Rows, count: int) -> Array:
 
 
 def goal_of(text: str) -> Goal:
-    """Return the goal that a text tells.
-
-    Raises
-    ------
-    InputError
-        It is no goal.
-
-    Examples
-    --------
-    >>> goal_of("max life_h")
-    Goal(name='life_h', largest=True)
-    """
+    """Return the goal that a text tells."""
     found = _GOAL.fullmatch(text.strip())
     if found is None:
         raise refuse(
@@ -140,18 +122,7 @@ def goal_of(text: str) -> Goal:
 
 
 def limit_of(text: str) -> Limit:
-    """Return the limit that a text tells.
-
-    Raises
-    ------
-    InputError
-        It is no limit, or no number keeps it.
-
-    Examples
-    --------
-    >>> print(limit_of("speed_fluctuation <= 0.02"), "|", limit_of("10 < alpha_eq_deg < 12"))
-    speed_fluctuation <= 0.02 | 10 <= alpha_eq_deg <= 12
-    """
+    """Return the limit that a text tells."""
     found = _LIMIT.fullmatch(text.strip())
     if found is None or (found[1] and found[3].startswith(">")):
         message = _("not a limit: {text}; write “speed_fluctuation <= 0.02”, “life_h >= 5000” or “1 <= x <= 2”")
@@ -171,13 +142,7 @@ def _exact(value: float) -> str:
 
 
 def check_names(named: Iterable[Goal | Limit | str], columns: Iterable[Column]) -> None:
-    """Refuse columns, and goals and limits on columns, that are not there, all at once.
-
-    Raises
-    ------
-    InputError
-        With the nearest name for each.
-    """
+    """Refuse columns, and goals and limits on columns, that are not there, all at once."""
     known = [column.name for column in columns]
     problems = []
     for one in named:

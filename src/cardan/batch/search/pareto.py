@@ -31,23 +31,8 @@ WORST = 1e9
 def pareto(rows: Rows, goals: Sequence[Goal], limits: Sequence[Limit] = ()) -> Array:
     """Return which rows of a table keep all limits and are not beaten in all goals by another one that does.
 
-    Parameters
-    ----------
-    rows : mapping of str to array (n,)
-        The columns that goals and limits name, and the status where there is one.
-    goals : sequence of Goal
-    limits : sequence of Limit
-
-    Returns
-    -------
-    array of bool (n,)
-        Exact; rows without an answer are never chosen.
-
-    Examples
-    --------
-    >>> table = {"price": np.asarray([1.0, 2.0, 3.0]), "life": np.asarray([5.0, 9.0, 8.0])}
-    >>> pareto(table, [Goal(name="price"), Goal(name="life", largest=True)])
-    array([ True,  True, False])
+    rows, mapping of str to array (n,): the columns that goals and limits name, and the status where there is one.
+    Returns (n,) of bool: exact; rows without an answer are never chosen.
     """
     costs = np.stack([goal.cost(rows) for goal in goals], axis=1)
     allowed = excess(limits, rows, len(costs)) <= KEPT

@@ -28,13 +28,7 @@ class StoppedError(Exception):
 
 
 def tell(progress: Progress | None, share: float) -> None:
-    """Tell the share done.
-
-    Raises
-    ------
-    StoppedError
-        The answer is "stop".
-    """
+    """Tell the share done."""
     if progress is not None and progress(min(share, 1.0)) == "stop":
         raise StoppedError
 
@@ -50,18 +44,8 @@ def answered(
 ) -> Rows | None:
     """Return answers at points, or None where the work was stopped.
 
-    Parameters
-    ----------
-    ask : Evaluator
-        What answers.
-    points : array (N, d)
-        In the units of the fields.
-    names : sequence of str
-        Columns wanted beside the status.
-    progress : function, optional
-        Told the share done.
-    begin, end : float
-        Share of the whole work that is done before and after.
+    points (N, d): in the units of the fields; names: columns wanted beside the status.
+    begin, end: share of the whole work that is done before and after.
     """
     count = len(points)
     kept: dict[str, list[Array]] = {name: [np.empty(0)] for name in (*names, STATUS)}

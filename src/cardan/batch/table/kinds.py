@@ -21,21 +21,12 @@ Value: TypeAlias = dict[str, Any]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Part:
-    """Answered rows that a reduction looks at.
+    """Answered rows that a reduction looks at."""
 
-    Attributes
-    ----------
-    values : array (n,)
-        Of the column, where it has values and the conditions are kept; of a kind without a column, whether they are.
-    rows : array of int (n,)
-        Numbers of these rows.
-    groups : array of int (n,) or None
-        Group of each; None where there is one group.
-    """
-
+    # (n,): of the column, where it has values and the conditions are kept; of a kind without a column, whether they are
     values: Array
-    rows: Array
-    groups: Array | None
+    rows: Array  # (n,) of int: numbers of these rows
+    groups: Array | None  # (n,) of int: group of each; None where there is one group
 
 
 class Kind(Protocol):

@@ -38,24 +38,12 @@ ABOUT, STATES, CHECK = b"cardan", b"cardan.states", b"cardan.check"
 
 @dataclass(frozen=True, kw_only=True)
 class Label:
-    """What all files of a sweep have in common.
+    """What all files of a sweep have in common."""
 
-    Attributes
-    ----------
-    work : str
-        Name of the sweep.
-    columns : tuple of Column
-        Of its table.
-    provenance : mapping
-        What the rows come from.
-    keeps : bool
-        Whether the files hold rows; without them they hold the states of the reductions only.
-    """
-
-    work: str
-    columns: tuple[Column, ...]
-    provenance: Mapping[str, Any]
-    keeps: bool
+    work: str  # name of the sweep
+    columns: tuple[Column, ...]  # of its table
+    provenance: Mapping[str, Any]  # what the rows come from
+    keeps: bool  # whether the files hold rows; without them they hold the states of the reductions only
 
     def about(self, chunk: Chunk) -> bytes:
         """Return what a chunk is, as JSON."""
@@ -75,23 +63,10 @@ class Label:
 def write_chunk(path: Path, chunk: Chunk, label: Label, rows: Rows | None, states: Sequence[State]) -> None:
     """Write a chunk as a whole or not at all.
 
-    Parameters
-    ----------
-    path : Path
-        The file; one that is there is replaced.
-    chunk : Chunk
-        Which chunk it is.
-    label : Label
-        Of the sweep.
-    rows : dict of str to array (n,), or None
-        Rows of the chunk; none where the sweep keeps none.
-    states : sequence
-        One for each reduction, as JSON can hold it.
-
-    Raises
-    ------
-    OSError
-        The file cannot be written; nothing of it is left.
+    path: the file; one that is there is replaced.
+    rows, dict of str to array (n,),: rows of the chunk; none where the sweep keeps none.
+    states: one for each reduction, as JSON can hold it.
+    Raises OSError: the file cannot be written; nothing of it is left.
     """
     about, told = label.about(chunk), json.dumps(list(states)).encode()
     table = _table(label, rows if rows is not None else {column.name: np.empty(0) for column in label.columns})
@@ -113,10 +88,7 @@ def write_chunk(path: Path, chunk: Chunk, label: Label, rows: Rows | None, state
 def put(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     """Write a file as a whole or not at all, and have the disk keep it before it gets its name.
 
-    Raises
-    ------
-    OSError
-        It cannot be written.
+    Raises OSError: it cannot be written.
     """
     temporary = path.with_name(f".{path.name}.{secrets.token_hex(8)}{PART}")
     try:
@@ -145,14 +117,7 @@ def _keep_names(folder: Path) -> None:
 def flaw(path: Path, chunk: Chunk, label: Label) -> str:
     """Return what keeps a file from being a chunk of a sweep; empty where it is, every page of it.
 
-    Parameters
-    ----------
-    path : Path
-        The file.
-    chunk : Chunk
-        The chunk it should be.
-    label : Label
-        Of the sweep it should belong to.
+    chunk: the chunk it should be; label: of the sweep it should belong to.
     """
     try:
         with library().ParquetFile(path, page_checksum_verification=True) as file:
@@ -184,16 +149,8 @@ def states_of(path: Path) -> list[State]:
 def rows_of(path: Path, names: Iterable[str] | None = None) -> Rows:
     """Return the rows of a chunk.
 
-    Parameters
-    ----------
-    path : Path
-        Its file.
-    names : iterable of str, optional
-        Columns to read, in this order; all by default.
-
-    Returns
-    -------
-    dict of str to array (n,)
+    names: columns to read, in this order; all by default.
+    Returns dict of str to array (n,).
     """
     wanted = None if names is None else list(names)
     with library().ParquetFile(path) as file:

@@ -13,42 +13,18 @@ BINS = 50
 
 @dataclass(frozen=True, kw_only=True)
 class Reduce:
-    """What is to be told of a column, as a plan says it.
+    """What is to be told of a column, as a plan says it."""
 
-    Attributes
-    ----------
-    kind : str
-        One of `KINDS`.
-    of : str
-        Column; for ``count`` and ``share`` empty.
-    by : tuple of str
-        Axes, by their names or by a field of theirs: one answer for each of their places.
-    where : tuple of Limit
-        Rows that count; those without an answer never do.
-    percent : float
-        Of a percentile.
-    bins : int
-    low, high : float or None
-        Of a histogram; without them it has bins of a power of two that cover all numbers.
-    name : str
-        Among the results; made of the rest when empty.
-
-    Examples
-    --------
-    >>> from cardan.batch.table.reductions import reduce_of
-    >>> reduce_of("p95 speed_fluctuation by duty.speed_rpm").label
-    'p95 speed_fluctuation by duty.speed_rpm'
-    """
-
-    kind: str
-    of: str = ""
-    by: tuple[str, ...] = ()
-    where: tuple[Limit, ...] = ()
+    kind: str  # one of `KINDS`
+    of: str = ""  # column; for ``count`` and ``share`` empty
+    by: tuple[str, ...] = ()  # axes, by their names or by a field of theirs: one answer for each of their places
+    where: tuple[Limit, ...] = ()  # rows that count; those without an answer never do
     percent: float = 50.0
     bins: int = BINS
+    # low, high: of a histogram; without them it has bins of a power of two that cover all numbers
     low: float | None = None
     high: float | None = None
-    name: str = ""
+    name: str = ""  # among the results; made of the rest when empty
 
     @property
     def label(self) -> str:

@@ -32,21 +32,8 @@ _PERCENT = re.compile(r"p(\d+(?:\.\d+)?)\s+(.*)")
 def reduce_of(text: str) -> Reduce:
     """Return the reduction that a text tells.
 
-    Parameters
-    ----------
-    text : str
-        ``max speed_fluctuation``, ``p99 alpha_eq_deg by duty.speed_rpm``, ``share speed_fluctuation <= 0.02 by
-        supplier``.
-
-    Raises
-    ------
-    InputError
-        It is none.
-
-    Examples
-    --------
-    >>> reduce_of("share speed_fluctuation <= 0.02 by supplier").by
-    ('supplier',)
+    text: ``max speed_fluctuation``, ``p99 alpha_eq_deg by duty.speed_rpm``, ``share speed_fluctuation <= 0.02 by
+    supplier``.
     """
     whole, _word, by = text.strip().partition(" by ")
     groups = tuple(one.strip() for one in by.split(",") if one.strip())
@@ -67,23 +54,12 @@ def reduce_of(text: str) -> Reduce:
 
 @dataclass(frozen=True, kw_only=True)
 class Told:
-    """A reduction at work on the rows of a sweep; a `cardan.batch.work.Reduction`.
-
-    Attributes
-    ----------
-    what : Reduce
-    points : Points
-        The points of the sweep.
-    axes : tuple of int
-        Axes by which rows are grouped, by their numbers.
-    unit : str
-        Of the column.
-    """
+    """A reduction at work on the rows of a sweep; a `cardan.batch.work.Reduction`."""
 
     what: Reduce
-    points: Points
-    axes: tuple[int, ...] = ()
-    unit: str = ""
+    points: Points  # the points of the sweep
+    axes: tuple[int, ...] = ()  # axes by which rows are grouped, by their numbers
+    unit: str = ""  # of the column
     count: int = field(init=False, default=1)
 
     def __post_init__(self) -> None:
@@ -198,13 +174,7 @@ class States:
 
 
 def at_work(reduce: Sequence[Reduce], points: Points, columns: Sequence[Column]) -> tuple[Told, ...]:
-    """Return reductions for the rows of a sweep.
-
-    Raises
-    ------
-    InputError
-        Kinds, columns and axes that are not there, bounds that bound nothing, names given twice; all at once.
-    """
+    """Return reductions for the rows of a sweep."""
     units = {one.name: one.unit for one in columns}
     problems: list[Problem] = []
     found: list[Told] = []

@@ -25,8 +25,6 @@ _QUOTED = r"'(?:[^']|'')*'|\"(?:[^\"]|\"\")*\""
 def quoted(name: str) -> str:
     """Return a name as SQL takes it whatever signs it has.
 
-    Examples
-    --------
     >>> quoted("joints[1].centre_mm[2]")
     '"joints[1].centre_mm[2]"'
     """
@@ -34,13 +32,7 @@ def quoted(name: str) -> str:
 
 
 def sql_names(sql: str, columns: Sequence[str]) -> str:
-    """Return a question with names of columns that SQL would take for more than a name in quotes.
-
-    Examples
-    --------
-    >>> print(sql_names("SELECT angle_deg[1] FROM sweep WHERE word = 'angle_deg[1]'", ["angle_deg[1]"]))
-    SELECT "angle_deg[1]" FROM sweep WHERE word = 'angle_deg[1]'
-    """
+    """Return a question with names of columns that SQL would take for more than a name in quotes."""
     odd = sorted((name for name in columns if not _PLAIN.fullmatch(name)), key=len, reverse=True)
     if not odd:
         return sql
@@ -91,13 +83,7 @@ def _plain(value: Any) -> Any:
 
 
 def only_select(connection: Any, sql: str) -> Any:
-    """Return the one statement that a question is.
-
-    Raises
-    ------
-    InputError
-        It is none, several, or one that changes something.
-    """
+    """Return the one statement that a question is."""
     statements = connection.extract_statements(sql)
     if len(statements) != 1 or statements[0].type != duckdb().StatementType.SELECT:
         raise refuse("query", _("only one SELECT is answered; the table itself is never changed"))

@@ -37,18 +37,10 @@ FEW = 3
 
 @dataclass(frozen=True, kw_only=True)
 class Folder:
-    """Where the chunks of a sweep lie; small enough to go to every worker.
+    """Where the chunks of a sweep lie; small enough to go to every worker."""
 
-    Attributes
-    ----------
-    path : Path
-        The folder, from the root of the files.
-    label : Label
-        Of its files.
-    """
-
-    path: Path
-    label: Label
+    path: Path  # the folder, from the root of the files
+    label: Label  # of its files
 
     def file(self, chunk: Chunk) -> Path:
         """Return the file of a chunk."""
@@ -57,10 +49,7 @@ class Folder:
     def put(self, chunk: Chunk, rows: Rows | None, states: Sequence[State]) -> None:
         """Write a chunk.
 
-        Raises
-        ------
-        OSError
-            It cannot be written.
+        Raises OSError: it cannot be written.
         """
         write_chunk(self.file(chunk), chunk, self.label, rows, states)
 
@@ -77,23 +66,12 @@ class Folder:
 
 @dataclass(frozen=True, kw_only=True)
 class Store:
-    """An open folder that nobody else writes to.
+    """An open folder that nobody else writes to."""
 
-    Attributes
-    ----------
-    folder : Folder
-        Where the chunks lie.
-    chunks : Chunks
-        All chunks of the sweep, cut as they were at the first run.
-    done : set of int
-        Indices of those that are there and whole.
-    damaged : tuple of str
-        Files that were not whole and have been taken away; their chunks are to be done again.
-    """
-
-    folder: Folder
-    chunks: Chunks
-    done: set[int]
+    folder: Folder  # where the chunks lie
+    chunks: Chunks  # all chunks of the sweep, cut as they were at the first run
+    done: set[int]  # indices of those that are there and whole
+    # files that were not whole and have been taken away; their chunks are to be done again
     damaged: tuple[str, ...] = field(default=())
 
     def keep(self, summary: Mapping[str, Any]) -> None:
@@ -113,25 +91,11 @@ def opened(
 ) -> Iterator[Store]:
     """Open the folder of a sweep and keep others from it; what is there and whole is known afterwards.
 
-    Parameters
-    ----------
-    path : Path
-        The folder; it is made where it is missing.
-    work : Work
-        The sweep.
-    keeps : bool
-        Whether rows are kept.
-    cut : function
-        Gives the rows of a chunk; asked only where nothing was begun before.
-    heard : function, optional
-        Called for every file that is looked through.
-
-    Raises
-    ------
-    InputError
-        The folder holds another sweep or other tables, is in use, or cannot be written.
-    MissingExtraError
-        The library for the files is not installed.
+    path: the folder; it is made where it is missing.
+    keeps: whether rows are kept.
+    cut: gives the rows of a chunk; asked only where nothing was begun before.
+    heard: called for every file that is looked through.
+    Raises MissingExtraError: the library for the files is not installed.
     """
     library()
     path = path.resolve()
@@ -153,10 +117,7 @@ def opened(
 def read_json(path: Path) -> dict[str, Any]:
     """Return what a JSON file holds.
 
-    Raises
-    ------
-    OSError, ValueError
-        It cannot be read, or is none.
+    Raises OSError, ValueError: it cannot be read, or is none.
     """
     content = json.loads(path.read_text(encoding="utf-8"))
     if not isinstance(content, dict):
@@ -167,10 +128,7 @@ def read_json(path: Path) -> dict[str, Any]:
 def write_json(path: Path, content: Mapping[str, Any]) -> None:
     """Write a JSON file as a whole or not at all.
 
-    Raises
-    ------
-    OSError
-        It cannot be written.
+    Raises OSError: it cannot be written.
     """
     text = json.dumps(content, ensure_ascii=False, indent=1, default=_plain)
     put(path, lambda stream: stream.write(text.encode() + b"\n"))
@@ -182,13 +140,7 @@ def names_in(path: Path) -> list[str]:
 
 
 def manifest_of(path: Path) -> dict[str, Any]:
-    """Return the manifest of a folder.
-
-    Raises
-    ------
-    InputError
-        There is none, or it cannot be read.
-    """
+    """Return the manifest of a folder."""
     try:
         content = read_json(path / MANIFEST)
         if content["format"] != FORMAT:

@@ -49,8 +49,6 @@ def extreme_empty(count: int) -> State:
 def extreme_add(state: State, values: Array, rows: Array, groups: Groups, *, largest: bool) -> State:
     """Return the state with further numbers, each from its row; of equal ones the lowest row counts.
 
-    Examples
-    --------
     >>> extreme_add(extreme_empty(1), np.asarray([1.0, 3.0, 3.0]), np.asarray([7, 8, 9]), None, largest=True)
     {'best': [3.0], 'row': [8]}
     """
@@ -91,13 +89,7 @@ def moment_empty(count: int) -> State:
 
 
 def moment_add(state: State, values: Array, groups: Groups) -> State:
-    """Return the state with further numbers.
-
-    Examples
-    --------
-    >>> moment_add(moment_empty(1), np.asarray([1.0, 3.0]), None)
-    {'n': [2], 'mean': [2.0], 'square': [2.0]}
-    """
+    """Return the state with further numbers."""
     count = len(state["n"])
     if groups is None:
         n = np.asarray([values.size])
@@ -140,8 +132,6 @@ def count_empty(count: int) -> State:
 def count_add(state: State, chosen: Array, groups: Groups) -> State:
     """Return the state with further rows, those chosen among them.
 
-    Examples
-    --------
     >>> count_add(count_empty(1), np.asarray([True, False, True]), None)
     {'n': [2], 'of': [3]}
     """
@@ -166,13 +156,7 @@ def histogram_empty(count: int, bins: int) -> State:
 
 
 def histogram_add(state: State, values: Array, groups: Groups, *, low: float, high: float) -> State:
-    """Return the state with further numbers; the upper end belongs to the last bin.
-
-    Examples
-    --------
-    >>> histogram_add(histogram_empty(1, 2), np.asarray([0.1, 0.9, 1.0, 7.0]), None, low=0.0, high=1.0)
-    {'below': [0], 'above': [1], 'counts': [[1, 2]]}
-    """
+    """Return the state with further numbers; the upper end belongs to the last bin."""
     count, bins = len(state["counts"]), len(state["counts"][0])
     edges = np.concatenate([[np.nan], np.linspace(low, high, bins + 1), [np.nan]])
     place = np.clip(np.floor((values - low) * (bins / (high - low))), -1, bins).astype(int) + 1
@@ -204,13 +188,7 @@ def rank_empty(count: int) -> State:
 
 
 def rank_add(state: State, values: Array, groups: Groups) -> State:
-    """Return the state with further numbers; infinite ones are counted at the ends.
-
-    Examples
-    --------
-    >>> rank_add(rank_empty(1), np.asarray([2.0, 1.0]), None)[0]["kept"]
-    [1.0, 2.0]
-    """
+    """Return the state with further numbers; infinite ones are counted at the ends."""
     parts = _split(values, groups, len(state))
     return [_ranked(seen, part, len(state)) for seen, part in zip(state, parts, strict=True)]
 
@@ -257,8 +235,6 @@ def _joined(one: Mapping[str, Any], other: Mapping[str, Any], share: int, new: A
 def binned(raw: list[Array], given: list[Mapping[str, Any]], bins: int) -> tuple[int, int, list[int]]:
     """Return the histogram of numbers and of other histograms: exponent of its bins, number of the first, counts.
 
-    Notes
-    -----
     Bin j of width 2^e holds j·2^e ≤ x < (j+1)·2^e; e is the least with which all numbers lie in so many bins, so that
     it depends on the numbers alone and not on the order in which they came. A histogram that is too fine for it is
     coarsened exactly, j → ⌊j/2⌋.
@@ -293,22 +269,9 @@ def binned(raw: list[Array], given: list[Mapping[str, Any]], bins: int) -> tuple
 def rank_result(seen: Mapping[str, Any], share: float) -> tuple[float, float]:
     """Return a percentile and how far it may be off.
 
-    Parameters
-    ----------
-    seen : mapping
-        The state of one group.
-    share : float
-        In [0, 1].
-
-    Notes
-    -----
+    seen: the state of one group; share: in [0, 1].
     Between the two numbers next to place share·(n - 1), in proportion, as `numpy.percentile` has it; of a histogram
     the middle of the bin that holds that place, half its width off at most. nan where nothing was seen.
-
-    Examples
-    --------
-    >>> rank_result(rank_add(rank_empty(1), np.asarray([1.0, 2.0, 4.0]), None)[0], 0.75)
-    (3.0, 0.0)
     """
     least, most = seen["least"], seen["most"]
     inner = len(seen["kept"]) if seen["kept"] is not None else sum(seen["counts"])

@@ -29,44 +29,21 @@ DRAWN = 100_000
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Map:
-    """A column over two fields.
-
-    Attributes
-    ----------
-    across, up, value : Column
-    x, y : array (m,), (k,)
-        Values, or middles of ranges, rising; or words.
-    values : array (k, m)
-        Means of the points of a cell; nan where none has an answer.
-    points : int
-        That the cells hold.
-    """
+    """A column over two fields."""
 
     across: Column
     up: Column
     value: Column
-    x: Array
-    y: Array
-    values: Array
-    points: int
+    x: Array  # x, y (m,), (k,): values, or middles of ranges, rising; or words
+    y: Array  # (m,), (k,)
+    values: Array  # (k, m): means of the points of a cell; nan where none has an answer
+    points: int  # that the cells hold
 
 
 def map_of(results: Results, across: str, up: str, value: str, *, where: str = "") -> Map:
     """Return a column over two fields: each value of them, or ranges where there are many.
 
-    Parameters
-    ----------
-    results : Results
-        The table.
-    across, up, value : str
-        Names of columns.
-    where : str
-        Condition in SQL.
-
-    Raises
-    ------
-    InputError
-        A column is not there, the value is no number, or no row fulfils the condition.
+    across, up, value: names of columns; where: condition in SQL.
     """
     columns = [results.column(name) for name in (across, up, value)]
     if value not in {column.name for column in results.numbers}:
@@ -123,41 +100,19 @@ def _index(places: Array, found: Array) -> Array:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Histogram:
-    """How often the values of a column occur.
-
-    Attributes
-    ----------
-    column : Column
-    edges : array (m + 1,)
-        Between the ranges.
-    counts : array (m,)
-        Points in each.
-    mean : float
-        Of these.
-    unknown : int
-        Points without an answer, or with one that is not finite.
-    """
+    """How often the values of a column occur."""
 
     column: Column
-    edges: Array
-    counts: Array
-    mean: float
-    unknown: int
+    edges: Array  # (m + 1,): between the ranges
+    counts: Array  # (m,): points in each
+    mean: float  # of these
+    unknown: int  # points without an answer, or with one that is not finite
 
 
 def histogram_of(results: Results, name: str, *, bins: int = 30, where: str = "") -> Histogram:
     """Return how often the values of a column occur.
 
-    Parameters
-    ----------
-    results : Results
-        The table.
-    name : str
-        A column of numbers.
-    bins : int
-        Ranges, all of one width.
-    where : str
-        Condition in SQL.
+    name: a column of numbers; bins: ranges, all of one width; where: condition in SQL.
     """
     column = results.column(name)
     if name not in {one.name for one in results.numbers}:
@@ -179,41 +134,21 @@ def histogram_of(results: Results, name: str, *, bins: int = 30, where: str = ""
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Ranks:
-    """How an answer rises and falls with each field.
-
-    Attributes
-    ----------
-    answer : Column
-    fields : tuple of Column
-        That hold numbers and vary, the weightiest first.
-    correlation : array (d,)
-        Of ranks (Spearman): 1 where the answer always rises with the field, -1 where it always falls.
-    points : int
-        Looked at.
-    """
+    """How an answer rises and falls with each field."""
 
     answer: Column
-    fields: tuple[Column, ...]
+    fields: tuple[Column, ...]  # that hold numbers and vary, the weightiest first
+    # (d,): of ranks (Spearman): 1 where the answer always rises with the field, -1 where it always falls
     correlation: Array
-    points: int
+    points: int  # looked at
 
 
 def ranks_of(results: Results, answer: str, *, fields: Sequence[str] = (), where: str = "") -> Ranks:
     """Return the rank correlations of an answer with fields.
 
-    Parameters
-    ----------
-    results : Results
-        The table.
-    answer : str
-        A column of numbers.
-    fields : sequence of str
-        Others; all points that are numbers by default.
-    where : str
-        Condition in SQL.
-
-    Notes
-    -----
+    answer: a column of numbers.
+    fields: others; all points that are numbers by default.
+    where: condition in SQL.
     Of all rows with an answer, or of `DRAWN` drawn from them.
     """
     column = results.column(answer)

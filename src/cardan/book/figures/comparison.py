@@ -23,10 +23,7 @@ def book_figures(found: BookComparison) -> tuple[Figure, ...]:
 def book_figure(found: BookComparison) -> Figure:
     """Return the output's angle error, exact and by the series of first and second order, and what these miss.
 
-    Parameters
-    ----------
-    found : BookComparison
-        Of one drive.
+    found: of one drive.
     """
     angle = np.asarray(found.angle) / deg
     exact, first, second = (np.asarray(row) / deg for row in (found.exact, found.first_order, found.second_order))

@@ -39,10 +39,7 @@ def reduction_figures(found: MathieuReduction) -> tuple[Figure, ...]:
 def reduction_figure(found: MathieuReduction) -> Figure:
     """Return the chart of stability about the nearest zone with the drive in it, about the first one far from all.
 
-    Parameters
-    ----------
-    found : MathieuReduction
-        Of one drive and speed.
+    found: of one drive and speed.
     """
     near = max(1, round(math.sqrt(found.a)))
     near = near if near <= SEEN else 1
@@ -102,16 +99,9 @@ def chart_figure(
 ) -> Figure:
     """Return the chart of stability of Mathieu's equation.
 
-    Parameters
-    ----------
-    a : (float, float)
-        Range of a.
-    q : float
-        Largest q.
-    damping : float
-        n; its edges are drawn too where it is not zero.
-    point : (float, float), optional
-        a and q of a drive.
+    a: range of a; q: largest q.
+    damping: n; its edges are drawn too where it is not zero.
+    point: a and q of a drive.
     """
     marks = () if point is None else _point(*point, _("the drive"), "accent")
     panel = chart_panel(a, q, marks, damping=damping, named=True)
@@ -150,20 +140,7 @@ def chart_panel(
 ) -> Panel:
     """Return the zones of Mathieu's equation in a window, and marks in it.
 
-    Parameters
-    ----------
-    a : (float, float)
-        Range of a.
-    top : float
-        Largest q.
-    marks : tuple of series
-        Drawn over the zones.
-    damping : float
-        n.
-    title : str
-        Heading.
-    named : bool
-        List the zones in the legend.
+    a: range of a; top: largest q; marks: drawn over the zones; damping: n; named: list the zones in the legend.
     """
     top = min(top, LARGEST_Q)
     low, high = a

@@ -59,8 +59,6 @@ def told(value: Any) -> float | None:
 def label(order: float) -> str:
     """Return an order as the key of a table.
 
-    Examples
-    --------
     >>> label(2.0), label(6.8), label(0.5)
     ('2', '6.8', '0.5')
     """

@@ -65,10 +65,7 @@ def _of_laws(seen: Swing) -> Array:
 def swings(chain: Chain) -> Array:
     """Return the largest accelerations over the square of the speed: of the output, in drive, in coast (..., k).
 
-    Parameters
-    ----------
-    chain : Chain (..., n)
-        k is 3, or 1 where there is one joint and no shaft inside.
+    chain (..., n): k is 3, or 1 where there is one joint and no shaft inside.
     """
     each: Array = after_each_joint(chain).max_acceleration
     n = chain.joints

@@ -12,13 +12,6 @@ from cardan.maths.arrays import Array
 def shaft_inertia(design: Design, k: int) -> Array | None:
     """Return J of a shaft, counted from 0, with the parts it carries (...) [kg m²]; None where the drive says neither.
 
-    Parameters
-    ----------
-    design : Design
-    k : int
-
-    Notes
-    -----
     Of a body ρ π/32 (D⁴ - d⁴) l.
     """
     parts = sum(lump.polar_inertia for lump in design.drive.shafts[k].masses)

@@ -34,31 +34,16 @@ STEP = 0.02
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Whirl:
-    """How fast a shaft may turn until it whirls, or until it bounces on a support.
+    """How fast a shaft may turn until it whirls, or until it bounces on a support."""
 
-    Attributes
-    ----------
-    shaft : int
-        Counted from 0: the shaft that whirls, or the one that bends most where a support gives way.
-    speed : array (...) or None [rad/s]
-        Critical speed as computed; None where something is missing, or the shaft cannot be rated alone.
-    wear : float or array (...)
-        k_n, real over computed critical speed.
-    exact : bool
-        Whether it is that of the whole line, with supports, masses and stretches.
-    missing, design_variables : tuple of str
-        Paths that lack, and those that move it.
-    support : int or None
-        Counted from 0, where a support gives way.
-    """
-
-    shaft: int
+    shaft: int  # counted from 0: the shaft that whirls, or the one that bends most where a support gives way
+    # (...) [rad/s]: critical speed as computed; None where something is missing, or the shaft cannot be rated alone
     speed: Array | None
-    wear: Array | float
-    exact: bool = False
-    missing: tuple[str, ...] = ()
+    wear: Array | float  # (...): k_n, real over computed critical speed
+    exact: bool = False  # whether it is that of the whole line, with supports, masses and stretches
+    missing: tuple[str, ...] = ()  # missing, design_variables: paths that lack, and those that move it
     design_variables: tuple[str, ...] = ()
-    support: int | None = None
+    support: int | None = None  # counted from 0, where a support gives way
 
     @property
     def actual(self) -> Array:
@@ -69,14 +54,8 @@ class Whirl:
 def whirls(design: Design) -> list[Whirl]:
     """Return the lowest critical speed of every shaft between two joints, and of end shafts that whirl in the line.
 
-    Parameters
-    ----------
-    design : Design
-        Where sizes vary, the speed of the line changes as that of the shaft alone between its joints, that of an end
-        shaft with the power of each size that holds near the drive as it is.
-
-    Notes
-    -----
+    design: where sizes vary, the speed of the line changes as that of the shaft alone between its joints, that of an
+    end shaft with the power of each size that holds near the drive as it is.
     The line as a whole: `cardan.questions.bending.bending`. A tube alone: Book (257), ω = (π/L)² √(E(D² + d²)/(16ρ)).
     """
     line = {k: speed for (kind, k, nth), (speed, _shaft) in _lowest(design).items() if kind == "shaft" and not nth}
@@ -186,19 +165,9 @@ def clearances(
 ) -> Iterator[Verdict]:
     """Yield how far the speeds held keep off a share of a critical speed, and whether running up passes it.
 
-    Parameters
-    ----------
-    design : Design
-    one : Whirl
-        A support that gives way.
-    share : float
-        1, or one half where the joints excite twice a turn.
-    width : float
-        Half the width of the band to keep out of, over its middle.
-    texts : (str, str)
-        What is judged: speeds held, and passing.
-    source : Text
-        Where the band comes from.
+    one: a support that gives way; share: 1, or one half where the joints excite twice a turn.
+    width: half the width of the band to keep out of, over its middle; texts: what is judged: speeds held, and passing.
+    source: where the band comes from.
     """
     subject = f"supports[{one.support}]"
     if design.top_speed is None:

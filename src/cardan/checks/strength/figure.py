@@ -33,8 +33,6 @@ def role_of(one: Verdict) -> str:
 def role(used: float) -> str:
     """Return the colour of a utilisation.
 
-    Examples
-    --------
     >>> role(0.5), role(0.95), role(1.2)
     ('good', 'warning', 'failed')
     """
@@ -42,12 +40,7 @@ def role(used: float) -> str:
 
 
 def uses_figure(found: Strength) -> Figure:
-    """Return the utilisation of every limit, the largest first.
-
-    Parameters
-    ----------
-    found : Strength
-    """
+    """Return the utilisation of every limit, the largest first."""
     order = sorted(found.judged, key=lambda one: -float(one.utilisation))[:SHOWN]
     source: list[Text] = [
         _("largest loads over the turn; Kozhevnikov & Perfil'ev (1978), eq. 261–266, Goodman, ISO 76, ISO 281, Hertz")
@@ -70,10 +63,7 @@ def uses_figure(found: Strength) -> Figure:
 def bars_of(rows: list[tuple[str, float, str]]) -> Panel:
     """Return bars of utilisations with the limit drawn in.
 
-    Parameters
-    ----------
-    rows : list of (str, float, str)
-        Name, utilisation and role, from the top.
+    rows: name, utilisation and role, from the top.
     """
     size = np.asarray([100.0 * min(used, MOST) for _name, used, _role in rows])
     at = np.arange(len(rows), 0, -1, dtype=float)
@@ -101,10 +91,7 @@ def bars_of(rows: list[tuple[str, float, str]]) -> Panel:
 def fatigue_figure(found: Strength) -> Figure:
     """Return where the shafts stand under Goodman's line: swinging over mean stress, both over what they may be alone.
 
-    Parameters
-    ----------
-    found : Strength
-        With the fatigue of a shaft at least.
+    found: with the fatigue of a shaft at least.
     """
     places = []
     for one in found.shafts:

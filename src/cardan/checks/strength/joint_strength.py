@@ -16,33 +16,16 @@ from .needle_static import static_capacity
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JointStrength:
-    """What a joint goes through over all ways of running, shocks counted; nan or None where it cannot be told.
+    """What a joint goes through over all ways of running, shocks counted; nan or None where it cannot be told."""
 
-    Attributes
-    ----------
-    number : int
-        From 1.
-    torque : float [N·m]
-        Largest torque on either side.
-    couple : float [N·m]
-        Largest couple of the cross.
-    journal_force : float [N]
-        Largest load of a journal, couple over span.
-    journal, yoke : PartStress or None
-    contact : Contact or None
-        Of the most loaded needle.
-    static_capacity : float [N]
-        As given, or by ISO 76.
-    """
-
-    number: int
-    torque: float
-    couple: float
-    journal_force: float = math.nan
+    number: int  # from 1
+    torque: float  # [N·m]: largest torque on either side
+    couple: float  # [N·m]: largest couple of the cross
+    journal_force: float = math.nan  # [N]: largest load of a journal, couple over span
     journal: PartStress | None = None
     yoke: PartStress | None = None
-    contact: Contact | None = None
-    static_capacity: float = math.nan
+    contact: Contact | None = None  # of the most loaded needle
+    static_capacity: float = math.nan  # [N]: as given, or by ISO 76
 
 
 def joint_strength(design: Design, i: int) -> JointStrength:

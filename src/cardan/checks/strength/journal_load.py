@@ -9,12 +9,7 @@ from cardan.maths.arrays import Array
 def journal_load(design: Design, i: int) -> tuple[Array, str]:
     """Return the largest load of the journals of a joint, shocks counted (...) [N], and what decides it in a sentence.
 
-    Parameters
-    ----------
-    design : Design
-        Under torque, and with the span of this joint's cross.
-    i : int
-        Joint, counted from 0.
+    design: under torque, and with the span of this joint's cross; i: joint, counted from 0.
     """
     couple, note = design.most(lambda case: case.couple[..., i])
     return couple * design.shock / design.value(f"joints[{i}].cross.span"), note

@@ -8,62 +8,29 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class Vibration:
-    """Torsional vibration at the speed of the duty.
+    """Torsional vibration at the speed of the duty."""
 
-    Attributes
-    ----------
-    speed : float [rad/s]
-        Input speed.
-    stable : bool
-        Whether it dies out; where it does not, no torque is told.
-    name : str
-        Of the part whose torque it raises most.
-    torque : float [N·m]
-        Largest torque there.
-    factor : float
-        How many times the torque that the strength counts.
-    """
-
-    speed: float
-    stable: bool
-    name: str = ""
-    torque: float = math.nan
-    factor: float = math.nan
+    speed: float  # [rad/s]: input speed
+    stable: bool  # whether it dies out; where it does not, no torque is told
+    name: str = ""  # of the part whose torque it raises most
+    torque: float = math.nan  # [N·m]: largest torque there
+    factor: float = math.nan  # how many times the torque that the strength counts
 
 
 @dataclass(frozen=True, kw_only=True)
 class Journal:
-    """The journal whose load all forces together raise most.
+    """The journal whose load all forces together raise most."""
 
-    Attributes
-    ----------
-    joint : int
-        From 1.
-    load : float [N]
-    more : float
-        Share by which that is more than counted.
-    """
-
-    joint: int
-    load: float
-    more: float
+    joint: int  # from 1
+    load: float  # [N]
+    more: float  # share by which that is more than counted
 
 
 @dataclass(frozen=True, kw_only=True)
 class LeftOut:
-    """What the stresses leave out, as far as it can be told and matters.
-
-    Attributes
-    ----------
-    vibration : Vibration or None
-    journal : Journal or None
-    supported : bool
-        Whether the supports of the drive are known, so that its forces are.
-    runs_up : bool
-        Whether its run-up is known, too.
-    """
+    """What the stresses leave out, as far as it can be told and matters."""
 
     vibration: Vibration | None = None
     journal: Journal | None = None
-    supported: bool = False
-    runs_up: bool = False
+    supported: bool = False  # whether the supports of the drive are known, so that its forces are
+    runs_up: bool = False  # whether its run-up is known, too

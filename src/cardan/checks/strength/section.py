@@ -16,27 +16,14 @@ STEEL = Material()
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Section:
-    """Cross section of a stretch of a shaft.
+    """Cross section of a stretch of a shaft."""
 
-    Attributes
-    ----------
-    path : str
-        Of the stretch: that of the shaft, or of one of its segments.
-    outer, inner : float or array (...) [m]
-    length : float or array (...) or None [m]
-        Of the stretch; None where the drive does not say it.
-    design_variables : tuple of str
-        Paths that change its sizes.
-    number : int
-        Of the stretch, from 1; 0 where the shaft is one.
-    """
-
-    path: str
-    outer: Array | float
-    inner: Array | float
-    length: Array | float | None
-    design_variables: tuple[str, ...]
-    number: int = 0
+    path: str  # of the stretch: that of the shaft, or of one of its segments
+    outer: Array | float  # (...) [m]
+    inner: Array | float  # (...) [m]
+    length: Array | float | None  # (...) [m]: of the stretch; None where the drive does not say it
+    design_variables: tuple[str, ...]  # paths that change its sizes
+    number: int = 0  # of the stretch, from 1; 0 where the shaft is one
 
     @property
     def words(self) -> str:

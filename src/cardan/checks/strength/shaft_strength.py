@@ -25,43 +25,23 @@ from .twist import compliance
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ShaftStrength:
-    """What a shaft goes through; None where the drive does not say enough.
+    """What a shaft goes through; None where the drive does not say enough."""
 
-    Attributes
-    ----------
-    number : int
-        1 is the input shaft.
-    torque, bending : float [N·m]
-        Largest torque and largest secondary couple over all ways of running, shocks counted.
-    weight_bending : float [N·m]
-        Largest bending moment of its own weight between its joints; not part of the stresses. nan if not known.
-    stress : ShaftStress or None
-        Of the stretch that is worst off.
-    stretch : int
-        Which stretch that is, from 1.
-    fatigue : Fatigue or None
-        Of the stretch and the way of running with the least safety.
-    fatigue_life : float [s]
-        Running time until the shaft breaks by Palmgren's and Miner's rule; infinite where it does not, nan where not
-        known.
-    twist : float [rad]
-        Under its largest torque, without shocks; nan where not known.
-    spline : SplineStress or None
-    buckling_torque : float [N·m]
-        Of a tube of composite; else nan.
-    """
-
-    number: int
+    number: int  # 1 is the input shaft
+    # torque, bending [N·m]: largest torque and largest secondary couple over all ways of running, shocks counted
     torque: float
-    bending: float
+    bending: float  # [N·m]
+    # [N·m]: largest bending moment of its own weight between its joints; not part of the stresses. nan if not known.
     weight_bending: float = math.nan
-    stress: ShaftStress | None = None
-    stretch: int = 1
-    fatigue: Fatigue | None = None
+    stress: ShaftStress | None = None  # of the stretch that is worst off
+    stretch: int = 1  # which stretch that is, from 1
+    fatigue: Fatigue | None = None  # of the stretch and the way of running with the least safety
+    # [s]: running time until the shaft breaks by Palmgren's and Miner's rule; infinite where it does not, nan where not
+    # known
     fatigue_life: float = math.nan
-    twist: float = math.nan
+    twist: float = math.nan  # [rad]: under its largest torque, without shocks; nan where not known
     spline: SplineStress | None = None
-    buckling_torque: float = math.nan
+    buckling_torque: float = math.nan  # [N·m]: of a tube of composite; else nan
 
 
 def shaft_strength(design: Design, k: int) -> ShaftStrength:
@@ -143,15 +123,7 @@ def _measured(design: Design, k: int, section: Section) -> float:
 def weight_bending(design: Design, k: int) -> float:
     """Return the largest bending moment of a shaft's weight between its joints, counted from 0 [N·m].
 
-    Parameters
-    ----------
-    design : Design
-        One drive.
-    k : int
-        Shaft, counted from 0.
-
-    Notes
-    -----
+    design: one drive; k: shaft, counted from 0.
     A beam on two hinges, g across its full length: weights of its stretches and of the parts it carries; nan for the
     end shafts, and where body or length is not given.
     """

@@ -266,8 +266,6 @@ def _longer(subject: Design) -> Array:
 def scaled(duty: Duty, factor: float) -> Duty:
     """Return a duty with all its torques times a factor.
 
-    Examples
-    --------
     >>> scaled(Duty(torque=100.0), 1.5).torque
     150.0
     """

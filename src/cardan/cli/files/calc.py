@@ -76,8 +76,6 @@ def calc(
 def inputs(file: Path | None, values: Sequence[str]) -> dict[str, Any]:
     """Return the inputs of a file and those of the command line, which win.
 
-    Examples
-    --------
     >>> inputs(None, ["alpha_deg=20", "beta_deg=[1, 2]", "method=exact"])
     {'alpha_deg': 20, 'beta_deg': [1, 2], 'method': 'exact'}
     """

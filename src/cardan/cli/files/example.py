@@ -102,13 +102,7 @@ def _copied(name: str, text: str, place: Path) -> Answer:
 
 
 def about(text: str) -> str:
-    """Return what the comment at the head of a drive file says; of a shipped one in the language spoken here.
-
-    Examples
-    --------
-    >>> about("# One joint\\n# at 20°.\\n\\nformat = 1")
-    'One joint at 20°.'
-    """
+    """Return what the comment at the head of a drive file says; of a shipped one in the language spoken here."""
     lines = []
     for line in text.splitlines():
         if not line.startswith("#"):

@@ -151,18 +151,7 @@ def _method(method: How, samples: int | None, seed: int | None) -> Method:
 
 
 def goal_of(text: str) -> tuple[float, bool]:
-    """Return an error in SI, and whether it is a length.
-
-    Raises
-    ------
-    InputError
-        It is not a number with a unit.
-
-    Examples
-    --------
-    >>> goal_of("0.01mm")
-    (1e-05, True)
-    """
+    """Return an error in SI, and whether it is a length."""
     match = re.fullmatch(r"\s*([-+0-9.eE]+?)\s*([a-z]+|°|′|')?\s*", text)
     word = {"°": "deg", "′": "arcmin", "'": "arcmin"}.get((match[2] or "") if match else "", match[2] if match else "")
     for dimension in ("angle", "length", "displacement"):

@@ -19,32 +19,16 @@ from cardan.units import nearest
 
 @dataclass(frozen=True, kw_only=True)
 class Asked:
-    """One joint as it was asked for.
-
-    Attributes
-    ----------
-    kind : str
-    keys : dict
-        Its sizes as a drive file has them.
-    label : str
-        What it is called beside others.
-    """
+    """One joint as it was asked for."""
 
     kind: str
-    keys: dict[str, Any]
-    label: str
+    keys: dict[str, Any]  # its sizes as a drive file has them
+    label: str  # what it is called beside others
 
 
 def asked(words: Sequence[str]) -> list[Asked]:
     """Return the joints that words name, each kind followed by its keys.
 
-    Raises
-    ------
-    InputError
-        A kind that there is not, a key before any kind, a key given twice.
-
-    Examples
-    --------
     >>> [one.label for one in asked(["rzeppa", "hooke"])]
     ['rzeppa', 'hooke']
     >>> asked(["clemens", "driving.radius_mm=75"])[0].keys
@@ -89,13 +73,7 @@ def _put(table: dict[str, Any], key: str, text: str) -> bool:
 
 
 def made(several: Sequence[Asked]) -> list[Named]:
-    """Return the joints with their names and sizes, read as a drive file would be.
-
-    Raises
-    ------
-    InputError
-        Everything that is wrong with their keys, each as ``kind.key``.
-    """
+    """Return the joints with their names and sizes, read as a drive file would be."""
     joints = []
     problems: list[Problem] = []
     for one in several:

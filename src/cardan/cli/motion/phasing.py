@@ -109,8 +109,6 @@ def phasing(
 def held_yokes(fix: Sequence[str]) -> dict[int, float]:
     """Return shaft number -> yoke angle to hold [rad] of ``2=90``.
 
-    Examples
-    --------
     >>> held_yokes(["2=180"])
     {2: 3.141592653589793}
     """

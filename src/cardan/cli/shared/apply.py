@@ -28,20 +28,9 @@ def written(
 ) -> tuple[YokeSetting, dict[str, Any]]:
     """Write a setting into a file and return it with what changed there, by paths with units.
 
-    Parameters
-    ----------
-    found : Phasing
-        What the yokes can do.
-    drive : Drive
-        The drive as it stands in the file.
-    text : str
-        The file.
-    label : str or None
-        Which setting to write; the first suggested one by default.
-    out : path
-        Where to write it, TOML or JSON.
-    also : mapping of str to value
-        What else changes in the file, by paths with units.
+    drive: the drive as it stands in the file.
+    label: which setting to write; the first suggested one by default.
+    out: where to write it, TOML or JSON; also: what else changes in the file, by paths with units.
     """
     best = (*found.pose_settings, *found.settings, found.as_built)[0]
     chosen = best if label is None else named(every_setting(found), label)
@@ -65,11 +54,6 @@ def named(settings: Sequence[YokeSetting], label: str) -> YokeSetting:
     """Return the setting of a name, or of a word or more of one; the best comes first.
 
     A letter names a setting and is no part of a name: whoever asks for a setting E does not mean "16-tooth splines".
-
-    Raises
-    ------
-    InputError
-        There is none.
     """
     wanted = label.casefold()
     exact = [one for one in settings if one.label.casefold() == wanted]

@@ -141,8 +141,6 @@ def _hinted(problem: Problem) -> str:
 def key_of(field: str) -> str:
     """Return the key of a field in a file.
 
-    Examples
-    --------
     >>> key_of("joints[0].cross.span"), key_of("supports"), key_of("stations[0].to_next.stiffness")
     ('joints[0].cross.span_mm', 'supports', 'stations[0].to_next.stiffness_Nm_per_rad')
     """
@@ -157,10 +155,7 @@ def key_of(field: str) -> str:
 def command_of(name: str) -> Callable[..., int]:
     """Return the command of a question of the register that has no file of its own here.
 
-    Parameters
-    ----------
-    name : str
-        One of `cardan.register.QUESTIONS`.
+    name: one of `cardan.register.QUESTIONS`.
     """
 
     def command(

@@ -17,16 +17,7 @@ from .output import write_text
 def write_changed(drive: Drive, text: str, values: Mapping[str, Any], out: Path) -> None:
     """Write a drive file with other values.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive as it stands in the file.
-    text : str
-        The file.
-    values : mapping of str to value
-        Path with unit -> value.
-    out : path
-        Where to, TOML or JSON.
+    drive: the drive as it stands in the file; values: path with unit -> value; out: where to, TOML or JSON.
     """
     if is_json(out, text):
         form = "json" if out.suffix.lower() == ".json" else "toml"

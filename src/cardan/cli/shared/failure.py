@@ -59,12 +59,7 @@ def reason(error: OSError) -> str:
 def answer(error: BaseException, arguments: Sequence[str]) -> int:
     """Say what went wrong and return the exit code.
 
-    Parameters
-    ----------
-    error : BaseException
-        What a command raised.
-    arguments : sequence of str
-        The command line, for ``--json`` and for the hint on help.
+    arguments: the command line, for ``--json`` and for the hint on help.
     """
     if _reader_gone(error):
         return _closed(DONE)

@@ -49,12 +49,7 @@ def check_figure_target(path: Path) -> None:
 def check_target(path: Path, option: str) -> None:
     """Refuse a file that cannot be written, in words, before any work is done.
 
-    Parameters
-    ----------
-    path : path
-        File to be written.
-    option : str
-        What the user gave it as.
+    option: what the user gave it as.
     """
     folder = path.parent
     if path.is_dir():

@@ -105,12 +105,8 @@ OPTIONS = {
 def recorded(path: Path, how: Reading, progress: Callable[[float], object] | None = None) -> Signal:
     """Return the recording in a file.
 
-    Raises
-    ------
-    InputError
-        A title is none.
-    RefusedError
-        Everything that is wrong with the file, with its name.
+    Raises InputError: a title is none.
+    Raises RefusedError: everything that is wrong with the file, with its name.
     """
     titles = _pairs(how.titles, "--title")
     with about(str(path)):
@@ -137,10 +133,7 @@ def read_both(
 ) -> tuple[Signal, Drive]:
     """Return a recording and its drive.
 
-    Raises
-    ------
-    RefusedError, InputError
-        Everything that is wrong with one of the files, or with both.
+    Raises RefusedError, InputError: everything that is wrong with one of the files, or with both.
     """
     try:
         signal = recorded(path, how, progress)
@@ -173,13 +166,7 @@ def _pairs(given: Sequence[str], option: str) -> dict[str, str]:
 
 
 def placed(recording: Signal, places: Sequence[str], drive: Drive) -> Signal:
-    """Return a recording with its sensors where the options say.
-
-    Raises
-    ------
-    InputError
-        There is no such channel, part of the drive or direction; all at once.
-    """
+    """Return a recording with its sensors where the options say."""
     said = _pairs(places, "--place")
     problems = list(_bad_places(recording, said, drive))
     if problems:

@@ -19,10 +19,7 @@ STDIN = Path("-")
 def read(path: Path, catalogues: Sequence[Path] = ()) -> Drive:
     """Return the drive of a file, or of standard input when the path is ``-``; with rows of further catalogues.
 
-    Raises
-    ------
-    RefusedError
-        Everything that is wrong with the file, with its name.
+    Raises RefusedError: everything that is wrong with the file, with its name.
     """
     if path == STDIN:
         return read_with_text(path, catalogues)[0]
@@ -50,13 +47,7 @@ def form_of(path: Path, text: str) -> str:
 
 
 def stdin_text() -> str:
-    """Return what stands on standard input.
-
-    Raises
-    ------
-    InputError
-        It is no text.
-    """
+    """Return what stands on standard input."""
     stream = getattr(sys.stdin, "buffer", None)
     try:
         return stream.read().decode("utf-8-sig") if stream else sys.stdin.read()

@@ -91,24 +91,12 @@ def tell(
 ) -> int:
     """Tell an answer the way the user asked for and return its exit code.
 
-    Parameters
-    ----------
-    answer : Answer
-        What to say.
-    file : path, optional
-        The file that was asked about.
-    drive : Drive or Mechanism, optional
-        What it describes; a drive that has other conditions is asked in these too.
-    whole : Drive, optional
-        The same with all its load cases, where the answer is of one of them.
-    alone : bool
-        Whether a user asked for one condition, of which alone it is told.
-    name : str
-        What to call what was asked about, instead of the drive or its file.
-    json, csv : bool
-        ``--json`` and ``--csv``.
-    plot : path, optional
-        ``--plot``; drawn first, so that nothing is printed when it cannot be.
+    file: the file that was asked about.
+    drive: what it describes; a drive that has other conditions is asked in these too.
+    whole: the same with all its load cases, where the answer is of one of them.
+    alone: whether a user asked for one condition, of which alone it is told.
+    name: what to call what was asked about, instead of the drive or its file; json, csv: ``--json`` and ``--csv``.
+    plot: ``--plot``; drawn first, so that nothing is printed when it cannot be.
     """
     who = reader()
     if isinstance(drive, Drive):
@@ -257,8 +245,6 @@ def _blocks(widths: Sequence[int], fixed: int, room: int) -> Iterator[list[int]]
 def _filled(text: str, width: int) -> str:
     """Return a text in lines; a number, thin blanks within it, and its unit stay together.
 
-    Examples
-    --------
     >>> _filled("shaft 2 carries 60.0 ± 173 N·m", 26).splitlines()
     ['shaft 2 carries 60.0', '± 173 N·m']
     """

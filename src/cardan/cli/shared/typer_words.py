@@ -73,8 +73,6 @@ ERRORS = (
 def reworded(text: str) -> str:
     """Return a sentence of typer in the language spoken here, as it is where it is not known.
 
-    Examples
-    --------
     >>> reworded("No such option: --bogus")
     'No such option: --bogus'
     """

@@ -13,8 +13,6 @@ PLAIN = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
 def value_of(text: str) -> Any:
     """Return a value: JSON, any usual number, or else the word as it stands.
 
-    Examples
-    --------
     >>> value_of("[1, 2]"), value_of("true"), value_of(".35"), value_of("+3."), value_of("exact")
     ([1, 2], True, 0.35, 3.0, 'exact')
     """

@@ -16,18 +16,7 @@ from cardan.texts import _
 def designed(read: Plan, file: Path, name: str, *, json: bool, csv: bool, plot: Path | None) -> int:
     """Run a design of a plan and tell what it found.
 
-    Parameters
-    ----------
-    read : Plan
-        The plan.
-    file : Path
-        Its file.
-    name : str
-        Table of the design.
-    json, csv : bool
-        ``--json`` and ``--csv``.
-    plot : Path or None
-        ``--plot``.
+    name: table of the design; json, csv: ``--json`` and ``--csv``; plot: ``--plot``.
     """
     with about(str(file)):
         design = design_of(read, name)

@@ -57,8 +57,6 @@ Out: TypeAlias = Annotated[
 def band_of(text: str | None) -> tuple[float, float] | None:
     """Return a band of speeds [rad/s] of LOW:HIGH in rpm.
 
-    Examples
-    --------
     >>> [round(one, 3) for one in band_of("300:600")]
     [31.416, 62.832]
     """
@@ -82,8 +80,6 @@ def elements_of(numbers: Sequence[int] | None) -> list[int] | None:
 def repeated(single: Mapping[str, Any], many: Mapping[str, Sequence[Any] | None]) -> tuple[str, ...]:
     """Return options as they were given, to be typed again.
 
-    Examples
-    --------
     >>> repeated({"--kind": "tuned", "--mode": None}, {"--element": [1, 2]})
     ('--kind', 'tuned', '--element', '1', '--element', '2')
     """
@@ -118,14 +114,7 @@ def asked_of(file: Path, options: Mapping[str, str]) -> Iterator[None]:
 def stepped(said: Answer, words: Sequence[str], given: Sequence[str], out: Path | None) -> Answer:
     """Return an answer with what to do next: have the better drive written, or look at the one that was.
 
-    Parameters
-    ----------
-    said : Answer
-        What was found.
-    words, given : sequence of str
-        The command and its options, to be typed again.
-    out : path or None
-        Where the better drive was written.
+    words, given: the command and its options, to be typed again; out: where the better drive was written.
     """
     if out is None:
         text, command = (
@@ -142,17 +131,7 @@ def stepped(said: Answer, words: Sequence[str], given: Sequence[str], out: Path 
 def written(file: Path, text: str, out: Path, edited: Callable[[], str], better: Drive) -> None:
     """Write a better drive.
 
-    Parameters
-    ----------
-    file : path
-    text : str
-        The file.
-    out : path
-        Where to write it, TOML or JSON.
-    edited : callable
-        Makes the new text of a TOML file.
-    better : Drive
-        What it is to hold.
+    out: where to write it, TOML or JSON; edited: makes the new text of a TOML file.
     """
     if is_json(out, text):
         asked = loads(text, form=form_of(file, text), folder=file.parent).duty  # not the one of the command line

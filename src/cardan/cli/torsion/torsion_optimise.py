@@ -84,8 +84,6 @@ def torsion_optimise(
 def ranges_of(texts: Sequence[str]) -> dict[str, tuple[float, ...]] | None:
     """Return path -> range of PATH=LOW:HIGH[:STEP], None where nothing is given.
 
-    Examples
-    --------
     >>> ranges_of(["shafts[1].yoke_angle_deg=-90:90:22.5"])
     {'shafts[1].yoke_angle_deg': (-90.0, 90.0, 22.5)}
     """

@@ -41,24 +41,8 @@ MOST = 1_000_000
 def values(text: str, option: str, *, count: int = COUNT, low: float | None = None) -> Any:
     """Return the values of LOW:HIGH[:COUNT].
 
-    Parameters
-    ----------
-    text : str
-        What the user wrote.
-    option : str
-        As what.
-    count : int
-        How many, where the text does not say.
-    low : float, optional
-        The values are above this.
+    count: how many, where the text does not say; low: the values are above this.
 
-    Raises
-    ------
-    InputError
-        The text is no such range, or holds too many values.
-
-    Examples
-    --------
     >>> values("100:200:3", "--speeds").tolist()
     [100.0, 150.0, 200.0]
     """

@@ -40,28 +40,10 @@ def assembled(
 ) -> Build:
     """Return a drive as bodies, each with the track it moves along over one turn of the input.
 
-    Parameters
-    ----------
-    drive : Drive
-        Its sizes filled in from the catalogue.
-    count : int
-        Places of the turn, evenly by the input angle.
-    points : array (n+2, 3) [m], optional
-        Where the points of the drive are meanwhile; as drawn when not given.
-    drawn : Geometry, optional
-        Where its rigid parts were measured, where that is another pose of it.
-
-    Returns
-    -------
-    Build
-        Rigid parts keep their lengths; a slip spline takes up the difference.
-
-    Examples
-    --------
-    >>> from cardan.drive.drive import Drive
-    >>> made = assembled(Drive.from_angles([0.2, 0.2]), count=4)
-    >>> sorted({solid.part for solid in made.solids})
-    ['bearing cap', 'cross', 'driven yoke', 'driving yoke', 'flange', 'tube']
+    drive: its sizes filled in from the catalogue; count: places of the turn, evenly by the input angle.
+    points (n+2, 3) [m]: where the points of the drive are meanwhile; as drawn when not given.
+    drawn: where its rigid parts were measured, where that is another pose of it.
+    Returns Build: rigid parts keep their lengths; a slip spline takes up the difference.
     """
     here = geometry(drive)
     place = here if points is None else moved(here, points)
@@ -101,12 +83,7 @@ def moved(drawn: Geometry, points: Array) -> Geometry:
 def standing(drive: Drive, drawn: Geometry, place: Geometry, angle: Array) -> Arms:
     """Return the directions of all arms at input angles; the first yoke stays where it was drawn while points move.
 
-    Parameters
-    ----------
-    drive : Drive
-    drawn, place : Geometry
-        Where it was drawn, and where it is.
-    angle : array (p,) [rad]
+    drawn, place: where it was drawn, and where it is; angle (p,) [rad].
     """
     train = given_chain(drive)
     if place is not drawn:

@@ -24,87 +24,45 @@ from .solids import Arms
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Track:
-    """How a body moves over one turn: x = origin + turn * local.
+    """How a body moves over one turn: x = origin + turn * local."""
 
-    Attributes
-    ----------
-    origin : array (3,) or (p, 3) [m]
-    turn : array (p, 4)
-        Quaternions x y z w.
-    """
-
-    origin: Array
-    turn: Array
+    origin: Array  # (3,) or (p, 3) [m]
+    turn: Array  # (p, 4): quaternions x y z w
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Solid:
-    """A body as it looks, in the frame of its track.
-
-    Attributes
-    ----------
-    part : str
-        What it is.
-    number : int
-        Number of the shaft or joint that it belongs to.
-    path : str
-        Where the file speaks of it.
-    text : str
-        What it is, in words.
-    track : int
-    surface : Surface
-    role : str
-        Role of its colour.
-    shade : float
-        Share of white in its colour.
-    metal : bool
-    """
+    """A body as it looks, in the frame of its track."""
 
     part: str
-    number: int
-    path: str
-    text: Text
+    number: int  # number of the shaft or joint that it belongs to
+    path: str  # where the file speaks of it
+    text: Text  # what it is, in words
     track: int
     surface: Surface
-    role: str
-    shade: float = 0.0
+    role: str  # role of its colour
+    shade: float = 0.0  # share of white in its colour
     metal: bool = True
 
 
 @dataclass(eq=False, kw_only=True)
 class Build:
-    """A drive while its bodies are put together.
-
-    Attributes
-    ----------
-    drive : Drive
-    place : Geometry
-        Where it lies; moved drives lie elsewhere than drawn.
-    drawn : Geometry
-        Where its file puts it: rigid parts keep the lengths they have there.
-    sizes : Sizes
-    arms : Arms
-        Directions of its yokes at every frame, arrays (n, p, 3).
-    tracks : list of Track
-        The first stands still.
-    solids : list of Solid
-    starts, ends, free, stations : dict of int
-        Tracks of the two ends of each shaft, of its free end, and of the stations by their index.
-    profiles : dict of (float, float) [m]
-        Radius of each shaft at its start and at its end.
-    """
+    """A drive while its bodies are put together."""
 
     drive: Drive
-    place: Geometry
-    drawn: Geometry
+    place: Geometry  # where it lies; moved drives lie elsewhere than drawn
+    drawn: Geometry  # where its file puts it: rigid parts keep the lengths they have there
     sizes: Sizes
-    arms: Arms
-    tracks: list[Track] = field(default_factory=list)
+    arms: Arms  # directions of its yokes at every frame, arrays (n, p, 3)
+    tracks: list[Track] = field(default_factory=list)  # the first stands still
     solids: list[Solid] = field(default_factory=list)
+    # starts, ends, free, stations: tracks of the two ends of each shaft, of its free end, and of the stations by their
+    # index
     starts: dict[int, int] = field(default_factory=dict)
     ends: dict[int, int] = field(default_factory=dict)
     free: dict[int, int] = field(default_factory=dict)
     stations: dict[int, int] = field(default_factory=dict)
+    # [m]: radius of each shaft at its start and at its end
     profiles: dict[int, tuple[float, float]] = field(default_factory=dict)
 
     @property

@@ -31,31 +31,16 @@ class Stretch:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Slip:
-    """Where a slip spline stands along its shaft [m], and which way it is put together.
+    """Where a slip spline stands along its shaft [m], and which way it is put together."""
 
-    Attributes
-    ----------
-    start, stop : float
-        Ends of the engagement.
-    back : float
-        Where the bore of the sleeve ends.
-    out : float
-        Where the teeth end beyond the sleeve.
-    tip, root : float
-        Radii of the teeth.
-    teeth : int
-    sleeve_first : bool
-        Whether the sleeve belongs to the start of the shaft.
-    """
-
-    start: float
+    start: float  # start, stop: ends of the engagement
     stop: float
-    back: float
-    out: float
-    tip: float
+    back: float  # where the bore of the sleeve ends
+    out: float  # where the teeth end beyond the sleeve
+    tip: float  # tip, root: radii of the teeth
     root: float
     teeth: int
-    sleeve_first: bool
+    sleeve_first: bool  # whether the sleeve belongs to the start of the shaft
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -72,18 +57,9 @@ def shaft_stretches(
 ) -> list[Stretch]:
     """Return the stretches of a shaft between its yokes: those of its file, else one with a neck at each support.
 
-    Parameters
-    ----------
-    shaft : Shaft
-        The shaft.
-    low, high : float [m]
-        Where it begins and ends, from the joint before it; on shaft 1 from joint 1.
-    length : float or None [m]
-        Between its joints; None for an end shaft.
-    radius : float [m]
-        Where it is thickest.
-    necks : sequence of (float, float) [m]
-        Places of supports and the radius there.
+    low, high [m]: where it begins and ends, from the joint before it; on shaft 1 from joint 1.
+    length [m]: between its joints; None for an end shaft.
+    radius [m]: where it is thickest; necks [m]: places of supports and the radius there.
     """
     stretches = _stretches(shaft, low, high, length, radius)
     return stretches if shaft.segments else _necked(stretches, necks, radius)
@@ -92,16 +68,7 @@ def shaft_stretches(
 def shaft_pieces(shaft: Shaft, low: float, high: float, radius: float, stretches: Sequence[Stretch]) -> Iterator[Piece]:
     """Yield the bodies of a shaft between its yokes.
 
-    Parameters
-    ----------
-    shaft : Shaft
-        The shaft.
-    low, high : float [m]
-        Where it begins and ends.
-    radius : float [m]
-        Where it is thickest.
-    stretches : sequence of Stretch
-        What it looks like between.
+    low, high [m]: where it begins and ends; radius [m]: where it is thickest.
     """
     slip = None if shaft.spline is None or high - low < 0.4 * radius else slip_of(shaft.spline, low, high, radius)
     if slip is None:
@@ -124,14 +91,7 @@ def shaft_pieces(shaft: Shaft, low: float, high: float, radius: float, stretches
 def slip_of(spline: Spline, low: float, high: float, radius: float) -> Slip:
     """Return where a slip spline stands between the yokes of its shaft.
 
-    Parameters
-    ----------
-    spline : Spline
-        What the file says of it.
-    low, high : float [m]
-        Ends of the shaft beside its yokes.
-    radius : float [m]
-        Of the shaft.
+    spline: what the file says of it; low, high [m]: ends of the shaft beside its yokes; radius [m].
     """
     mean = 0.5 * spline.mean_diameter if spline.mean_diameter is not None else 0.62 * radius
     teeth = min(spline.teeth or 16, SHOWN_TEETH)

@@ -24,40 +24,19 @@ SHOWN = 4.0
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Sizes:
-    """Sizes of all parts of a drive.
-
-    Attributes
-    ----------
-    joints : tuple of JointSize
-    bodies : tuple of float [m]
-        Radius of each shaft where it is thickest.
-    solid : tuple of bool
-        Whether the file says what the shaft looks like.
-    ends : (float, float) [m]
-        How long the input and the output shaft are drawn, from their joint.
-    usual : float [m]
-        Radius of a joint of this drive where the file says none.
-    """
+    """Sizes of all parts of a drive."""
 
     joints: tuple[JointSize, ...]
-    bodies: tuple[float, ...]
-    solid: tuple[bool, ...]
-    ends: tuple[float, float]
-    usual: float
+    bodies: tuple[float, ...]  # [m]: radius of each shaft where it is thickest
+    solid: tuple[bool, ...]  # whether the file says what the shaft looks like
+    ends: tuple[float, float]  # [m]: how long the input and the output shaft are drawn, from their joint
+    usual: float  # [m]: radius of a joint of this drive where the file says none
 
 
 def sizes(drive: Drive, place: Geometry) -> Sizes:
     """Return how large the parts of a drive are drawn.
 
-    Parameters
-    ----------
-    drive : Drive
-        Its sizes filled in from the catalogue.
-    place : Geometry
-        Where it lies.
-
-    Notes
-    -----
+    drive: its sizes filled in from the catalogue; place: where it lies.
     A joint is as large as its cross, else as its rating, else in proportion to its shafts: their diameter where it is
     given, else their lengths.
     """

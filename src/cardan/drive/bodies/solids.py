@@ -27,52 +27,26 @@ SIDES = 10
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Arms:
-    """Where the yokes stand, at one input angle or many (...).
+    """Where the yokes stand, at one input angle or many (...)."""
 
-    Attributes
-    ----------
-    driving : array (n, ..., 3)
-        u_i, direction of the cross arm that the driving yoke of joint i holds; the yoke is part of shaft i.
-    driven : array (n, ..., 3)
-        v_{i+1}, direction of the cross arm that the driven yoke of joint i holds; the yoke is part of shaft i+1.
-        Joints without a cross have marks instead.
-    """
-
+    # (n, ..., 3): u_i, direction of the cross arm that the driving yoke of joint i holds; the yoke is part of shaft i
     driving: Array
+    # (n, ..., 3): v_{i+1}, direction of the cross arm that the driven yoke of joint i holds; the yoke is part of shaft
+    # i+1. Joints without a cross have marks instead.
     driven: Array
 
 
 def arms(place: Geometry, train: Chain, angle: ArrayLike = 0.0, joints: Sequence[Joint] = ()) -> Arms:
     """Return the directions of all cross arms.
 
-    Parameters
-    ----------
-    place : Geometry
-        Where the drive lies.
-    train : Chain
-        Its yoke angles and start phase.
-    angle : array (...) [rad]
-        Input angle φ_1 from the start position.
-    joints : sequence of n Joint
-        Their kinds; Hooke joints when empty.
+    place: where the drive lies; train: its yoke angles and start phase.
+    angle (...) [rad]: input angle φ_1 from the start position.
+    joints: their kinds; Hooke joints when empty.
+    Returns Arms: driving, driven (n, ..., 3).
 
-    Returns
-    -------
-    Arms
-        driving, driven : arrays (n, ..., 3).
-
-    Notes
-    -----
     Positions alone, by plain vectors: u_1 stands φ_1 + ψ_1 from N_1 × a_1, v_{i+1} = unit(a_{i+1} × u_i), and u_i is
     v_i turned by -γ_i about a_i. No planes are needed, so straight joints are nothing special. Joints of another kind
     turn by their own law, counted from their plane.
-
-    Examples
-    --------
-    >>> drive = Drive.from_angles([0.2, 0.2])
-    >>> found = arms(geometry(drive), given_chain(drive))
-    >>> np.abs(np.round(found.driven[0], 12))
-    array([0., 1., 0.])
     """
     axis = place.axis
     first = frames.cross(place.normal[0], axis[0])
@@ -101,80 +75,34 @@ def _driven_mark(joint: Joint, place: Geometry, i: int, driving: Array, joint_an
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Body:
-    """One solid, its surface as flat faces with outward normals by the right-hand rule.
-
-    Attributes
-    ----------
-    part : str
-        What it is.
-    number : int
-        Number of the shaft it belongs to; of the joint for a cross.
-    corners : array (m, 3) [m]
-        Its corners.
-    faces : tuple of tuple of int
-        Corners of each face in order; a face may be concave.
-    triangles : tuple of tuple of int
-        The same surface as triangles.
-    smooth : bool
-        Faces stand for a round surface: their edges are not drawn.
-    """
+    """One solid, its surface as flat faces with outward normals by the right-hand rule."""
 
     part: Part
-    number: int
-    corners: Array
-    faces: tuple[tuple[int, ...], ...]
-    triangles: tuple[tuple[int, int, int], ...]
-    smooth: bool = False
+    number: int  # number of the shaft it belongs to; of the joint for a cross
+    corners: Array  # (m, 3) [m]
+    faces: tuple[tuple[int, ...], ...]  # corners of each face in order; a face may be concave
+    triangles: tuple[tuple[int, int, int], ...]  # the same surface as triangles
+    smooth: bool = False  # faces stand for a round surface: their edges are not drawn
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Solids:
-    """The bodies of a drive and the sizes they were given.
+    """The bodies of a drive and the sizes they were given."""
 
-    Attributes
-    ----------
-    bodies : tuple of Body
-        Tubes, yokes and crosses.
-    centres : array (n, 3) [m]
-        Joint centres.
-    ends : array (2, 3) [m]
-        Where the drawing cuts the input and the output shaft.
-    radius : float [m]
-        Half the distance between the ears of a yoke, assumed.
-    place : Geometry
-        Where the drive lies.
-    arms : Arms
-        Where its yokes stand.
-    """
-
-    bodies: tuple[Body, ...]
-    centres: Array
-    ends: Array
-    radius: float
-    place: Geometry
-    arms: Arms
+    bodies: tuple[Body, ...]  # tubes, yokes and crosses
+    centres: Array  # (n, 3) [m]: joint centres
+    ends: Array  # (2, 3) [m]: where the drawing cuts the input and the output shaft
+    radius: float  # [m]: half the distance between the ears of a yoke, assumed
+    place: Geometry  # where the drive lies
+    arms: Arms  # where its yokes stand
 
 
 def solids(drive: Drive, angle: float = 0.0) -> Solids:
     """Return a drive as bodies in space.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-    angle : float [rad]
-        Input angle φ_1 from the start position.
-
-    Returns
-    -------
-    Solids
-        Sizes are in proportion to the shafts; the end shafts are cut or lengthened to show a yoke and a piece of tube.
-
-    Examples
-    --------
-    >>> drive = Drive.from_angles([0.2, 0.2])
-    >>> sorted({body.part for body in solids(drive).bodies})
-    ['cross', 'driven yoke', 'driving yoke', 'tube']
+    angle [rad]: input angle φ_1 from the start position.
+    Returns Solids: sizes are in proportion to the shafts; the end shafts are cut or lengthened to show a yoke and a
+    piece of tube.
     """
     place, train = geometry(drive), given_chain(drive)
     stand = arms(place, train, angle, drive.joints)
@@ -226,12 +154,7 @@ def _sizes(place: Geometry) -> tuple[float, float]:
 def _yoke(part: Part, shaft: int, centre: Array, outward: Array, arm: Array, radius: float) -> Body:
     """Return a fork: two ears at the ends of the arm, joined behind the joint.
 
-    Parameters
-    ----------
-    outward : array (3,)
-        From the joint centre into the yoke's own shaft.
-    arm : array (3,)
-        Direction of the cross arm it holds.
+    outward (3,): from the joint centre into the yoke's own shaft; arm (3,): direction of the cross arm it holds.
     """
     half = np.asarray(_FORK)
     across = frames.cross(arm, outward)

@@ -27,13 +27,7 @@ NAMED: dict[type, str] = {Material: "grade", History: "file"}
 
 
 def spelled(path: str, root: Any = Described) -> str:
-    """Return the path of a field of a file that describes a ``root`` as we write it, with the unit we prefer.
-
-    Examples
-    --------
-    >>> spelled("joints[1].centre[2]"), spelled("shafts[1].spline.teeth")
-    ('joints[1].centre_mm[2]', 'shafts[1].spline.teeth')
-    """
+    """Return the path of a field of a file that describes a ``root`` as we write it, with the unit we prefer."""
     steps = []
     for step, fields_here in _along(path, root):
         if not fields_here:
@@ -47,13 +41,7 @@ USUAL = {"life": "h", "hours": "h", "distance": "km", "wheelbase": "m", "wheel_r
 
 
 def key_of(bare: str) -> str:
-    """Return the key of a path as a drawing or a data sheet has it: lives in hours, distances run in kilometres.
-
-    Examples
-    --------
-    >>> key_of("duty.life"), key_of("shafts[1].outer")
-    ('duty.life_h', 'shafts[1].outer_mm')
-    """
+    """Return the key of a path as a drawing or a data sheet has it: lives in hours, distances run in kilometres."""
     path = spelled(bare)
     unit = USUAL.get(bare.rpartition(".")[2])
     return path if unit is None else f"{bare}_{unit}"
@@ -62,8 +50,6 @@ def key_of(bare: str) -> str:
 def in_a_joint(drive: Described, key: str, inner: str = "") -> tuple[str, ...]:
     """Return the path of a key in the first joint that can have it; none where no joint of the drive can.
 
-    Examples
-    --------
     >>> from cardan.drive.drive import Drive
     >>> in_a_joint(Drive.from_angles([0.3]), "friction"), in_a_joint(Drive.from_angles([0.3]), "cross", ".span")
     (('joints[0].friction',), ('joints[0].cross.span',))
@@ -73,13 +59,7 @@ def in_a_joint(drive: Described, key: str, inner: str = "") -> tuple[str, ...]:
 
 
 def meant(path: str, root: Any = Described) -> str:
-    """Return what a field means that a path without unit leads to, not translated; empty where it leads nowhere.
-
-    Examples
-    --------
-    >>> meant("shafts[1].outer"), meant("shafts[1].spline.tooth_width"), meant("shafts[1].colour")
-    ('outer diameter', 'width of a tooth', '')
-    """
+    """Return what a field means that a path without unit leads to, not translated; empty where it leads nowhere."""
     found = [fields_here for _step, fields_here in _along(path, root)]
     return found[-1][0].key.doc if all(found) else ""
 

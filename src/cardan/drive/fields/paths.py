@@ -28,37 +28,17 @@ _STEP = re.compile(r"([A-Za-z_][A-Za-z0-9_]*)((?:\[\d+\])*)$")
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a path leads.
+    """Where a path leads."""
 
-    Attributes
-    ----------
-    steps : tuple of str or int
-        Field names and indices from the drive to the value.
-    field : Field
-        The field that holds it.
-    factor : float
-        From the path's unit to SI.
-    inside : int
-        How many of the last steps lead into the field's own numbers.
-    spelling : str
-        How the path spells the field.
-    """
-
-    steps: tuple[str | int, ...]
-    field: Field
-    factor: float
-    inside: int
-    spelling: str
+    steps: tuple[str | int, ...]  # field names and indices from the drive to the value
+    field: Field  # the field that holds it
+    factor: float  # from the path's unit to SI
+    inside: int  # how many of the last steps lead into the field's own numbers
+    spelling: str  # how the path spells the field
 
 
 def place(drive: Described, path: str) -> Place:
-    """Return where a path leads in a drive.
-
-    Raises
-    ------
-    InputError
-        The path leads nowhere; the message names the nearest one that does.
-    """
+    """Return where a path leads in a drive."""
     here: Any = drive
     steps: list[str | int] = []
     words = path.split(".")
@@ -87,15 +67,7 @@ def place(drive: Described, path: str) -> Place:
 
 
 def read(drive: Described, path: str) -> Any:
-    """Return the value a path leads to, in the path's unit.
-
-    Examples
-    --------
-    >>> from cardan.drive.drive import Drive
-    >>> drive = Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0)])
-    >>> read(drive, "joints[0].centre_mm[0]")
-    300.0
-    """
+    """Return the value a path leads to, in the path's unit."""
     there = place(drive, path)
     here: Any = drive
     for step in there.steps:
@@ -187,10 +159,7 @@ def _as_given(field: str, given: Mapping[str, str]) -> str:
 def pose_drives(drive: D) -> tuple[D, ...]:
     """Return the drive in each of its poses, without poses of its own.
 
-    Raises
-    ------
-    InputError
-        A pose changes what is not there, or makes no drive; the path names the pose.
+    Raises InputError: a pose changes what is not there, or makes no drive; the path names the pose.
     """
     bare = replace(drive, poses=())
     return tuple(with_values(bare, dict(pose.set)) for pose in drive.poses)
@@ -199,12 +168,8 @@ def pose_drives(drive: D) -> tuple[D, ...]:
 def pose_problems(drive: Described, *, whole: bool) -> Iterator[Problem]:
     """Yield what is wrong with the poses of a drive.
 
-    Parameters
-    ----------
-    drive : Described
-        The drive; it need not be checked yet.
-    whole : bool
-        Whether it is free of other problems, so that its poses can be judged as drives too.
+    drive: the drive; it need not be checked yet.
+    whole: whether it is free of other problems, so that its poses can be judged as drives too.
     """
     bare = copy(drive)
     object.__setattr__(bare, "poses", ())

@@ -51,38 +51,16 @@ QUARTERS = tuple(k * math.pi / 4.0 for k in (1, 2, 3, 4))
 
 @dataclass(frozen=True, kw_only=True)
 class Doubt:
-    """A value that is hardly meant.
+    """A value that is hardly meant."""
 
-    Attributes
-    ----------
-    path : str
-        Where it stands, without a unit.
-    text : Text
-        What is odd about it, in a sentence.
-    """
-
-    path: str
-    text: Text
+    path: str  # where it stands, without a unit
+    text: Text  # what is odd about it, in a sentence
 
 
 def doubts(drive: Described) -> Iterator[Doubt]:
     """Yield what a drive gives that is hardly meant; nothing is changed for it.
 
-    Parameters
-    ----------
-    drive : Drive
-        As its file has it.
-
-    Examples
-    --------
-    >>> from cardan.answers.quantity import told
-    >>> from cardan.answers.reader import USUAL as reader
-    >>> from cardan.drive.shaft import Shaft
-    >>> from dataclasses import replace
-    >>> long = replace(Drive.from_angles([0.1, 0.1]), shafts=(Shaft(number=2, length=1200.0),))
-    >>> for one in doubts(long):
-    ...     print(told(one.text, reader).replace("\u202f", " "))
-    shafts[1].length_mm is 1 200 000 mm; did you mean 1 200 mm?
+    drive: as its file has it.
     """
     for path, value, dimension in _numbers(drive, ""):
         yield from _magnitude(path, value, dimension)

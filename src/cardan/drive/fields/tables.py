@@ -21,8 +21,6 @@ def tree_of(thing: Any) -> dict[str, Any]:
 def written(value: float, dimension: str) -> tuple[str, float]:
     """Return unit and number that stand for a value in SI exactly, the shortest in the preferred unit if there is one.
 
-    Examples
-    --------
     >>> written(0.3490658503988659, "angle")
     ('deg', 20.0)
     """

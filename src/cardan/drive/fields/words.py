@@ -21,13 +21,8 @@ AXES = re.compile(r"\[([012])\]$")
 def with_key(path: str) -> str:
     """Return what stands at a path in words, with the key that is typed for it.
 
-    Parameters
-    ----------
-    path : str
-        Without unit.
+    path: without unit.
 
-    Examples
-    --------
     >>> with_key("shafts[1].outer")
     'shaft 2: outer diameter (shafts[1].outer_mm)'
     """
@@ -37,17 +32,7 @@ def with_key(path: str) -> str:
 def in_words(path: str) -> str:
     """Return what stands at a path of the drive file, in words, with parts counted as people count them.
 
-    Parameters
-    ----------
-    path : str
-        Without unit.
-
-    Examples
-    --------
-    >>> in_words("shafts[3].yoke_angle"), in_words("joints[0].centre[2]")
-    ('shaft 4: yoke angle', 'joint 1: centre, z')
-    >>> in_words("duty.speed"), in_words("duty.blocks[1].torque"), in_words("joints[2].yoke.material.yield_strength")
-    ('input speed', 'part 2 of the duty cycle: torque', 'joint 3, yoke: yield strength')
+    path: without unit.
     """
     owners = {
         "joints": _("joint {number}"),

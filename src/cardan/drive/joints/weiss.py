@@ -28,16 +28,9 @@ def groove_course(
 ) -> tuple[Array, Array, Array]:
     """Return the mean of what balls in offset grooves ask for; even where both offsets are equal.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        θ of the first ball.
-    joint_angle : float or array () [rad]
-        α.
-    first, second, radius : float [m]
-        Offsets of the groove centres and radius of the grooves.
-    balls : int
-        Balls at equal angles that carry.
+    angle (...) [rad]: θ of the first ball; joint_angle () [rad]: α.
+    first, second, radius [m]: offsets of the groove centres and radius of the grooves.
+    balls: balls at equal angles that carry.
     """
     if first is None or second is None or radius is None or first == second:
         return 0.0 * angle, 1.0 + 0.0 * angle, 0.0 * angle
@@ -53,11 +46,7 @@ def groove_course(
 def balls_inside(tilt: float, angle_errors: Array) -> Iterator[Inside]:
     """Yield by how much the plane of the balls misses the middle, and what they ask for among themselves.
 
-    Parameters
-    ----------
-    tilt : float [rad]
-    angle_errors : array (p, k) [rad]
-        What each of k balls asks for, over a turn.
+    tilt [rad]; angle_errors (p, k) [rad]: what each of k balls asks for, over a turn.
     """
     yield missed(tilt)
     text = _("play that its balls need, or strain between them")

@@ -23,26 +23,13 @@ class Chain:
     """Joint angles, plane twists and yoke angles of one drive of Hooke joints (n,) or of many (..., n).
 
     Joints of other kinds stand in it as the Hooke joints that turn alike, see `cardan.drive.models.laws`.
-
-    Attributes
-    ----------
-    joint_angle : array (..., n) [rad]
-        α_1 … α_n.
-    plane_twist : array (..., n-1) [rad]
-        β_2 … β_n.
-    yoke_angle : array (..., n-1) [rad]
-        γ_2 … γ_n, from the driving to the driven yoke of a shaft.
-    start_phase : array (...) [rad]
-        ψ_1.
-    laws : Laws or None
-        The joints as they are, where any is of another kind.
     """
 
-    joint_angle: Array
-    plane_twist: Array
-    yoke_angle: Array
-    start_phase: Array
-    laws: Laws | None = None
+    joint_angle: Array  # (..., n) [rad]: α_1 … α_n
+    plane_twist: Array  # (..., n-1) [rad]: β_2 … β_n
+    yoke_angle: Array  # (..., n-1) [rad]: γ_2 … γ_n, from the driving to the driven yoke of a shaft
+    start_phase: Array  # (...) [rad]: ψ_1
+    laws: Laws | None = None  # the joints as they are, where any is of another kind
 
     @property
     def joints(self) -> int:
@@ -84,19 +71,7 @@ def chain(drive: Drive) -> Chain:
 def turning_chain(drive: Drive) -> Chain:
     """Return the Hooke joints that turn like the joints of a drive, those of other kinds among them.
 
-    Parameters
-    ----------
-    drive : Drive
-
-    Raises
-    ------
-    InputError
-        The motion of a joint is no Möbius map, or it does not turn at its bend.
-
-    Examples
-    --------
-    >>> turning_chain(Drive.from_angles([0.3, 0.4])).joint_angle
-    array([0.3, 0.4])
+    Raises InputError: the motion of a joint is no Möbius map, or it does not turn at its bend.
     """
     return turning(given_chain(drive), drive.joints)
 
@@ -104,13 +79,8 @@ def turning_chain(drive: Drive) -> Chain:
 def turning(whole: Chain, joints: Sequence[Joint], *, near: bool = False) -> Chain:
     """Return the Hooke joints that turn like joints of any kind with the joint angles and planes of a chain.
 
-    Parameters
-    ----------
-    whole : Chain (..., n)
-        Bends and plane twists as they are.
-    joints : sequence of n Joint
-    near : bool
-        Take a joint without a Möbius map by the nearest one: good enough for loads, not for motion.
+    whole (..., n): bends and plane twists as they are.
+    near: take a joint without a Möbius map by the nearest one: good enough for loads, not for motion.
     """
     if not mixed(joints):
         return whole
@@ -127,16 +97,7 @@ def turning(whole: Chain, joints: Sequence[Joint], *, near: bool = False) -> Cha
 def nearly_turning_chain(drive: Drive, question: str) -> Chain:
     """Return the Hooke joints that turn like the joints of a drive, but for angles that nobody can measure.
 
-    Parameters
-    ----------
-    drive : Drive
-    question : str
-        What is asked, in words.
-
-    Raises
-    ------
-    InputError
-        A joint turns by a law of its own that no Möbius map comes near.
+    question: what is asked, in words.
     """
     given = given_chain(drive)
     left = [
@@ -150,13 +111,8 @@ def nearly_turning_chain(drive: Drive, question: str) -> Chain:
 def as_hooke(drive: Drive) -> Drive:
     """Return a drive of Hooke joints that turns like a drive, itself where it has no other joints.
 
-    Raises
-    ------
-    InputError
-        The motion of a joint is no Möbius map, or it does not turn at its bend.
+    Raises InputError: the motion of a joint is no Möbius map, or it does not turn at its bend.
 
-    Examples
-    --------
     >>> from cardan.drive.joints import ConstantVelocity, Hooke
     >>> pair = Drive(joints=(Hooke(joint_angle=0.3), ConstantVelocity(joint_angle=0.4)))
     >>> [joint.joint_angle for joint in as_hooke(pair).joints]

@@ -25,43 +25,20 @@ Vector: TypeAlias = tuple[Number, Number, Number]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Columns:
-    """Many polylines, a number or an array (n,) for each joint or shaft.
+    """Many polylines, a number or an array (n,) for each joint or shaft."""
 
-    Attributes
-    ----------
-    joint_angle : tuple
-        α_1 … α_n [rad].
-    plane_twist : tuple
-        β_2 … β_n [rad].
-    length : tuple
-        Of shafts 1 to n+1 [m].
-    """
-
-    joint_angle: tuple[Number, ...]
-    plane_twist: tuple[Number, ...]
-    length: tuple[Number, ...]
+    joint_angle: tuple[Number, ...]  # α_1 … α_n [rad]
+    plane_twist: tuple[Number, ...]  # β_2 … β_n [rad]
+    length: tuple[Number, ...]  # of shafts 1 to n+1 [m]
 
 
 def columns(points: Sequence[Vector], count: int) -> Columns:
     """Return bends, plane twists and lengths of polylines, as `cardan.drive.models.geometry.polyline` does.
 
-    Parameters
-    ----------
-    points : sequence of n+2 triples of float or array (count,) [m]
-        Point of the input axis, joint centres, point of the output axis.
-    count : int
-        How many drives there are.
-
-    Notes
-    -----
+    points, sequence of n+2 triples of float or array (count,) [m]: point of the input axis, joint centres, point of the
+    output axis.
     Drives with a straight joint, whose plane is that of a neighbour, go through `polyline` itself, each by itself, so
     that what comes out for a drive does not depend on those beside it.
-
-    Examples
-    --------
-    >>> found = columns([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (2.0, np.asarray([1.0, 0.0]), 0.0)], 2)
-    >>> np.rad2deg(found.joint_angle[0])
-    array([45.,  0.])
     """
     with np.errstate(all="ignore"):  # points that coincide have no direction, straight joints no plane
         return _columns(points, count)
@@ -91,14 +68,7 @@ def _columns(points: Sequence[Vector], count: int) -> Columns:
 
 
 def table(values: Sequence[Number], count: int) -> Array:
-    """Return numbers and arrays (count,) as the columns of one array (count, k).
-
-    Examples
-    --------
-    >>> table((1.0, np.asarray([2.0, 3.0])), 2)
-    array([[1., 2.],
-           [1., 3.]])
-    """
+    """Return numbers and arrays (count,) as the columns of one array (count, k)."""
     found = np.empty((count, len(values)))
     for k, one in enumerate(values):
         found[:, k] = one

@@ -32,30 +32,11 @@ GEOMETRY = ("centre", "joint_angle", "plane_twist", "move_within", "point", "len
 def in_form(drive: Drive, form: Form) -> Drive:
     """Return the same drive with its geometry in another form; its motion does not change.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-    form : {"points", "angles", "slopes"}
-        The form wanted. Angles put joint 1 at the origin and shaft 1 along x, which turns the drive as a whole,
-        gravity with it; slopes put joint 1 at the origin. Movements are carried along where the drive is shifted but
-        not turned.
-
-    Returns
-    -------
-    Drive
-        Where joint 1 is straight, its plane is a matter of the form, and the start phase is measured from the new one.
-
-    Raises
-    ------
-    InputError
-        A shaft does not run along +x and so has no slopes; boxes, poses or movements name what the other form has not.
-
-    Examples
-    --------
-    >>> drive = Drive.from_points([(0, 0, 0), (1, 0, 0), (2, 1, 0)])
-    >>> round(math.degrees(in_form(drive, "angles").joints[0].joint_angle), 12)
-    45.0
+    form: the form wanted. Angles put joint 1 at the origin and shaft 1 along x, which turns the drive as a whole,
+    gravity with it; slopes put joint 1 at the origin. Movements are carried along where the drive is shifted but not
+    turned.
+    Returns Drive: where joint 1 is straight, its plane is a matter of the form, and the start phase is measured from
+    the new one.
     """
     if form == drive.form:
         return drive

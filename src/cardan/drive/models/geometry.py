@@ -19,60 +19,25 @@ STRAIGHT = 1e-12
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Geometry:
-    """Where a drive lies in space.
+    """Where a drive lies in space."""
 
-    Attributes
-    ----------
-    points : array (..., n+2, 3) [m]
-        B_0 … B_{n+1}.
-    length : array (..., n+1) [m]
-        Distance between neighbouring points.
-    axis : array (..., n+1, 3)
-        Directions a_i of the shafts along the power flow.
-    normal : array (..., n, 3)
-        Normals N_i of the joints' planes.
-    joint_angle : array (..., n) [rad]
-        α_i.
-    plane_twist : array (..., n-1) [rad]
-        β_2 … β_n in (-π, π].
-    assumed : tuple of str
-        Paths of what the drive does not say and the drawing assumes.
-    """
-
-    points: Array
-    length: Array
-    axis: Array
-    normal: Array
-    joint_angle: Array
-    plane_twist: Array
-    assumed: tuple[str, ...] = ()
+    points: Array  # (..., n+2, 3) [m]: B_0 … B_{n+1}
+    length: Array  # (..., n+1) [m]: distance between neighbouring points
+    axis: Array  # (..., n+1, 3): directions a_i of the shafts along the power flow
+    normal: Array  # (..., n, 3): normals N_i of the joints' planes
+    joint_angle: Array  # (..., n) [rad]: α_i
+    plane_twist: Array  # (..., n-1) [rad]: β_2 … β_n in (-π, π]
+    assumed: tuple[str, ...] = ()  # paths of what the drive does not say and the drawing assumes
 
 
 def geometry_from_points(points: Array) -> Geometry:
     """Return bends, planes and lengths of the polyline through points, in batches.
 
-    Parameters
-    ----------
-    points : array (..., n+2, 3) [m]
-        Point of the input axis, joint centres, point of the output axis.
-
-    Raises
-    ------
-    JointAngleLimitError
-        Two shafts enclose 90 degrees or more; ``where`` is the mask of the joints (..., n).
-
-    Notes
-    -----
-    Book (87)-(89) without their acos: α_i = atan2(\\|a_i × a_{i+1}\\|, a_i·a_{i+1}), β_i = atan2(a_i·(N_{i-1}×N_i),
+    points (..., n+2, 3) [m]: point of the input axis, joint centres, point of the output axis.
+    Raises JointAngleLimitError: two shafts enclose 90 degrees or more; ``where`` is the mask of the joints (..., n).
+    Book (87)-(89) without their acos: α_i = atan2(|a_i × a_{i+1}|, a_i·a_{i+1}), β_i = atan2(a_i·(N_{i-1}×N_i),
     N_{i-1}·N_i). A straight joint takes over the normal before it; straight joints at the start take the first one
     defined.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> g = geometry_from_points(np.asarray([[0.0, 0, 0], [1, 0, 0], [2, 1, 0]]))
-    >>> np.rad2deg(g.joint_angle)
-    array([45.])
     """
     axis = frames.unit(points[..., 1:, :] - points[..., :-1, :])
     _refuse_right_angles(frames.dot(axis[..., :-1, :], axis[..., 1:, :]))
@@ -82,16 +47,7 @@ def geometry_from_points(points: Array) -> Geometry:
 def polyline(points: Array) -> Geometry:
     """Return what `geometry_from_points` does and refuse nothing: who asks has to look at the joint angles himself.
 
-    Parameters
-    ----------
-    points : array (..., n+2, 3) [m]
-        Point of the input axis, joint centres, point of the output axis.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> np.rad2deg(polyline(np.asarray([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])).joint_angle)
-    array([135.])
+    points (..., n+2, 3) [m]: point of the input axis, joint centres, point of the output axis.
     """
     xp = namespace(points)
     shaft = points[..., 1:, :] - points[..., :-1, :]
@@ -149,20 +105,10 @@ def _fill(axis: Array, normal: Array, straight: Array) -> Array:
 def points_from_angles(joint_angle: Array, plane_twist: Array, length: Array, *, first_twist: Array = 0.0) -> Array:
     """Return the points of a drive with given joint angles, joint 1 at the origin, shaft 1 along x.
 
-    Parameters
-    ----------
-    joint_angle : array (..., n) [rad]
-        α_1 … α_n.
-    plane_twist : array (..., n-1) [rad]
-        β_2 … β_n.
-    length : array (..., n+1) [m]
-        Lengths of shafts 1 to n+1.
-    first_twist : array (...) [rad]
-        Turn of the whole drive about shaft 1; at zero joint 1 bends downwards.
-
-    Returns
-    -------
-    array (..., n+2, 3) [m]
+    joint_angle (..., n) [rad]: α_1 … α_n; plane_twist (..., n-1) [rad]: β_2 … β_n.
+    length (..., n+1) [m]: lengths of shafts 1 to n+1.
+    first_twist (...) [rad]: turn of the whole drive about shaft 1; at zero joint 1 bends downwards.
+    Returns (..., n+2, 3) [m].
     """
     xp = namespace(joint_angle, plane_twist, length)
     zero = 0.0 * joint_angle[..., 0]

@@ -29,34 +29,19 @@ STEP = 1e-5
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Laws:
-    """The joints as they are, of a chain given by the Hooke joints that turn alike.
+    """The joints as they are, of a chain given by the Hooke joints that turn alike."""
 
-    Attributes
-    ----------
-    joint_angle : array (..., n) [rad]
-        α_i, bends of the joints themselves.
-    steepness : array (..., n)
-        κ_i of tan θ' = κ tan θ.
-    growth : array (..., n) [1/rad]
-        dκ_i/dα_i.
-    ahead : array (..., n) [rad]
-        How far the driving yoke of the Hooke joint stands ahead of the driving mark: 0 or π/2.
-    own : tuple of bool (n)
-        Which joints are of another kind.
-    """
-
-    joint_angle: Array
-    steepness: Array
-    growth: Array
+    joint_angle: Array  # (..., n) [rad]: α_i, bends of the joints themselves
+    steepness: Array  # (..., n): κ_i of tan θ' = κ tan θ
+    growth: Array  # (..., n) [1/rad]: dκ_i/dα_i
+    # (..., n) [rad]: how far the driving yoke of the Hooke joint stands ahead of the driving mark: 0 or π/2
     ahead: Array
-    own: tuple[bool, ...]
+    own: tuple[bool, ...]  # tuple of bool (n): which joints are of another kind
 
 
 def mixed(joints: Sequence[Joint]) -> bool:
     """Tell whether any joint is of another kind than Hooke's.
 
-    Examples
-    --------
     >>> from cardan.drive.joints import Hooke
     >>> mixed([Hooke(joint_angle=0.1)])
     False
@@ -72,20 +57,7 @@ def unmapped(joints: Sequence[Joint]) -> tuple[int, ...]:
 def left_over(joint: Joint, joint_angle: float) -> float:
     """Return how far the turn of a joint is at most from that of its nearest Möbius map [rad]; 0 where it has a map.
 
-    Parameters
-    ----------
-    joint : Joint
-    joint_angle : float [rad]
-
-    Examples
-    --------
-    Six balls whose cage misses the middle share what they ask for, and nothing is left but a trace of order 6:
-
-    >>> from cardan.drive.joints import PinCoupling, Rzeppa
-    >>> left_over(Rzeppa(lever_b=0.35, lever_c=0.65), 0.5) < NEGLIGIBLE
-    True
-    >>> left_over(PinCoupling(driving_distance=0.05, driven_distance=0.052), 0.3) < NEGLIGIBLE
-    False
+    joint_angle [rad].
     """
     if joint.has_map:
         return 0.0
@@ -101,21 +73,8 @@ def left_over(joint: Joint, joint_angle: float) -> float:
 def refuse_kinds(drive: Drive, question: str, key: str = "cross") -> None:
     """Refuse a drive with joints that do not answer a question.
 
-    Parameters
-    ----------
-    drive : Drive
-    question : str
-        What was asked, in words.
-    key : str
-        The same as a key of `cardan.drive.joints.joint.REFUSALS`.
+    question: what was asked, in words; key: the same as a key of `cardan.drive.joints.joint.REFUSALS`.
 
-    Raises
-    ------
-    InputError
-        Names every such joint, its kind, the question and why.
-
-    Examples
-    --------
     >>> from cardan.drive.drive import Drive
     >>> refuse_kinds(Drive.from_angles([0.1]), "losses", "losses")
     """
@@ -146,33 +105,11 @@ def alike(
 ) -> tuple[Array, Array, Array, Laws]:
     """Return bends, plane twists and start of the Hooke joints that turn like joints of other kinds.
 
-    Parameters
-    ----------
-    joints : sequence of n Joint
-        All with a Möbius map.
-    joint_angle : array (..., n) [rad]
-        α_i.
-    plane_twist : array (..., n-1) [rad]
-        β_2 … β_n.
-    near : bool
-        Take a joint without a Möbius map by the nearest one.
-
-    Returns
-    -------
-    joint_angle, plane_twist : arrays (..., n), (..., n-1) [rad]
-        Of the Hooke joints, with the same yoke angles.
-    start : array (...) [rad]
-        What to add to the start phase.
-    laws : Laws
-        The joints as they are.
-
-    Raises
-    ------
-    InputError
-        A joint has no Möbius map, or does not turn at its bend.
-
-    Notes
-    -----
+    joints: all with a Möbius map; joint_angle (..., n) [rad]: α_i; plane_twist (..., n-1) [rad]: β_2 … β_n.
+    near: take a joint without a Möbius map by the nearest one.
+    Returns joint_angle, plane_twist (..., n), (..., n-1) [rad]: of the Hooke joints, with the same yoke angles; start
+    (...) [rad]: what to add to the start phase.
+    Raises InputError: a joint has no Möbius map, or does not turn at its bend.
     The driving yoke of the Hooke joint stands λ ahead of the driving mark, and so does the driven one, which stands a
     quarter turn ahead of its own: β_i becomes β_i + (π/2 - q_{i-1}) + λ_{i-1} - λ_i, q = π/2 for a cross, else 0.
     """

@@ -20,14 +20,7 @@ REACH = 0.1
 
 
 def machines_of(drive: Drive) -> tuple[int, ...]:
-    """Return the numbers of the end shafts that their machines hold, as no support of the drive stands on them.
-
-    Examples
-    --------
-    >>> from cardan import example
-    >>> machines_of(example("two-piece-rubber-bearing")), machines_of(example("truck-supports"))
-    ((1, 4), ())
-    """
+    """Return the numbers of the end shafts that their machines hold, as no support of the drive stands on them."""
     stood = {one.shaft for one in drive.supports}
     return tuple(number for number in (1, len(drive.shafts)) if number not in stood) if stood else ()
 
@@ -35,22 +28,9 @@ def machines_of(drive: Drive) -> tuple[int, ...]:
 def machine_held(drive: Drive) -> Drive:
     """Return a drive with supports whose end shafts without any are held by their machines, at the joint.
 
-    Parameters
-    ----------
-    drive : Drive
-        Without supports it stays as it is.
-
-    Returns
-    -------
-    Drive
-        A machine holds its shaft sideways and against tilting; lengthwise too where no other axial support holds the
-        part of the drive up to the next sliding spline.
-
-    Examples
-    --------
-    >>> from cardan import example
-    >>> [(one.shaft, one.axial) for one in machine_held(example("two-piece-rubber-bearing")).supports]
-    [(2, False), (1, True), (4, True)]
+    drive: without supports it stays as it is.
+    Returns Drive: a machine holds its shaft sideways and against tilting; lengthwise too where no other axial support
+    holds the part of the drive up to the next sliding spline.
     """
     made = list(drive.supports)
     for number in machines_of(drive):
@@ -122,15 +102,7 @@ def proposed(drive: Drive) -> tuple[Support, ...]:
 
 
 def tables_of(supports: Iterable[Support]) -> str:
-    """Return supports as tables to paste into a drive file.
-
-    Examples
-    --------
-    >>> print(tables_of([Support(shaft=2, position=0.62)]))
-    [[supports]]
-    shaft = 2
-    position_mm = 620
-    """
+    """Return supports as tables to paste into a drive file."""
     texts = []
     for one in supports:
         lines = ["[[supports]]", f'name = "{one.name}"' if one.name else "", f"shaft = {one.shaft}"]

@@ -40,93 +40,46 @@ class Train:
     """Points, masses and supports of one drive or of many that are held alike; leading axes (...) are the drives'.
 
     Whatever is None is not there: no inertia, no mass, no friction, no supports.
-
-    Attributes
-    ----------
-    points : array (..., n+2, 3) [m]
-        B_0 … B_{n+1}.
-    chain : Chain
-        Kinematic half of the drives.
-    normal : array (..., n, 3)
-        Normals N_i of the joints' planes, for drives given by angles: points do not tell those of straight joints. From
-        the points when not given.
-    inertia : array (..., n+1) [kg m²]
-        J_i of each shaft about its axis.
-    transverse_inertia : array (..., n+1) [kg m²]
-        Moment of inertia of each shaft across, about its centre of mass.
-    mass : array (..., n+1) [kg]
-        m_i.
-    centre_of_mass : array (..., n+1) [m]
-        From the beginning of the shaft, B_{i-1}, along it.
-    resisting_torque : array (..., n+1) [N·m]
-        L_i.
-    cross_inertia : array (..., n, 3) [kg m²]
-        Of each cross about u, v and u×v.
-    cross_mass : array (..., n) [kg]
-        Of each cross.
-    span : array (..., n) [m]
-        d of each cross; nan where it is not known.
-    drag : array (..., n)
-        κ = μ d_c/d of each joint.
-    gravity : array (3,) [m/s²]
-        Acceleration of free fall.
-    bearings : tuple of (int, tuple of Hold)
-        Shaft of each support, counted from 0, and what it holds.
-    position : array (..., k) [m]
-        Places of the supports from the beginning of their shafts; they may lie beyond the ends.
-    slides : tuple of (bool, bool)
-        Per joint, whether the cross slides along the driving and the driven journals.
-    splines : tuple of int
-        Shafts with a spline, counted from 0.
-    cut : array (..., number of splines) [m]
-        Places of the splines from the beginning of their shafts.
-    grip : array (..., number of splines) [1/m]
-        Thrust over torque, 2 μ/d.
-    sliding : array (..., number of splines)
-        +1 where friction pushes the parts apart, as when the shaft grows shorter, -1 where it pulls them together.
-    stiffness : array (..., k, 3) [N/m, N/m, N·m/rad]
-        Of each support: radial, axial, against tilting; nan where it is not given.
-    offset : array (..., k, 3) [m]
-        How far the housing of each support is off.
-    stretch_start : array (..., n+1, s) [m]
-        Where each stretch of the shafts begins, from the beginning of the shaft; the first reaches back beyond it.
-    bending : array (..., n+1, s) [1/(N m²)]
-        1/EI of each stretch; zero where it counts as rigid.
-    stretching : array (..., n+1, s) [1/N]
-        1/EA of each stretch; zero where it counts as rigid.
-    error : array (..., n, 5) [m]
-        Errors of length of each joint: s_1, a_1, a_2, a_3, a_4.
-    assumed : tuple of str
-        Paths of what the drive does not say and the answers assume.
     """
 
-    points: Array
-    chain: Chain
+    points: Array  # (..., n+2, 3) [m]: B_0 … B_{n+1}
+    chain: Chain  # kinematic half of the drives
+    # (..., n, 3): normals N_i of the joints' planes, for drives given by angles: points do not tell those of straight
+    # joints. From the points when not given.
     normal: Array | None = None
-    inertia: Array | None = None
+    inertia: Array | None = None  # (..., n+1) [kg m²]: J_i of each shaft about its axis
+    # (..., n+1) [kg m²]: moment of inertia of each shaft across, about its centre of mass
     transverse_inertia: Array | None = None
-    mass: Array | None = None
-    centre_of_mass: Array | None = None
-    resisting_torque: Array | None = None
-    cross_inertia: Array | None = None
-    cross_mass: Array | None = None
-    span: Array | None = None
-    drag: Array | None = None
-    gravity: Array | None = None
+    mass: Array | None = None  # (..., n+1) [kg]: m_i
+    centre_of_mass: Array | None = None  # (..., n+1) [m]: from the beginning of the shaft, B_{i-1}, along it
+    resisting_torque: Array | None = None  # (..., n+1) [N·m]: L_i
+    cross_inertia: Array | None = None  # (..., n, 3) [kg m²]: of each cross about u, v and u×v
+    cross_mass: Array | None = None  # (..., n) [kg]
+    span: Array | None = None  # (..., n) [m]: d of each cross; nan where it is not known
+    drag: Array | None = None  # (..., n): κ = μ d_c/d of each joint
+    gravity: Array | None = None  # (3,) [m/s²]: acceleration of free fall
+    # tuple of (int, tuple of Hold): shaft of each support, counted from 0, and what it holds
     bearings: tuple[tuple[int, tuple[Hold, ...]], ...] = ()
+    # (..., k) [m]: places of the supports from the beginning of their shafts; they may lie beyond the ends
     position: Array | None = None
+    # per joint, whether the cross slides along the driving and the driven journals
     slides: tuple[tuple[bool, bool], ...] = ()
-    splines: tuple[int, ...] = ()
-    cut: Array | None = None
-    grip: Array | None = None
+    splines: tuple[int, ...] = ()  # shafts with a spline, counted from 0
+    cut: Array | None = None  # (..., number of splines) [m]: places of the splines from the beginning of their shafts
+    grip: Array | None = None  # (..., number of splines) [1/m]: thrust over torque, 2 μ/d
+    # (..., number of splines): +1 where friction pushes the parts apart, as when the shaft grows shorter, -1 where it
+    # pulls them together
     sliding: Array | None = None
+    # (..., k, 3) [N/m, N/m, N·m/rad]: of each support: radial, axial, against tilting; nan where it is not given
     stiffness: Array | None = None
-    offset: Array | None = None
+    offset: Array | None = None  # (..., k, 3) [m]: how far the housing of each support is off
+    # (..., n+1, s) [m]: where each stretch of the shafts begins, from the beginning of the shaft; the first reaches
+    # back beyond it
     stretch_start: Array | None = None
-    bending: Array | None = None
-    stretching: Array | None = None
-    error: Array | None = None
-    assumed: tuple[str, ...] = ()
+    bending: Array | None = None  # (..., n+1, s) [1/(N m²)]: 1/EI of each stretch; zero where it counts as rigid
+    stretching: Array | None = None  # (..., n+1, s) [1/N]: 1/EA of each stretch; zero where it counts as rigid
+    error: Array | None = None  # (..., n, 5) [m]: errors of length of each joint: s_1, a_1, a_2, a_3, a_4
+    assumed: tuple[str, ...] = ()  # paths of what the drive does not say and the answers assume
 
     @property
     def joints(self) -> int:
@@ -139,21 +92,9 @@ def train_of_points(
 ) -> Train:
     """Return the train of drives through points of their axes.
 
-    Parameters
-    ----------
-    points : array (..., n+2, 3) [m]
-        A point of the input axis, the joint centres, a point of the output axis.
-    yoke_angle : array (..., n-1) [rad], optional
-        γ of shafts 2 to n; zero when not given.
-    start_phase : float or array (...) [rad]
-        ψ_1.
-    **parts
-        Any other attribute of `Train`.
-
-    Examples
-    --------
-    >>> train_of_points(np.asarray([[0.0, 0, 0], [1, 0, 0], [2, 0, 0.1]])).joints
-    1
+    points (..., n+2, 3) [m]: a point of the input axis, the joint centres, a point of the output axis.
+    yoke_angle (..., n-1) [rad]: γ of shafts 2 to n; zero when not given.
+    start_phase (...) [rad]: ψ_1; **parts: any other attribute of `Train`.
     """
     place = geometry_from_points(points)
     xp = place.joint_angle.__array_namespace__()
@@ -170,13 +111,8 @@ def train_of_points(
 def place_of(whole: Train) -> Geometry:
     """Return where the shafts of a train lie, with the planes from which its angles count.
 
-    Parameters
-    ----------
-    whole : Train (...)
-        One drive or many.
+    whole (...): one drive or many.
 
-    Examples
-    --------
     A straight joint has a plane where the drive is given by angles; its points say nothing of it:
 
     >>> straight = train(Drive.from_angles([0.0, 0.5], plane_twists=[0.7]))
@@ -190,25 +126,8 @@ def place_of(whole: Train) -> Geometry:
 def train(drive: Drive, *, kinds: bool = False) -> Train:
     """Return the machine half of a drive.
 
-    Parameters
-    ----------
-    drive : Drive
-    kinds : bool
-        Take joints of other kinds too, as the Hooke joints that turn alike or nearly so; a drive that has any is
-        refused else.
-
-    Raises
-    ------
-    InputError
-        Supports on a drive whose lengths are not given: moments need them.
-
-    Examples
-    --------
-    >>> from cardan.drive.shaft import Shaft
-    >>> tube = Shaft(number=2, length=1.0, outer=0.07, wall=0.002)
-    >>> from dataclasses import replace
-    >>> train(replace(Drive.from_angles([0.1, 0.1]), shafts=(tube,))).mass.round(3)
-    array([0.   , 3.354, 0.   ])
+    kinds: take joints of other kinds too, as the Hooke joints that turn alike or nearly so; a drive that has any is
+    refused else.
     """
     drive = with_yokes(drive)
     place = geometry(drive)
@@ -266,8 +185,6 @@ def train(drive: Drive, *, kinds: bool = False) -> Train:
 def lengths_off(errors: Sequence[Error | None]) -> Array:
     """Return the errors of length of each joint, array (n, 5) [m].
 
-    Examples
-    --------
     >>> lengths_off([Error(s1=1e-5), None])[:, 0]
     array([1.e-05, 0.e+00])
     """
@@ -320,13 +237,7 @@ def _grip(shaft: Shaft) -> float:
 
 
 def spline_grip(friction: float, mean_diameter: float, pressure_angle: float = 0.0) -> float:
-    """Return the friction thrust of a spline over its torque, 2 μ/(d cos of the pressure angle), Book (123) [1/m].
-
-    Examples
-    --------
-    >>> spline_grip(0.1, 0.04)
-    5.0
-    """
+    """Return the friction thrust of a spline over its torque, 2 μ/(d cos of the pressure angle), Book (123) [1/m]."""
     return 2.0 * friction / (mean_diameter * math.cos(pressure_angle))
 
 

@@ -48,10 +48,7 @@ def response_figures(found: AbsorberResponse) -> tuple[Figure, ...]:
 def variants_figure(found: Variants) -> Figure:
     """Return the amplification over the frequency with each absorber and damper.
 
-    Parameters
-    ----------
-    found : Variants
-        Of one inertia ratio.
+    found: of one inertia ratio.
     """
     best = float(np.min(found.peak))
     curves = tuple(
@@ -91,10 +88,7 @@ def variants_figure(found: Variants) -> Figure:
 def before_after_figure(found: AbsorberResponse) -> Figure:
     """Return the amplification with an absorber beside that without, and the twist of its spring.
 
-    Parameters
-    ----------
-    found : AbsorberResponse
-        Of one setting.
+    found: of one setting.
     """
     size, bare = np.asarray(found.amplification), np.asarray(found.bare)
     twist = np.abs(np.asarray(found.twist))

@@ -26,10 +26,7 @@ def joint_run_up_figures(found: JointRunUp) -> tuple[Figure, ...]:
 def run_up_figure(found: RunUp) -> Figure:
     """Return the response over time, with the passing of the resonance and the peak.
 
-    Parameters
-    ----------
-    found : RunUp
-        Of one run.
+    found: of one run.
     """
     panel = Panel(
         series=(
@@ -62,10 +59,7 @@ def run_up_figure(found: RunUp) -> Figure:
 def joint_run_up_figure(found: JointRunUp) -> Figure:
     """Return the torque behind a joint over the input speed, with the speed of order 2 and the peak.
 
-    Parameters
-    ----------
-    found : JointRunUp
-        Of one run.
+    found: of one run.
     """
     speed = found.acceleration * np.asarray(found.time) / rpm
     panel = Panel(

@@ -18,12 +18,7 @@ FORMATS = {module.suffix: module for module in (csv, json, xlsx)}
 def write(result: Any, path: Path) -> None:
     """Write a result to a file in the format of its suffix.
 
-    Raises
-    ------
-    InputError
-        The suffix is not known or the file cannot be written.
-    MissingExtraError
-        What writes such files is not installed.
+    Raises MissingExtraError: what writes such files is not installed.
     """
     module = FORMATS.get(path.suffix.lower())
     if module is None:

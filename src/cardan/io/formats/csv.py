@@ -20,22 +20,13 @@ suffix = ".csv"
 def content(result: Any) -> bytes:
     """Return a result as the bytes of a CSV file.
 
-    Raises
-    ------
-    InputError
-        The result is no table.
+    Raises InputError: the result is no table.
     """
     return table(columns_of(result)).encode()
 
 
 def columns_of(result: Any) -> Mapping[str, Sequence[Any]]:
-    """Return a result as columns, each named with its unit.
-
-    Raises
-    ------
-    InputError
-        The result is no table.
-    """
+    """Return a result as columns, each named with its unit."""
     for kind, columns in COLUMNS.items():
         if isinstance(result, kind):
             return columns(result)
@@ -47,8 +38,6 @@ def columns_of(result: Any) -> Mapping[str, Sequence[Any]]:
 def table(columns: Mapping[str, Sequence[Any]]) -> str:
     """Return columns as CSV text, numbers in full precision.
 
-    Examples
-    --------
     >>> print(table({"angle_deg": [0.0, 90.0], "ratio": [1.25, 0.8]}))
     angle_deg,ratio
     0.0,1.25

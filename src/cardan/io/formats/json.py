@@ -34,8 +34,6 @@ def plain(value: Any) -> Any:
 
     Properties that need what the result does not have, such as a speed, are left out.
 
-    Examples
-    --------
     >>> plain({"a": np.asarray([1.0, np.nan]), "b": 1 + 2j})
     {'a': [1.0, None], 'b': [1.0, 2.0]}
     """

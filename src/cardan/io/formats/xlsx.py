@@ -21,12 +21,8 @@ WIDEST = 30
 def content(result: Any) -> bytes:
     """Return a result as the bytes of a workbook.
 
-    Raises
-    ------
-    InputError
-        The result is no table, or a sheet has not enough rows for it.
-    MissingExtraError
-        What writes workbooks is not installed.
+    Raises InputError: the result is no table, or a sheet has not enough rows for it.
+    Raises MissingExtraError: what writes workbooks is not installed.
     """
     return table(columns_of(result), type(result).__name__)
 
@@ -34,12 +30,7 @@ def content(result: Any) -> bytes:
 def table(columns: Mapping[str, Sequence[Any]], name: str = "table") -> bytes:
     """Return columns as the bytes of a workbook of one sheet, numbers in full precision.
 
-    Parameters
-    ----------
-    columns : mapping of str to sequence
-        Heading with its unit -> values, as many in each.
-    name : str
-        Of the sheet.
+    columns: heading with its unit -> values, as many in each.
     """
     count = max(map(len, columns.values()), default=0)
     if count >= MOST_ROWS:

@@ -94,27 +94,13 @@ PRINTED = {
 
 @dataclass(frozen=True, kw_only=True)
 class Meaning:
-    """What a title says.
+    """What a title says."""
 
-    Attributes
-    ----------
-    name : str
-        What is left of the title without quantity and unit.
-    quantity : str
-        One of `cardan.questions.diagnosis.signals.signal.QUANTITIES`, or ``time``.
-    factor : float
-        To SI.
-    unit : str
-        As written.
-    place, direction : str
-        As in `cardan.questions.diagnosis.signals.signal.Channel`.
-    """
-
-    name: str
-    quantity: str
-    factor: float
-    unit: str
-    place: str = ""
+    name: str  # what is left of the title without quantity and unit
+    quantity: str  # one of `cardan.questions.diagnosis.signals.signal.QUANTITIES`, or ``time``
+    factor: float  # to SI
+    unit: str  # as written
+    place: str = ""  # place, direction: as in `cardan.questions.diagnosis.signals.signal.Channel`
     direction: str = ""
 
 
@@ -128,8 +114,6 @@ TIMES = {"sec": "s", "second": "s", "seconds": "s", "msec": "ms", "milliseconds"
 def underlined(title: str) -> str:
     """Return a title whose unit stands in brackets as words with lines between them; any other as it is.
 
-    Examples
-    --------
     >>> underlined("Acceleration front [m/s²]"), underlined("Time (sec)"), underlined("velocity_shafts[1]")
     ('Acceleration_front_m_s2', 'Time_s', 'velocity_shafts[1]')
     """
@@ -150,8 +134,6 @@ def underlined(title: str) -> str:
 def suffix_of(printed: str) -> str:
     """Return the suffix of a unit as another program writes it, "" where it is not known.
 
-    Examples
-    --------
     >>> suffix_of("m/s²"), suffix_of("N·m"), suffix_of("[RPM]"), suffix_of("furlong")
     ('m_s2', 'Nm', 'rpm', '')
     """
@@ -166,23 +148,9 @@ def suffix_of(printed: str) -> str:
 def meaning(title: str) -> Meaning:
     """Return what the channel of a title measures, by its words and its unit.
 
-    Parameters
-    ----------
-    title : str
-        Words with lines between them: a quantity, a name, a place ``supports[1]``, a direction; the unit at its end.
-        Or words with blanks and the unit in brackets.
+    title: words with lines between them: a quantity, a name, a place ``supports[1]``, a direction; the unit at its end.
+    Or words with blanks and the unit in brackets.
 
-    Returns
-    -------
-    Meaning
-
-    Raises
-    ------
-    InputError
-        The quantity has no unit, or one of another dimension.
-
-    Examples
-    --------
     >>> found = meaning("acceleration_supports[1]_z_mm_s2")
     >>> found.quantity, found.unit, found.place, found.direction
     ('acceleration', 'mm_s2', 'supports[1]', 'z')
@@ -243,8 +211,6 @@ def _time(title: str, words: list[str]) -> Meaning:
 def title_of(name: str, quantity: str, place: str, direction: str) -> str:
     """Return the title under which a channel is written, with its SI unit.
 
-    Examples
-    --------
     >>> title_of("front", "acceleration", "supports[1]", "z"), title_of("tacho", "pulses", "", "")
     ('acceleration_front_supports[1]_z_m_s2', 'tacho')
     """

@@ -38,13 +38,7 @@ TOLD = 5
 
 
 def read(path: Path, asked: Asked) -> Raw:
-    """Return the channels of a CSV file.
-
-    Raises
-    ------
-    InputError
-        It is no such file, has no times and no rate is given, or the times do not rise.
-    """
+    """Return the channels of a CSV file."""
     name = path.name
     text = _decoded(content(path, name, MAX_BYTES), name)
     lines, numbers = [], array("L")
@@ -219,13 +213,7 @@ def _is_time(title: str) -> bool:
 
 
 def content_of(signal: Signal) -> bytes:
-    """Return a recording as the bytes of a CSV file, in SI.
-
-    Raises
-    ------
-    InputError
-        Its channels have different rates, starts or lengths.
-    """
+    """Return a recording as the bytes of a CSV file, in SI."""
     first = signal.channels[0]
     check(unlike(signal))
     stream = io.StringIO()

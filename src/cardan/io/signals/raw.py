@@ -17,35 +17,18 @@ MOST_VALUES = 100_000_000
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Column:
-    """A channel as a file has it.
+    """A channel as a file has it."""
 
-    Attributes
-    ----------
-    title : str
-        As in the file; its words and unit tell what it is unless the fields below do.
-    values : array (n,)
-        As in the file; nan where there is none.
-    rate : float, optional
-        Values a second, where the file says it.
-    start : float
-        Time of the first value [s].
-    quantity, unit, place, direction : str
-        Where the file says them in its own way; empty otherwise.
-    trust : float
-        From 0 to 1.
-    scaled : bool
-        Whether the values are in their unit; not so where nobody said what a number of a WAV file stands for.
-    """
-
-    title: str
-    values: Array
-    rate: float | None = None
-    start: float = 0.0
-    quantity: str = ""
+    title: str  # as in the file; its words and unit tell what it is unless the fields below do
+    values: Array  # (n,): as in the file; nan where there is none
+    rate: float | None = None  # values a second, where the file says it
+    start: float = 0.0  # time of the first value [s]
+    quantity: str = ""  # quantity, unit, place, direction: where the file says them in its own way; empty otherwise
     unit: str = ""
     place: str = ""
     direction: str = ""
-    trust: float = 1.0
+    trust: float = 1.0  # from 0 to 1
+    # whether the values are in their unit; not so where nobody said what a number of a WAV file stands for
     scaled: bool = True
 
 
@@ -59,34 +42,17 @@ class Raw:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Asked:
-    """What the reader of a file is told besides it.
+    """What the reader of a file is told besides it."""
 
-    Attributes
-    ----------
-    titles : dict of str to str, or sequence of str
-        Titles instead of those of the file: by name, or all of them in order.
-    rate : float, optional
-        Values a second where the file does not say it [Hz].
-    full_scale : sequence of float
-        What the greatest number of a WAV file stands for, one for all channels or one for each.
-    progress : function, optional
-        Told the share done; it may answer "stop".
-    """
-
-    titles: dict[str, str] | Sequence[str] = ()
-    rate: float | None = None
+    titles: dict[str, str] | Sequence[str] = ()  # titles instead of those of the file: by name, or all of them in order
+    rate: float | None = None  # values a second where the file does not say it [Hz]
+    # what the greatest number of a WAV file stands for, one for all channels or one for each
     full_scale: Sequence[float] = ()
-    progress: Callable[[float], object] | None = None
+    progress: Callable[[float], object] | None = None  # told the share done; it may answer "stop"
 
 
 def content(path: object, name: str, limit: int) -> bytes:
-    """Return the bytes of a file, no more of them than allowed.
-
-    Raises
-    ------
-    InputError
-        It cannot be read, is empty or too large.
-    """
+    """Return the bytes of a file, no more of them than allowed."""
     try:
         with open(str(path), "rb") as stream:
             size = os.fstat(stream.fileno()).st_size

@@ -28,12 +28,7 @@ MAX_BYTES = 400_000_000
 def read(path: Path, asked: Asked) -> Raw:
     """Return the channels of a TDMS file, of all its groups.
 
-    Raises
-    ------
-    InputError
-        It is no such file, or holds no numbers.
-    MissingExtraError
-        What reads such files is not installed.
+    Raises MissingExtraError: what reads such files is not installed.
     """
     name = path.name
     log().log_manager.set_level(logging.ERROR)  # what it warns of is asked for below
@@ -74,10 +69,7 @@ def read(path: Path, asked: Asked) -> Raw:
 def content_of(signal: Signal) -> bytes:
     """Return a recording as the bytes of a TDMS file, in SI, each channel with its own rate.
 
-    Raises
-    ------
-    MissingExtraError
-        What writes such files is not installed.
+    Raises MissingExtraError: what writes such files is not installed.
     """
     stream = io.BytesIO()
     with nptdms().TdmsWriter(stream) as writer:

@@ -23,13 +23,7 @@ MAX_BYTES = 400_000_000
 
 
 def read(path: Path, asked: Asked) -> Raw:
-    """Return the channels of a WAV file, ``left`` and ``right`` where there are two.
-
-    Raises
-    ------
-    InputError
-        It is no such file, or holds nothing.
-    """
+    """Return the channels of a WAV file, ``left`` and ``right`` where there are two."""
     name = path.name
     found = content(path, name, MAX_BYTES)
     cautions = []
@@ -80,13 +74,7 @@ def read(path: Path, asked: Asked) -> Raw:
 
 
 def content_of(signal: Signal) -> bytes:
-    """Return a recording as the bytes of a WAV file of 32-bit floating numbers in SI.
-
-    Raises
-    ------
-    InputError
-        Its channels differ in rate, start or length, or the rate is no whole number.
-    """
+    """Return a recording as the bytes of a WAV file of 32-bit floating numbers in SI."""
     check(unlike(signal))
     rate = signal.channels[0].rate
     if abs(rate - round(rate)) > 1e-6 * rate:

@@ -66,14 +66,7 @@ def _polynomial(coefficients: tuple[float, ...], z: Array) -> Array:
 
 
 def arctangent(u: Array) -> Array:
-    """Return atan u for \\|u\\| ≤ tan(π/8).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> float(arctangent(np.asarray(0.25)))
-    0.24497866312686414
-    """
+    """Return atan u for \\|u\\| ≤ tan(π/8)."""
     z = u * u
     return u + u * z * _polynomial(ARCTANGENT, z)
 
@@ -124,12 +117,6 @@ def within_half_turn(angle: Array) -> Array:
     """Return the angle less a whole number of half turns, in [-π/2, π/2]; for \\|angle\\| ≤ `LARGEST_ANGLE`.
 
     Two turns of a Möbius pair that differ by half a turn differ in sign only, which no result shows.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> float(within_half_turn(np.asarray(1e4)))
-    0.310...
     """
     count = (angle * (1.0 / (2.0 * RIGHT_ANGLE[0])) + _ROUND) - _ROUND
     return ((angle - count * HALF_TURN[0]) - count * HALF_TURN[1]) - count * HALF_TURN[2]

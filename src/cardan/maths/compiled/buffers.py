@@ -18,22 +18,9 @@ LINE = 8
 def buffers(names: Sequence[str], shape: tuple[int, ...], out: object | None = None) -> tuple[Array, ...]:
     """Return an array of 64-bit floats for each name.
 
-    Parameters
-    ----------
-    names : sequence of str
-        Names of the results.
-    shape : tuple of int
-        Shape of each.
-    out : object, optional
-        Holds arrays under the same names that are to be used; fresh ones otherwise, which begin at whole cache lines.
+    names: names of the results.
+    out: holds arrays under the same names that are to be used; fresh ones otherwise, which begin at whole cache lines.
 
-    Raises
-    ------
-    InputError
-        An array of ``out`` has another shape or kind, or cannot be written.
-
-    Examples
-    --------
     >>> [array.shape for array in buffers(["ratio", "angle"], (2, 3))]
     [(2, 3), (2, 3)]
     """

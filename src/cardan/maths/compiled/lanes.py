@@ -150,18 +150,11 @@ def _store(builder: Any, lanes: Lanes | tuple[Lanes, Lanes], address: Any, past_
 def step(formula: Callable[..., tuple[Any, ...]], *, past_caches: bool = False) -> Any:
     """Return a kernel function that applies a formula to eight lanes.
 
-    Parameters
-    ----------
-    formula : function of Lanes
-        Takes the loaded lanes, then the numbers; returns a tuple of lanes, or of pairs of lanes: real and imaginary
-        parts, which are written in turns as complex numbers.
-    past_caches : bool
-        Write to memory without reading the line first; the addresses must then be multiples of 64.
-
-    Returns
-    -------
-    function (loaded, numbers, written) -> None
-        Tuples of addresses to load eight numbers from, of numbers shared by the lanes, of addresses to write to.
+    formula: takes the loaded lanes, then the numbers; returns a tuple of lanes, or of pairs of lanes: real and
+    imaginary parts, which are written in turns as complex numbers.
+    past_caches: write to memory without reading the line first; the addresses must then be multiples of 64.
+    Returns function (loaded, numbers, written) -> None: tuples of addresses to load eight numbers from, of numbers
+    shared by the lanes, of addresses to write to.
     """
 
     def types_and_code(context: Any, loaded: Any, numbers: Any, written: Any) -> Any:

@@ -55,13 +55,6 @@ def chosen(method: Method | None, xp: object, large: bool) -> Method:
 
     The choice depends on the job alone, not on what ran before, so that the same call gives the same bits.
 
-    Raises
-    ------
-    MissingExtraError
-        The compiled form is asked for and numba is not installed.
-
-    Examples
-    --------
     >>> chosen(None, np, large=False)
     Plain()
     """

@@ -31,8 +31,6 @@ def room(joints: int) -> Any:
 def joint(joint_angle: Any, turn: Any, ar: Any, ai: Any, br: Any, bi: Any) -> tuple[Any, Any, Any, Any]:
     """Return the pair of a chain and one more joint.
 
-    Notes
-    -----
     (cos²(α/2), -sin²(α/2))/√cos α, with sin²(α/2) = sin²α/(2(1 + cos α)), after a turn by μ.
     """
     xp = namespace(joint_angle)

@@ -9,22 +9,9 @@ from cardan.maths.kernel import mobius
 def traces(pair: mobius.Pair, angle: Array, speed: Array, acceleration: Array, w: Array) -> tuple[Array, Array, Array]:
     """Return output angle, speed ratio and output acceleration of chains over the input angle.
 
-    Parameters
-    ----------
-    pair : Pair (...)
-        Möbius pair of each chain.
-    angle : array (p,) [rad]
-        Input angle φ.
-    speed : array (...) [rad/s]
-        ω_1.
-    acceleration : array (...) [rad/s²]
-        ε_1.
-    w : complex array (p,)
-        e^(2iφ), shared by all chains.
-
-    Returns
-    -------
-    output_angle, ratio, acceleration : arrays (..., p)
+    pair (...): Möbius pair of each chain; angle (p,) [rad]: input angle φ; speed (...) [rad/s]: ω_1.
+    acceleration (...) [rad/s²]: ε_1; w (p,), complex: e^(2iφ), shared by all chains.
+    Returns output_angle, ratio, acceleration (..., p).
     """
     a, b = (part[..., None] for part in pair)
     begin = mobius.angle_error((a, b), 1.0 + 0.0 * w[:1])
@@ -35,19 +22,10 @@ def traces(pair: mobius.Pair, angle: Array, speed: Array, acceleration: Array, w
 def extremes(pair: mobius.Pair) -> tuple[Array, Array, Array, Array, Array, Array]:
     """Return what a chain reaches over a turn, without positions.
 
-    Parameters
-    ----------
-    pair : Pair (...)
-        Möbius pair of each chain.
-
-    Returns
-    -------
-    speed_fluctuation, tau, joint_angle, phase, ratio_max, max_acceleration : arrays (...)
-        δ, τ, α_eq [rad], ψ_eq in [0, π] [rad], i_max, max \\|ε\\|/ω_1².
-
-    Notes
-    -----
-    δ = 4 \\|a\\|\\|b\\|, τ = \\|b\\|/\\|a\\|, α_eq = 2 atan √τ, i_max = (\\|a\\| + \\|b\\|)² = 1/c. The acceleration is
+    pair (...): Möbius pair of each chain.
+    Returns speed_fluctuation, tau, joint_angle, phase, ratio_max, max_acceleration (...): δ, τ, α_eq [rad], ψ_eq in
+    [0, π] [rad], i_max, max |ε|/ω_1².
+    δ = 4 |a||b|, τ = |b|/|a|, α_eq = 2 atan √τ, i_max = (|a| + |b|)² = 1/c. The acceleration is
     that of Book Table 4 with sin² α_eq = δ c, which loses nothing for small joint angles, nor, by 1-x and 1-k x without
     differences, for steep ones.
     """

@@ -61,13 +61,7 @@ class Moment:
 def moment(line: Line, q: Array, v: Array, time: float, acceleration: Array | None) -> Moment:
     """Return what acts on drives at angles and speeds (R, b).
 
-    Parameters
-    ----------
-    line : Line
-    q, v : array (R, b)
-    time : float [s]
-    acceleration : array (b,) or None
-        Of the first coordinate, where it is forced.
+    q, v (R, b), time [s]; acceleration (b,): of the first coordinate, where it is forced.
     """
     mild = bool(np.all(line.tau <= forms.MILD))
     follow = forms.follower if mild else forms.steep_follower
@@ -156,19 +150,10 @@ def advance(
 ) -> None:
     """Take steps of one length.
 
-    Parameters
-    ----------
-    line : Line
-    state : State
-        Changed in place.
-    time : float [s]
-        Where it stands.
-    steps : int
-    h : float [s]
-    motion : (array (b,), array (b,), array (b,)) or None
-        Angle, speed and acceleration forced on the first coordinate, at ``time``.
-    last : bool
-        Whether to look for extremes at the end as well.
+    state: changed in place; time [s]: where it stands; h [s].
+    motion (array (b,), array (b,), array (b,)): angle, speed and acceleration forced on the first coordinate, at
+    ``time``.
+    last: whether to look for extremes at the end as well.
     """
 
     def placed(now: float, q: Array, v: Array) -> tuple[Array, Array]:

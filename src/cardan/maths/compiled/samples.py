@@ -29,8 +29,6 @@ _STATE = 7
 def link(phase: Any, e1: Any, e2: Any, e3: Any, e4: Any, cb: Any, sb: Any) -> tuple[Any, ...]:
     """Return what all positions of a joint share: cosine and sine of its phase, then the parts of A, B and C.
 
-    Notes
-    -----
     α_1, α_2, α_3 are right angles but for their errors, α_4 is the joint angle but for its own; see
     `cardan.maths.kernel.loops.fourth_angle`.
     """

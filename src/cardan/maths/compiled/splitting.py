@@ -40,20 +40,8 @@ def _coefficients() -> tuple[tuple[float, ...], tuple[float, ...]]:
 def plan(steps: int) -> Array:
     """Return the numbers of a course over [0, π/2] in equal steps.
 
-    Parameters
-    ----------
-    steps : int
-
-    Returns
-    -------
-    array (`DRIFTS` + `NUMBERS` × steps + 2,)
-        The drifts of a step; for each step k and k cos 2z of its kicks, the last kick of a step joined to the first of
-        the next one; the same of the last kick.
-
-    Examples
-    --------
-    >>> plan(3).size
-    74
+    Returns (`DRIFTS` + `NUMBERS` × steps + 2,): the drifts of a step; for each step k and k cos 2z of its kicks, the
+    last kick of a step joined to the first of the next one; the same of the last kick.
     """
     h = 0.5 * math.pi / steps
     drift, kick = _coefficients()
@@ -69,14 +57,9 @@ def plan(steps: int) -> Array:
 def course(a: Any, q: Any, state: tuple[Any, ...], drifts: Sequence[Any], kicks: Sequence[Any]) -> tuple[Any, ...]:
     """Take two solutions of u'' + (a - 2q cos 2z) u = 0 through kicks, each followed by a drift.
 
-    Parameters
-    ----------
-    a, q : array or lanes
-    state : (u_1, u_1', u_2, u_2')
-    drifts : sequence of numbers
-        Of a whole step, the first six; without any the kicks stand alone.
-    kicks : sequence of numbers
-        k and k cos 2z in turns.
+    state (u_1, u_1', u_2, u_2').
+    drifts: of a whole step, the first six; without any the kicks stand alone.
+    kicks: k and k cos 2z in turns.
     """
     u1, v1, u2, v2 = state
     twice = q + q

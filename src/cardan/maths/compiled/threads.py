@@ -31,21 +31,8 @@ def processors() -> int:
 def share(work: Callable[[int, int], None], rows: int, *, threads: int | None = None, least: int = 1) -> None:
     """Call ``work(first, last)`` for pieces that together are ``range(rows)``.
 
-    Parameters
-    ----------
-    work : function
-        Must release the interpreter lock to gain anything.
-    rows : int
-        How many rows there are.
-    threads : int, optional
-        All available processors by default.
-    least : int
-        Smallest piece worth a thread.
-
-    Examples
-    --------
-    >>> share(lambda first, last: print(first, last), 5, threads=1)
-    0 5
+    work: must release the interpreter lock to gain anything; threads: all available processors by default.
+    least: smallest piece worth a thread.
     """
     count = min(threads or available(), max(1, rows // least))
     if count == 1:

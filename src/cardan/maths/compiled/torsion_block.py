@@ -52,11 +52,7 @@ class Rows:
 class Block:
     """Some drives of a line, from one to as many as fit the caches.
 
-    Parameters
-    ----------
-    line : Line
-    state : State
-        Where they begin; `state` tells where they are later.
+    state: where they begin; `state` tells where they are later.
     """
 
     def __init__(self, line: Line, state: State) -> None:

@@ -24,8 +24,6 @@ _ROUND = 1.5 * 2.0**52
 def reduced(angle: Array) -> Array:
     """Return the angle less a whole number of half turns, in [-π/2, π/2]; for \\|angle\\| ≤ `LARGEST_ANGLE`.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> float(reduced(np.asarray(1e8)))
     -1.1988...
@@ -83,13 +81,8 @@ def follower(
 ) -> tuple[Array, Array, Array]:
     """Return angle, speed and F' of a driven yoke whose lead stays below π/8.
 
-    Parameters
-    ----------
-    s2, c2 : array
-        sin 2q and cos 2q of its coordinate.
-    q, v : array [rad, rad/s]
-    tau, c, s, ahead : array
-        Of the one joint it follows by: τ, cos 2ψ, sin 2ψ and its lead at the start.
+    s2, c2: sin 2q and cos 2q of its coordinate; q, v [rad, rad/s].
+    tau, c, s, ahead: of the one joint it follows by: τ, cos 2ψ, sin 2ψ and its lead at the start.
     """
     tangent, _x, _y, below = _turned(s2, c2, tau, c, s)
     first = (1.0 - tau * tau) * below
@@ -243,14 +236,9 @@ def highest(
 ) -> tuple[Array, Array, Array, Array]:
     """Return the extremes of a curve with those of one more step: of the cubic by values and slopes at its ends.
 
-    Parameters
-    ----------
-    now, rate, before, rate_before : array
-        Value and slope at the end and at the start of the step.
-    high, low, high_time, low_time : array
-        Extremes so far and when they were.
-    time, h : array [s]
-        End and length of the step; times are not negative.
+    now, rate, before, rate_before: value and slope at the end and at the start of the step.
+    high, low, high_time, low_time: extremes so far and when they were.
+    time, h [s]: end and length of the step; times are not negative.
     """
     xp = namespace(now)
     d0, d1, rise = h * rate_before, h * rate, now - before

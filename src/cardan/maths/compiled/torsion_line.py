@@ -21,23 +21,14 @@ TWIST_LIMIT = 1e3
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Load:
-    """A torque on a place.
-
-    Attributes
-    ----------
-    kind : int
-    place : int
-    numbers : array (k, b)
-        As the kind says, for each drive.
-    times, values : array (m,)
-        Table over time, the same for all drives.
-    """
+    """A torque on a place."""
 
     kind: int
     place: int
-    numbers: Array
+    numbers: Array  # (k, b): as the kind says, for each drive
+    # times, values (m,): table over time, the same for all drives
     times: Array = field(default_factory=lambda: np.zeros(0))
-    values: Array = field(default_factory=lambda: np.zeros(0))
+    values: Array = field(default_factory=lambda: np.zeros(0))  # (m,)
 
 
 _BY_DRIVE = frozenset(
@@ -47,42 +38,26 @@ _BY_DRIVE = frozenset(
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Line:
-    """Many drives of one build, each array's last axis the drives; places are coordinates, then followers.
+    """Many drives of one build, each array's last axis the drives; places are coordinates, then followers."""
 
-    Attributes
-    ----------
-    mass : array (R, b) [kg m²]
-        Own inertia of every coordinate.
-    ground : array (R + K, b) [N·m·s/rad]
-        Damping to ground of every place.
-    turning : tuple of K int
-        Coordinate that turns each follower.
-    tau, cosine, sine, ahead, inertia : array (K, b)
-        Of each follower: τ, cos 2ψ, sin 2ψ, lead at the start [rad] and inertia [kg m²].
-    ends : tuple of E (int, int)
-        Places that each element joins.
-    stiffness, damping, rest, half : array (E, b) [N·m/rad, N·m·s/rad, rad, rad]
-        Of every element; half is half its play.
-    loads : tuple of Load
-    forced : bool
-        Whether the first coordinate is forced.
-    """
-
-    mass: Array
-    ground: Array
-    turning: tuple[int, ...]
+    mass: Array  # (R, b) [kg m²]: own inertia of every coordinate
+    ground: Array  # (R + K, b) [N·m·s/rad]: damping to ground of every place
+    turning: tuple[int, ...]  # coordinate that turns each follower
+    # tau, cosine, sine, ahead, inertia (K, b): of each follower: τ, cos 2ψ, sin 2ψ, lead at the start [rad] and inertia
+    # [kg m²]
     tau: Array
-    cosine: Array
-    sine: Array
-    ahead: Array
-    inertia: Array
-    ends: tuple[tuple[int, int], ...]
+    cosine: Array  # (K, b)
+    sine: Array  # (K, b)
+    ahead: Array  # (K, b)
+    inertia: Array  # (K, b)
+    ends: tuple[tuple[int, int], ...]  # places that each element joins
+    # stiffness, damping, rest, half (E, b) [N·m/rad, N·m·s/rad, rad, rad]: of every element; half is half its play
     stiffness: Array
-    damping: Array
-    rest: Array
-    half: Array
+    damping: Array  # (E, b) [N·m·s/rad]
+    rest: Array  # (E, b) [rad]
+    half: Array  # (E, b) [rad]
     loads: tuple[Load, ...]
-    forced: bool
+    forced: bool  # whether the first coordinate is forced
 
     @property
     def coordinates(self) -> int:
@@ -117,37 +92,20 @@ class Line:
 
 @dataclass(eq=False, kw_only=True)
 class State:
-    """Where drives are, each array's last axis the drives; stepping changes it in place.
+    """Where drives are, each array's last axis the drives; stepping changes it in place."""
 
-    Attributes
-    ----------
-    q, v : array (R, b) [rad, rad/s]
-    work : array (b,) [J]
-        What loads have brought and dampers taken.
-    alive : array (b,)
-        1 while a drive keeps within bounds, then 0.
-    ended : array (b,) [s]
-        How long it did.
-    before, rate : array (X, b)
-        Curves of the extremes at the step before, and their slopes.
-    high, low, high_time, low_time : array (X, b)
-        Extremes and when they were.
-    length : float [s]
-        Length of the step before; 0 at the beginning.
-    """
-
-    q: Array
-    v: Array
-    work: Array
-    alive: Array
-    ended: Array
-    before: Array
-    rate: Array
-    high: Array
-    low: Array
-    high_time: Array
-    low_time: Array
-    length: float = 0.0
+    q: Array  # (R, b) [rad]
+    v: Array  # (R, b) [rad/s]
+    work: Array  # (b,) [J]: what loads have brought and dampers taken
+    alive: Array  # (b,): 1 while a drive keeps within bounds, then 0
+    ended: Array  # (b,) [s]: how long it did
+    before: Array  # before, rate (X, b): curves of the extremes at the step before, and their slopes
+    rate: Array  # (X, b)
+    high: Array  # high, low, high_time, low_time (X, b): extremes and when they were
+    low: Array  # (X, b)
+    high_time: Array  # (X, b)
+    low_time: Array  # (X, b)
+    length: float = 0.0  # [s]: length of the step before; 0 at the beginning
 
 
 def begin(line: Line, q: Array, v: Array) -> State:

@@ -59,8 +59,6 @@ _mild_past, _steep_past = step(mild, past_caches=True), step(steep, past_caches=
 def position_arrays(angle: Any) -> tuple[Any, Any, Any]:
     """Return cos 2φ, sin 2φ and φ with the room behind them that whole lanes need.
 
-    Examples
-    --------
     >>> position_arrays(np.asarray([0.0]))[0].size
     9
     """

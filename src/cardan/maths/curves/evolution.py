@@ -44,31 +44,16 @@ class Evolution:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Evolved:
-    """What a search found.
+    """What a search found."""
 
-    Attributes
-    ----------
-    place : array (v,)
-        The best, in the unit box.
-    cost : float
-    run_places : array (r, v)
-        Best place of every run.
-    run_costs : array (r,)
-    history : tuple of r arrays (g,)
-        Smallest cost after every generation of a run, its beginning first.
-    evaluations : int
-    converged : bool
-        Whether every run ended by itself.
-    cancelled : bool
-    """
-
-    place: Array
+    place: Array  # (v,): the best, in the unit box
     cost: float
-    run_places: Array
-    run_costs: Array
+    run_places: Array  # (r, v): best place of every run
+    run_costs: Array  # (r,)
+    # tuple of r arrays (g,): smallest cost after every generation of a run, its beginning first
     history: tuple[Array, ...]
     evaluations: int
-    converged: bool
+    converged: bool  # whether every run ended by itself
     cancelled: bool
 
 
@@ -82,31 +67,10 @@ def evolve(
 ) -> Evolved:
     """Return the place in the unit box of the smallest cost, sought everywhere.
 
-    Parameters
-    ----------
-    cost : callable
-        A `Cost`.
-    unknowns : int
-        v.
-    start : array (v,), optional
-        A place to begin with beside those at random.
-    method : Evolution, optional
-    progress : function, optional
-        Told the share done; when it answers "stop" the best so far is returned.
-
-    Notes
-    -----
+    cost: a `Cost`; unknowns: v; start (v,): a place to begin with beside those at random.
+    progress: told the share done; when it answers "stop" the best so far is returned.
     Storn and Price: best/1/bin and rand/1/bin by turns, weight 0.5 to 0.9 anew each generation, crossing 0.8, spread
     begin (Latin hypercube).
-
-    Examples
-    --------
-    >>> def rugged(x, beat):
-    ...     y = 10.0 * (x - 0.3)
-    ...     return np.sum(y**2 + 2.0 * (1.0 - np.cos(2.0 * np.pi * y)), axis=-1)
-    >>> found = evolve(rugged, 2, method=Evolution(rounds=60))
-    >>> bool(np.all(np.abs(found.place - 0.3) < 0.02)), found.converged
-    (True, True)
     """
     how = method or Evolution()
     size = how.size or max(16, 10 * unknowns)

@@ -19,27 +19,12 @@ PIECE = 2**16
 def front(values: ArrayLike) -> Array:
     """Return which rows are not dominated: none other is at least as good in all columns and better in one.
 
-    Parameters
-    ----------
-    values : array (N, m)
-        What is to be small. Rows with a value that is not a number belong to no front and dominate nothing.
-
-    Returns
-    -------
-    array of bool (N,)
-        Equal rows of the front belong to it all.
-
-    Notes
-    -----
+    values (N, m): what is to be small. Rows with a value that is not a number belong to no front and dominate nothing.
+    Returns (N,) of bool: equal rows of the front belong to it all.
     Rows in lexicographic order are dominated by earlier ones alone, so that one column less needs to be looked at: a
     running minimum for two columns; for three, blocks are merged in the order of the second column, the rows of the
     later block compared with the running minimum of the third over the earlier one (Kung, Luccio, Preparata 1975), in
     O(N log² N) whatever the front. With four columns and more rows are compared with the front found so far.
-
-    Examples
-    --------
-    >>> front([[1.0, 3.0], [2.0, 2.0], [2.0, 3.0], [3.0, 1.0]])
-    array([ True,  True, False,  True])
     """
     table = np.asarray(values, dtype=float)
     found = np.zeros(table.shape[0], dtype=bool)

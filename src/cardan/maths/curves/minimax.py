@@ -34,41 +34,20 @@ class _EndedError(Exception):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LeastPeak:
-    """Where the largest of many curves is smallest.
+    """Where the largest of many curves is smallest."""
 
-    Attributes
-    ----------
-    place : array (v,)
-        In the unit box.
-    peak : float
-        Largest value there.
-    evaluations : int
-        Places asked for.
-    converged : bool
-        Whether the search ended by itself.
-    """
-
-    place: Array
-    peak: float
-    evaluations: int
-    converged: bool
+    place: Array  # (v,): in the unit box
+    peak: float  # largest value there
+    evaluations: int  # places asked for
+    converged: bool  # whether the search ended by itself
 
 
 def least_peak(curves: Curves, start: Array) -> LeastPeak:
     """Return the place in the unit box near a start at which the largest of many smooth curves is smallest.
 
-    Parameters
-    ----------
-    curves : callable
-        Values at places.
-    start : array (v,)
-
-    Notes
-    -----
+    curves: values at places; start (v,).
     min t under t ≥ f_k(x) for all k, by sequential quadratic programming; slopes by differences, asked all at once.
 
-    Examples
-    --------
     Two parabolas, highest where they cross:
 
     >>> found = least_peak(lambda x: np.stack([(x[:, 0] - 0.1) ** 2, (x[:, 0] - 0.7) ** 2], axis=-1), np.asarray([0.9]))

@@ -23,72 +23,36 @@ AGREE = 0.02
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Turn:
-    """A quantity over a turn; axes (...) are those of the quantity but for the positions.
+    """A quantity over a turn; axes (...) are those of the quantity but for the positions."""
 
-    Attributes
-    ----------
-    low, high : arrays (...)
-        Least and largest value.
-    low_angle, high_angle : arrays (...) [rad]
-        Input angle where they occur, the first time; what rounding alone makes higher later does not count.
-    mean, rms : arrays (...)
-        Mean, and root of the mean square.
-    """
-
-    low: Array
-    high: Array
+    low: Array  # low, high (...): least and largest value
+    high: Array  # (...)
+    # low_angle, high_angle (...) [rad]: input angle where they occur, the first time; what rounding alone makes higher
+    # later does not count
     low_angle: Array
-    high_angle: Array
-    mean: Array
-    rms: Array
+    high_angle: Array  # (...) [rad]
+    mean: Array  # mean, rms (...): mean, and root of the mean square
+    rms: Array  # (...)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Harmonics:
-    """Orders of a quantity over a turn of the input: value = Σ amplitude cos(order φ_1 + phase).
+    """Orders of a quantity over a turn of the input: value = Σ amplitude cos(order φ_1 + phase)."""
 
-    Attributes
-    ----------
-    order : array (k,)
-        0, 1, 2 …
-    amplitude : array (..., k)
-        Not negative but for order 0, the mean.
-    phase : array (..., k) [rad]
-        In (-π, π].
-    """
-
-    order: Array
-    amplitude: Array
-    phase: Array
+    order: Array  # (k,): 0, 1, 2 …
+    amplitude: Array  # (..., k): not negative but for order 0, the mean
+    phase: Array  # (..., k) [rad]: in (-π, π]
 
 
 def over_turn(angle: Array, values: Array) -> Turn:
     """Return least and largest value with their angles, mean and root mean square over a turn.
 
-    Parameters
-    ----------
-    angle : array (p,) [rad]
-        Input angles that divide one turn evenly; the end of the turn may be there or not.
-    values : array (..., p)
-        The quantity.
-
-    Raises
-    ------
-    InputError
-        The angles are not those of one turn.
-
-    Notes
-    -----
+    angle (p,) [rad]: input angles that divide one turn evenly; the end of the turn may be there or not.
+    values (..., p).
+    Raises InputError: the angles are not those of one turn.
     Between samples a polynomial through seven of them is looked at, where it is to be trusted; on smooth curves sampled
     by the degree that leaves less than 1e-9 of the swing. Mean values are those of the samples, exact up to half as
     many orders as there are samples.
-
-    Examples
-    --------
-    >>> angle = np.linspace(0.0, 2 * np.pi, 361)
-    >>> turn = over_turn(angle, 3.0 + np.cos(2.0 * (angle - 0.3)))
-    >>> print(turn.high, turn.high_angle, turn.mean)
-    4.0 0.3 3.0
     """
     phi, table = _one_turn(angle, values)
     step = float(phi[1] - phi[0])
@@ -107,21 +71,8 @@ def over_turn(angle: Array, values: Array) -> Turn:
 def harmonics(angle: Array, values: Array, *, count: int = 13) -> Harmonics:
     """Return the first orders of a quantity over a turn.
 
-    Parameters
-    ----------
-    angle : array (p,) [rad]
-        Input angles that divide one turn evenly.
-    values : array (..., p)
-        The quantity.
-    count : int
-        How many orders, 0 included; at most half the samples.
-
-    Examples
-    --------
-    >>> angle = np.linspace(0.0, 2 * np.pi, 361)
-    >>> found = harmonics(angle, 3.0 + 0.5 * np.cos(2.0 * angle + 0.3), count=3)
-    >>> found.amplitude.round(9), found.phase[2].round(9)
-    (array([3. , 0. , 0.5]), np.float64(0.3))
+    angle (p,) [rad]: input angles that divide one turn evenly; values (..., p).
+    count: how many orders, 0 included; at most half the samples.
     """
     phi, table = _one_turn(angle, values)
     samples = table.shape[-1]

@@ -28,20 +28,7 @@ ACCURATE = 1e-10
 def swing(amplitude: ArrayLike, frequency: float, phase: ArrayLike, times: Array) -> Jet:
     """Return the jet of amplitude · sin(frequency · t + phase), arrays (t, ...).
 
-    Parameters
-    ----------
-    amplitude, phase : float or array (...)
-        Of each swinging quantity.
-    frequency : float [rad/s]
-        Angular frequency.
-    times : array (t,) [s]
-        Instants.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> swing(2.0, 3.0, 0.0, np.asarray([0.0]))
-    (array([0.]), array([6.]), array([-0.]))
+    amplitude, phase (...): of each swinging quantity; frequency [rad/s]: angular frequency; times (t,) [s].
     """
     xp = namespace(times, amplitude, phase)
     size = real(amplitude, xp)
@@ -55,8 +42,6 @@ def swing(amplitude: ArrayLike, frequency: float, phase: ArrayLike, times: Array
 def product(times: Callable[[Array, Array], Array], a: Jet, b: Jet) -> Jet:
     """Return the jet of a bilinear product by the rule of Leibniz.
 
-    Examples
-    --------
     >>> product(lambda x, y: x * y, (2.0, 1.0, 0.0), (3.0, 1.0, 0.0))
     (6.0, 5.0, 2.0)
     """
@@ -80,15 +65,7 @@ def resting(value: Array) -> Jet:
 def turning(axis: ArrayLike, angle: Jet) -> Jet:
     """Return the jet of the rotation matrices about a fixed axis, arrays (t, 3, 3).
 
-    Parameters
-    ----------
-    axis : array (3,)
-        Direction of the axis, of any length but zero.
-    angle : Jet (t,) [rad]
-        Angle of turn by the right-hand rule.
-
-    Notes
-    -----
+    axis (3,): direction of the axis, of any length but zero; angle (t,) [rad]: angle of turn by the right-hand rule.
     R = 1 + sin q K + (1 - cos q) K² (Rodrigues), K the cross-product matrix of the unit axis.
     """
     xp = namespace(angle[0])
@@ -123,17 +100,8 @@ def carried(rotation: Jet, pivot: ArrayLike, points: Jet) -> Jet:
 def interpolated(at: ArrayLike, values: ArrayLike, times: Array) -> Jet:
     """Return the jet of the cubic spline through a table: twice differentiable, its derivatives exact.
 
-    Parameters
-    ----------
-    at : array (m,) [s]
-        Times of the rows, strictly rising, at least two.
-    values : array (m, ...)
-        Rows of the table.
-    times : array (t,) [s]
-        Instants.
+    at (m,) [s]: times of the rows, strictly rising, at least two; values (m, ...): rows of the table; times (t,) [s].
 
-    Examples
-    --------
     >>> import numpy as np
     >>> value, rate, acceleration = interpolated([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 4.0, 9.0], np.asarray([1.5]))
     >>> value, rate, acceleration
@@ -148,22 +116,10 @@ def transport(direction: Callable[[Array], tuple[Array, Array]], times: Array, s
 
     The shortest-arc frame at time t is the frame of the start turned by the shortest way that brings the direction
     a(start) to a(t). Turning it back by the angle returned gives the frame carried along without any spin about a.
+    direction: times (m,) [s] -> unit vectors a (m, 3) and their rates (m, 3) [1/s].
+    times (t,) [s]: instants, in any order; start [s]: instant at which both frames agree.
+    Returns (t,) [rad].
 
-    Parameters
-    ----------
-    direction : function
-        Times (m,) [s] -> unit vectors a (m, 3) and their rates (m, 3) [1/s].
-    times : array (t,) [s]
-        Instants, in any order.
-    start : float [s]
-        Instant at which both frames agree.
-
-    Returns
-    -------
-    array (t,) [rad]
-
-    Notes
-    -----
     The angular velocity of the shortest-arc frame has the component a_0·(ȧ × a)/(1 + a_0·a) along a; its time integral
     is taken by Gauss-Legendre panels, halved until the answer stands to `ACCURATE`, judged by some of the gaps between
     the instants: evenly spread ones and the longest. Zero when a moves in one plane through
@@ -201,21 +157,7 @@ def transport(direction: Callable[[Array], tuple[Array, Array]], times: Array, s
 def shortest_arc(origin: Array, direction: Array, vector: Array) -> Array:
     """Return a vector turned by the shortest way that brings unit vector ``origin`` to unit vectors ``direction``.
 
-    Parameters
-    ----------
-    origin : array (3,)
-        Unit vector at the start.
-    direction : array (..., 3)
-        Unit vectors, none opposite to ``origin``.
-    vector : array (3,)
-        What is turned.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> x, y, z = np.eye(3)
-    >>> shortest_arc(x, y, x)
-    array([0., 1., 0.])
+    origin (3,): unit vector at the start; direction (..., 3): unit vectors, none opposite to ``origin``; vector (3,).
     """
     xp = namespace(origin, direction, vector)
     pole = frames.cross(xp.broadcast_to(origin, direction.shape), direction)

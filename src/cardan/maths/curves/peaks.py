@@ -28,26 +28,10 @@ TIE = 1e-9
 def peaks(function: Callable[[Array], Array], places: Array, values: Array) -> tuple[Array, Array]:
     """Return where each of several curves is highest, and how high.
 
-    Parameters
-    ----------
-    function : callable
-        From places (m,) to the values of all curves there (k, m).
-    places : array (p,)
-        Evenly spaced, close enough that the highest place is beside the highest point.
-    values : array (k, p)
-        ``function(places)``.
-
-    Returns
-    -------
-    place, value : arrays (k,)
-
-    Examples
-    --------
-    >>> coarse = np.linspace(0.0, 6.0, 61)
-    >>> curves = lambda x: np.stack((np.sin(x), np.cos(x - 1.23456)))
-    >>> place, value = peaks(curves, coarse, curves(coarse))
-    >>> place.round(4)
-    array([1.5708, 1.2346])
+    function: from places (m,) to the values of all curves there (k, m).
+    places (p,): evenly spaced, close enough that the highest place is beside the highest point.
+    values (k, p): ``function(places)``.
+    Returns place, value (k,).
     """
     top = np.max(values, axis=-1, keepdims=True)
     best = np.argmax(values >= top - TIE * np.abs(top), axis=-1)
@@ -69,18 +53,10 @@ def peaks(function: Callable[[Array], Array], places: Array, values: Array) -> t
 def brackets(place: Array, value: Array, slope: Array) -> tuple[Array, Array]:
     """Return the steps in which a curve is level about as far from nought as anywhere, by cubics through their ends.
 
-    Parameters
-    ----------
-    place, value, slope : arrays (p,)
-        Places, and the curve and its slope there, close enough that a step holds one level place at most.
+    place, value, slope (p,): places, and the curve and its slope there, close enough that a step holds one level place
+    at most.
+    Returns left, right (m,): ends of the steps whose levels are within `NEAR` of the farthest.
 
-    Returns
-    -------
-    left, right : arrays (m,)
-        Ends of the steps whose levels are within `NEAR` of the farthest.
-
-    Examples
-    --------
     >>> x = np.linspace(0.0, 6.0, 31)
     >>> print(*brackets(x, x * np.sin(x), np.sin(x) + x * np.cos(x)))
     [4.8] [5.]
@@ -101,19 +77,10 @@ def brackets(place: Array, value: Array, slope: Array) -> tuple[Array, Array]:
 def level(slope: Callable[[Array], Array], left: Array, right: Array) -> Array:
     """Return where slopes change sign between two places, array (m,).
 
-    Parameters
-    ----------
-    slope : callable
-        From a place of each of m curves (m,) to their slopes there.
-    left, right : arrays (m,)
-        Places with slopes of unlike signs.
-
-    Notes
-    -----
+    slope: from a place of each of m curves (m,) to their slopes there.
+    left, right (m,): places with slopes of unlike signs.
     By chords, the end that stays halved in weight (Illinois).
 
-    Examples
-    --------
     >>> level(np.cos, np.asarray([1.0]), np.asarray([2.0])).round(9)
     array([1.57079633])
     """
@@ -135,13 +102,8 @@ def level(slope: Callable[[Array], Array], left: Array, right: Array) -> Array:
 def peak(values: Array) -> Array:
     """Return the largest values of periodic curves: of the quartic through the five samples about the largest.
 
-    Parameters
-    ----------
-    values : array (..., p)
-        At evenly spaced places of a period.
+    values (..., p): at evenly spaced places of a period.
 
-    Examples
-    --------
     >>> print(f"{float(peak(2.0 + np.cos(np.arange(120) * 2 * np.pi / 120 + 0.02))):.9f}")
     3.000000000
     """

@@ -19,32 +19,12 @@ RESTS = 1e-12
 def mean_between(function: Callable[[Array], Array], kinks: Array, *, period: float, rests: float = RESTS) -> Array:
     """Return the mean over one period of a function with kinks, each stretch by Gauss's rule.
 
-    Parameters
-    ----------
-    function : callable
-        From places (..., p) to values (..., k, p), of this period.
-    kinks : array (..., m)
-        Where its derivative may jump, modulo the period, in any order; at least one.
-    period : float
-        Period of the function.
-    rests : float
-        Share of the mean magnitude by which a mean may still change.
-
-    Returns
-    -------
-    array (..., k)
-        nan where the function is.
-
-    Notes
-    -----
+    function: from places (..., p) to values (..., k, p), of this period.
+    kinks (..., m): where its derivative may jump, modulo the period, in any order; at least one.
+    rests: share of the mean magnitude by which a mean may still change.
+    Returns (..., k): nan where the function is.
     The error falls with the 2p-th power of the number of points p on each stretch, however sharp the kinks. Where a
     function is steep it is so at the kinks, where Gauss's points crowd.
-
-    Examples
-    --------
-    >>> mean = mean_between(lambda x: np.abs(np.sin(x))[..., None, :], np.asarray([0.0]), period=np.pi)
-    >>> print(mean * np.pi)
-    [2.]
     """
     xp = namespace(kinks)
     edges = xp.sort(xp.remainder(kinks, period), axis=-1)

@@ -52,23 +52,10 @@ def _sinc_table() -> Array:
 def halved(values: Array) -> Array:
     """Return every other value of a record after a low-pass without delay.
 
-    Parameters
-    ----------
-    values : array (n,)
-        At even steps.
-
-    Returns
-    -------
-    array (⌈n/2⌉,)
-        From the first value on. Kept to 4·10⁻⁵ are the lower 0.9 of what its rate can hold; what it cannot is folded
-        into the last tenth alone. The first and last sixty values come from what the record would be beyond its ends.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> slow = np.cos(0.05 * np.pi * np.arange(2000))
-    >>> bool(np.max(np.abs(halved(slow) - slow[::2])[60:-60]) < 4e-5)
-    True
+    values (n,): at even steps.
+    Returns (⌈n/2⌉,): from the first value on. Kept to 4·10⁻⁵ are the lower 0.9 of what its rate can hold; what it
+    cannot is folded into the last tenth alone. The first and last sixty values come from what the record would be
+    beyond its ends.
     """
     middle = HALVING // 2
     padded = _continued(values, min(middle, values.size - 1))
@@ -89,25 +76,8 @@ def _continued(values: Array, count: int) -> Array:
 def read_at(values: Array, place: Array) -> Array:
     """Return a record between its values, by Kaiser's windowed sinc.
 
-    Parameters
-    ----------
-    values : array (n,)
-        At even steps, n at least 2.
-    place : array (m,)
-        Where: 0 is the first value, n − 1 the last one.
-
-    Returns
-    -------
-    array (m,)
-        Within 10⁻⁴ of the amplitude for what is slower than `PASSED` of half the rate, away from the ends.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> row = np.cos(0.7 * np.pi * np.arange(400.0))
-    >>> place = np.linspace(50, 350, 997)
-    >>> bool(np.max(np.abs(read_at(row, place) - np.cos(0.7 * np.pi * place))) < 1e-4)
-    True
+    values (n,): at even steps, n at least 2; place (m,): where: 0 is the first value, n − 1 the last one.
+    Returns (m,): within 10⁻⁴ of the amplitude for what is slower than `PASSED` of half the rate, away from the ends.
     """
     padded = _padded(values)
     found = np.empty(place.size)
@@ -138,36 +108,14 @@ def read_slowly(
 ) -> Array:
     """Return a record at points that may lie farther apart than its values, filtered before.
 
-    Parameters
-    ----------
-    values : array (n,)
-        At even steps, n at least 2.
-    place : array (m,)
-        Where: 0 is the first value.
-    step : array (m,)
-        Distance of the points there, in steps of the record.
-    progress : function, optional
-        Told the share done; when it answers "stop" the points read so far are returned.
+    values (n,): at even steps, n at least 2; place (m,): where: 0 is the first value.
+    step (m,): distance of the points there, in steps of the record.
+    progress: told the share done; when it answers "stop" the points read so far are returned.
+    Returns (m,): right for what has 4 points or more in a period, whatever else the record holds.
 
-    Returns
-    -------
-    array (m,)
-        Right for what has 4 points or more in a period, whatever else the record holds.
-
-    Notes
-    -----
     A point is read from the record halved j times, with the least j for which a step of the halved record is at least
     0.7 of the distance of the points. What the points hold below a quarter of their rate is then below 0.7 of half
     the rate of that record, and what could fold onto it was filtered out.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> slow, fast = (np.cos(w * np.pi * np.arange(4000.0)) for w in (0.02, 0.27))
-    >>> place = np.arange(600.0, 3400.0, 8.0)
-    >>> read = read_slowly(slow + fast, place, np.full(place.size, 8.0))
-    >>> bool(np.max(np.abs(read - np.cos(0.02 * np.pi * place))) < 1e-4)
-    True
     """
     need = np.log2(np.maximum(0.7 * step, 1e-9))
     deepest = max(0, int(math.log2(max(values.size / (2 * HALVING), 1.0))))

@@ -18,28 +18,9 @@ HALVINGS = 52
 def crossings(series: Series, level: float = 0.0, *, order: int = 0) -> Array:
     """Return the times at which the value (order 0) or the rate (order 1) passes through a level.
 
-    Parameters
-    ----------
-    series : Series
-        Times, values, rates, accelerations.
-    level : float
-        What is passed.
-    order : int
-        0 for the value, 1 for the rate.
-
-    Returns
-    -------
-    array (m,)
-
-    Notes
-    -----
+    series: times, values, rates, accelerations; order: 0 for the value, 1 for the rate.
+    Returns (m,).
     An interval with an odd number of passages gives one of them; two passages within one interval go unseen.
-
-    Examples
-    --------
-    >>> t = np.asarray([0.0, 2.0, 4.0])
-    >>> np.round(crossings((t, np.sin(t), np.cos(t), -np.sin(t))), 3)
-    array([0.   , 3.141])
     """
     times, value = series[0], series[1 + order] - level
     exact = times[value == 0.0]
@@ -59,15 +40,7 @@ def crossings(series: Series, level: float = 0.0, *, order: int = 0) -> Array:
 def values_at(series: Series, at: Array, *, order: int = 0) -> Array:
     """Return the value (order 0) or rate (order 1) between the instants of a series.
 
-    Notes
-    -----
     The quintic has the error h⁶ x⁽⁶⁾/46080 in the value at most, h the interval.
-
-    Examples
-    --------
-    >>> t = np.asarray([0.0, 1.0])
-    >>> values_at((t, t**3, 3 * t**2, 6 * t), np.asarray([0.5]))
-    array([0.125])
     """
     times = series[0]
     inside = np.clip(np.searchsorted(times, at, side="right") - 1, 0, times.size - 2)
@@ -76,15 +49,7 @@ def values_at(series: Series, at: Array, *, order: int = 0) -> Array:
 
 
 def turning_points(series: Series) -> tuple[Array, Array]:
-    """Return the times at which the rate changes its sign, both ends included, and the values there.
-
-    Examples
-    --------
-    >>> t = np.linspace(0.0, 4.0, 21)
-    >>> at, values = turning_points((t, np.sin(t), np.cos(t), -np.sin(t)))
-    >>> np.round(at, 6), np.round(values, 6)
-    (array([0.      , 1.570796, 4.      ]), array([ 0.      ,  1.      , -0.756802]))
-    """
+    """Return the times at which the rate changes its sign, both ends included, and the values there."""
     times = series[0]
     if times.size < 2:
         return times, series[1]

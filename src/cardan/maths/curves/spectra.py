@@ -18,24 +18,12 @@ BLOCK = 64
 
 
 def variance(frequency: ArrayLike, density: ArrayLike) -> float:
-    """Return ∫S dΩ of a spectrum, exactly.
-
-    Examples
-    --------
-    >>> variance([1.0, 3.0], [2.0, 2.0])
-    4.0
-    """
+    """Return ∫S dΩ of a spectrum, exactly."""
     return float(_accumulated(*_polygon(frequency, density))[-1])
 
 
 def rate_variance(frequency: ArrayLike, density: ArrayLike) -> float:
-    """Return ∫Ω² S dΩ, the variance of the rate of the process, exactly (Simpson, the integrand is cubic).
-
-    Examples
-    --------
-    >>> rate_variance([0.0, 3.0], [1.0, 1.0])
-    9.0
-    """
+    """Return ∫Ω² S dΩ, the variance of the rate of the process, exactly (Simpson, the integrand is cubic)."""
     omega, s = _polygon(frequency, density)
     middle = 0.5 * (omega[1:] + omega[:-1])
     half = 0.5 * (s[1:] + s[:-1])
@@ -44,13 +32,7 @@ def rate_variance(frequency: ArrayLike, density: ArrayLike) -> float:
 
 
 def two_sided(frequency: ArrayLike, density: ArrayLike, at: ArrayLike) -> Array:
-    """Return the two-sided density at frequencies of either sign: half the one-sided one at \\|Ω\\|.
-
-    Examples
-    --------
-    >>> two_sided([1.0, 3.0], [2.0, 4.0], [-2.0, 0.0, 3.0])
-    array([1.5, 0. , 2. ])
-    """
+    """Return the two-sided density at frequencies of either sign: half the one-sided one at \\|Ω\\|."""
     omega, s = _polygon(frequency, density)
     return 0.5 * np.interp(np.abs(np.asarray(at, dtype=float)), omega, s, left=0.0, right=0.0)
 
@@ -64,21 +46,9 @@ def enough_components(frequency: ArrayLike, duration: float) -> int:
 def sample_path(frequency: ArrayLike, density: ArrayLike, times: ArrayLike, *, seed: int, components: int = 256) -> Jet:
     """Return the jet of one sample path of zero mean, arrays (t,).
 
-    Parameters
-    ----------
-    frequency : array (m,) [rad/s]
-        Corners of the spectrum, strictly rising.
-    density : array (m,) [unit²·s/rad]
-        One-sided density there.
-    times : array (t,) [s]
-        Instants.
-    seed : int
-        The same seed gives the same path.
-    components : int
-        Number of cosines; the path repeats, up to signs, after 2π · components/(bandwidth).
-
-    Notes
-    -----
+    frequency (m,) [rad/s]: corners of the spectrum, strictly rising.
+    density (m,) [unit²·s/rad]: one-sided density there; times (t,) [s]; seed: the same seed gives the same path.
+    components: number of cosines; the path repeats, up to signs, after 2π · components/(bandwidth).
     x(t) = Σ √(2 S_k ΔΩ) cos(Ω_k t + χ_k), χ_k uniform, Ω_k the middles of equal bands; S_k ΔΩ is the exact variance in
     the band, so the mean square over a long time is exactly the variance. The derivatives are those of the same sum.
     """

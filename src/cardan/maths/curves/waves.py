@@ -16,20 +16,8 @@ ROUNDS = 4
 def series_at(coefficient: Array, phase: ArrayLike) -> tuple[Array, Array, Array]:
     """Return Re Σ c_k e^(ikz) and its first two derivatives by z.
 
-    Parameters
-    ----------
-    coefficient : array (..., R, H+1), complex
-    phase : array (p,) [rad]
-
-    Returns
-    -------
-    three arrays (..., p, R)
-
-    Examples
-    --------
-    >>> value, rate, _joint_angle = series_at(np.asarray([[1.0, 0.0, -2j]]), [0.0, np.pi / 4])
-    >>> value[:, 0], rate[:, 0]
-    (array([1., 3.]), array([4., 0.]))
+    coefficient (..., R, H+1), complex, phase (p,) [rad].
+    Returns three arrays (..., p, R).
     """
     order = np.arange(coefficient.shape[-1])
     wave = np.exp(1j * np.asarray(phase, dtype=float)[:, None] * order)
@@ -43,13 +31,7 @@ def series_at(coefficient: Array, phase: ArrayLike) -> tuple[Array, Array, Array
 
 
 def sampled_series(samples: Array) -> Array:
-    """Return the coefficients c_k, k < p/2, of curves sampled evenly over a period, array (..., p/2) of (..., p).
-
-    Examples
-    --------
-    >>> np.abs(sampled_series(1.0 + 3.0 * np.cos(np.arange(8) * np.pi / 4 + 0.5)))
-    array([1., 3., 0., 0.])
-    """
+    """Return the coefficients c_k, k < p/2, of curves sampled evenly over a period, array (..., p/2) of (..., p)."""
     count = samples.shape[-1]
     found = np.fft.rfft(samples, axis=-1)[..., : (count + 1) // 2] * (2.0 / count)
     found[..., 0] *= 0.5
@@ -57,13 +39,7 @@ def sampled_series(samples: Array) -> Array:
 
 
 def extremes(coefficient: Array) -> tuple[Array, Array]:
-    """Return the lowest and the highest value of Fourier sums, arrays (...), of coefficients (..., H+1).
-
-    Examples
-    --------
-    >>> [float(one.round(12)) for one in extremes(np.asarray([1.0, 2.0 * np.exp(0.3j), 0.0]))]
-    [-1.0, 3.0]
-    """
+    """Return the lowest and the highest value of Fourier sums, arrays (...), of coefficients (..., H+1)."""
     outer = coefficient.shape[:-1]
     flat = coefficient.reshape(-1, coefficient.shape[-1])
     size = np.abs(flat)

@@ -15,59 +15,26 @@ NODES = 24
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CutCircle:
-    """What remains of circles, the y axis through the middle of the chord, the segment beyond it away.
+    """What remains of circles, the y axis through the middle of the chord, the segment beyond it away."""
 
-    Attributes
-    ----------
-    area : array (...)
-        Of the rest.
-    shift : array (...)
-        From the centre of the circle to the centroid of the rest, away from the chord.
-    second_x : array (...)
-        ∫y² dA about the centre of the circle.
-    second_y : array (...)
-        ∫x² dA, about the centre and about the centroid.
-    second_x_centroid : array (...)
-        ∫y² dA about the centroid.
-    loss_x, loss_y : arrays (...)
-        Shares by which the moments about the centroid are below that of the whole circle.
-    """
-
-    area: Array
-    shift: Array
-    second_x: Array
-    second_y: Array
-    second_x_centroid: Array
+    area: Array  # (...): of the rest
+    shift: Array  # (...): from the centre of the circle to the centroid of the rest, away from the chord
+    second_x: Array  # (...): ∫y² dA about the centre of the circle
+    second_y: Array  # (...): ∫x² dA, about the centre and about the centroid
+    second_x_centroid: Array  # (...): ∫y² dA about the centroid
+    # loss_x, loss_y (...): shares by which the moments about the centroid are below that of the whole circle
     loss_x: Array
-    loss_y: Array
+    loss_y: Array  # (...)
 
 
 def cut_circle(radius: ArrayLike, depth: ArrayLike) -> CutCircle:
     """Return area, centroid and second moments of circles with a segment cut off.
 
-    Parameters
-    ----------
-    radius : array (...)
-        R.
-    depth : array (...)
-        Height of the segment over the radius, in [0, 2).
-
-    Returns
-    -------
-    CutCircle
-        In the unit of the radius and its powers.
-
-    Notes
-    -----
+    radius (...): R; depth (...): height of the segment over the radius, in [0, 2).
+    Returns CutCircle: in the unit of the radius and its powers.
     With y = R cos t the chord lies at cos t = 1 - depth, a strip has the area 2R² sin² t dt, and every quantity is an
     integral of a positive function over t, by Gauss's rule: nothing cancels, whether the segment is almost nothing or
     almost all.
-
-    Examples
-    --------
-    >>> half = cut_circle(1.0, 1.0)
-    >>> print(half.area, half.second_x, half.shift, 4 / (3 * np.pi))
-    1.57079633 0.39269908 0.42441318 0.42441318
     """
     r, high = np.broadcast_arrays(np.asarray(radius, dtype=float), np.asarray(depth, dtype=float))
     edge = 2.0 * np.arcsin(np.sqrt(0.5 * high))

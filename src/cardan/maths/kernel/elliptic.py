@@ -11,27 +11,10 @@ ROUNDS = 7
 def complete(angle: Array) -> tuple[Array, Array]:
     """Return the complete elliptic integrals of first and second kind of a modular angle.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        α in [0, π/2); the modulus is sin α, the parameter m = sin² α.
-
-    Returns
-    -------
-    first, second : arrays (...)
-        K(m) and E(m).
-
-    Notes
-    -----
+    angle (...) [rad]: α in [0, π/2); the modulus is sin α, the parameter m = sin² α.
+    Returns first, second (...): K(m) and E(m).
     K = π/(2 agm(1, cos α)), E = K (1 - ½ sin² α - Σ_{j≥1} 2^(j-1) c_j²), where c_j is half the difference of the two
     means before step j: Gauss. The angle is taken, not m, so that nothing cancels near 90°.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> first, second = complete(np.asarray([0.0, np.pi / 6]))
-    >>> print(first, second)
-    [1.57079633 1.68575035] [1.57079633 1.46746221]
     """
     xp = namespace(angle)
     sine = xp.sin(angle)

@@ -43,42 +43,25 @@ class Status(IntEnum):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Loop:
-    """Positions of closed loops; the axes (...) are those of the inputs.
+    """Positions of closed loops; the axes (...) are those of the inputs."""
 
-    Attributes
-    ----------
-    angle : array (..., 3) [rad]
-        φ_2, φ_3, φ_4 in (-π, π].
-    slide : array (..., 3) [m]
-        s_2, s_3, s_4.
-    coefficient : array (..., 3, 5)
-        Derivatives of (φ_2, φ_3, φ_4) by (φ_1, α_1 … α_4), and exactly of (s_2, s_3, s_4) by (s_1, a_1 … a_4).
-    status : array of int (...)
-        A `Status` each.
-    """
-
-    angle: Array
-    slide: Array
+    angle: Array  # (..., 3) [rad]: φ_2, φ_3, φ_4 in (-π, π]
+    slide: Array  # (..., 3) [m]: s_2, s_3, s_4
+    # (..., 3, 5): derivatives of (φ_2, φ_3, φ_4) by (φ_1, α_1 … α_4), and exactly of (s_2, s_3, s_4) by
+    # (s_1, a_1 … a_4)
     coefficient: Array
-    status: Array
+    status: Array  # (...) of int: a `Status` each
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Range:
-    """Input angles at which loops can be assembled: lowest ≤ cos φ_1 ≤ highest.
+    """Input angles at which loops can be assembled: lowest ≤ cos φ_1 ≤ highest."""
 
-    Attributes
-    ----------
-    lowest, highest : array (...)
-        Bounds of cos φ_1, not cut at -1 and 1; infinite where φ_1 makes no difference and the loop closes, nan where
-        it never does.
-    full : array of bool (...)
-        Whether the input can turn all the way round.
-    """
-
+    # lowest, highest (...): bounds of cos φ_1, not cut at -1 and 1; infinite where φ_1 makes no difference and the loop
+    # closes, nan where it never does
     lowest: Array
-    highest: Array
-    full: Array
+    highest: Array  # (...)
+    full: Array  # (...) of bool: whether the input can turn all the way round
 
 
 def turning_range(alpha: ArrayLike) -> Range:
@@ -227,32 +210,12 @@ def fourth_angle(
 def driven(cosine: Array, sine: Array, along: Array, across: Array) -> tuple[Array, Array, Array]:
     """Return how loops near universal joints carry an angle and a shift from the driving to the driven shaft.
 
-    Parameters
-    ----------
-    cosine, sine : array (..., 4)
-        Of α_1 … α_4.
-    along, across : array (...)
-        cos θ and sin θ, θ = φ_1 the angle of the driving yoke.
-
-    Returns
-    -------
-    along, across : arrays (...)
-        cos θ' and sin θ' of the driven yoke, θ' = π/2 - φ_4; nan where the loop does not close or is dead.
-    carried : tuple of five arrays (...)
-        Derivatives of θ' by (θ, α_1 … α_4); times the errors (s_1, a_1 … a_4) exactly the shift -s_4.
-
-    Notes
-    -----
+    cosine, sine (..., 4): of α_1 … α_4; along, across (...): cos θ and sin θ, θ = φ_1 the angle of the driving yoke.
+    Returns along, across (...): cos θ' and sin θ' of the driven yoke, θ' = π/2 - φ_4; nan where the loop does not close
+    or is dead; carried, tuple of five arrays (...): derivatives of θ' by (θ, α_1 … α_4); times the errors
+    (s_1, a_1 … a_4) exactly the shift -s_4.
     `rccc` without a single inverse function: with w = z_2×z_3, the row of s_4 is
     (w·z_1, w·x_2, sin α_2, w·x_4, w·x_1)/(w·z_4).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> joint_angles = np.radians([90, 90, 90, 30])
-    >>> c, s, carried = driven(np.cos(joint_angles), np.sin(joint_angles), np.asarray(1.0), np.asarray(0.0))
-    >>> bool(abs(s) < 1e-15), float(carried[0])
-    (True, 1.15470054)
     """
     xp = namespace(cosine, along)
     c1, c3, c4 = (cosine[..., k] for k in (0, 2, 3))
@@ -298,8 +261,6 @@ def _solved(axes: tuple[Array, Array, Array], seats: tuple[Array, ...], volume: 
 def link(alpha: Array, angle: Array, length: Array, slide: Array) -> Array:
     """Return the homogeneous matrices from frame i+1 to frame i, order (1, x, y, z); array (..., 4, 4).
 
-    Notes
-    -----
     Book (147).
     """
     xp = namespace(alpha, angle, length, slide)
@@ -318,21 +279,8 @@ def link(alpha: Array, angle: Array, length: Array, slide: Array) -> Array:
 def closure(alpha: Array, angle: Array, length: Array, slide: Array) -> Array:
     """Return by how much loops fail to close: the largest element of M_12 M_23 M_34 M_41 - E; array (...).
 
-    Parameters
-    ----------
-    alpha, angle, length, slide : array (..., 4)
-        α_i, φ_i [rad], a_i, s_i [m], i = 1 … 4.
-
-    Notes
-    -----
+    alpha, angle, length, slide (..., 4): α_i, φ_i [rad], a_i, s_i [m], i = 1 … 4.
     Book (141), (145).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> right = np.radians([90, 90, 90, 0])
-    >>> float(closure(right, np.radians([40, 90, 90, 50]), np.zeros(4), np.zeros(4))) < 1e-15
-    True
     """
     xp = namespace(alpha, angle, length, slide)
     whole = xp.eye(4, dtype=xp.float64)
@@ -384,14 +332,7 @@ def influence(joint_angle: ArrayLike, angle: ArrayLike, *, branch: ArrayLike = I
 
 
 def unwrapped(angle: Array, period: float) -> Array:
-    """Return angles along the last axis without jumps of a period.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> unwrapped(np.asarray([3.0, -3.0]), 2 * np.pi)
-    array([3.        , 3.28318531])
-    """
+    """Return angles along the last axis without jumps of a period."""
     xp = namespace(angle)
     steps = angle[..., 1:] - angle[..., :-1]
     jumps = xp.cumulative_sum(-period * xp.round(steps / period), axis=-1)

@@ -20,18 +20,10 @@ CREASE = np.cos(np.radians(32.0))
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Surface:
-    """Closed surface, or several of them that may pass through each other.
+    """Closed surface, or several of them that may pass through each other."""
 
-    Attributes
-    ----------
-    positions : array (m, 3) [m]
-        Corners.
-    indices : int array (t, 3)
-        Corners of each triangle.
-    """
-
-    positions: Array
-    indices: Array
+    positions: Array  # (m, 3) [m]: corners
+    indices: Array  # (t, 3) of int: corners of each triangle
 
 
 def joined(*surfaces: Surface) -> Surface:
@@ -46,25 +38,14 @@ def joined(*surfaces: Surface) -> Surface:
 def placed(surface: Surface, frame: ArrayLike | None = None, shift: ArrayLike = 0.0) -> Surface:
     """Return a surface turned, then shifted.
 
-    Parameters
-    ----------
-    surface : Surface
-    frame : array (3, 3), optional
-        Where its x, y and z point to, one a row: a rotation.
-    shift : array (3,) [m]
+    frame (3, 3): where its x, y and z point to, one a row: a rotation; shift (3,) [m].
     """
     turned = surface.positions if frame is None else surface.positions @ np.asarray(frame, dtype=float)
     return Surface(positions=turned + np.asarray(shift, dtype=float), indices=surface.indices)
 
 
 def volume(surface: Surface) -> float:
-    """Return what a surface encloses [m³]; positive where its triangles look outwards.
-
-    Examples
-    --------
-    >>> round(volume(plate([(0, 0), (1, 0), (1, 1), (0, 1)], 0.0, 2.0)), 12)
-    2.0
-    """
+    """Return what a surface encloses [m³]; positive where its triangles look outwards."""
     corners = surface.positions - np.mean(surface.positions, axis=0)
     one, two, three = (corners[surface.indices[:, k]] for k in range(3))
     return float(np.sum(np.cross(one, two) * three)) / 6.0
@@ -73,19 +54,9 @@ def volume(surface: Surface) -> float:
 def revolved(profile: Sequence[tuple[float, float]], sides: int = 24) -> Surface:
     """Return a body turned about x.
 
-    Parameters
-    ----------
-    profile : sequence of (x, r) [m]
-        Its outline: from the axis along rising x back to the axis, or a loop round a ring whose outer side runs along
-        rising x.
-    sides : int
-        Faces round the axis.
-
-    Examples
-    --------
-    >>> bar = revolved([(0.0, 0.0), (0.0, 1.0), (2.0, 1.0), (2.0, 0.0)], 200)
-    >>> round(volume(bar) / (2.0 * np.pi), 3)
-    1.0
+    profile, sequence of (x, r) [m]: its outline: from the axis along rising x back to the axis, or a loop round a ring
+    whose outer side runs along rising x.
+    sides: faces round the axis.
     """
     points = _distinct(np.asarray(profile, dtype=float))
     turn = np.arange(sides) * (2.0 * np.pi / sides)
@@ -103,12 +74,9 @@ def revolved(profile: Sequence[tuple[float, float]], sides: int = 24) -> Surface
 def swept(rings: Array, creases: Sequence[int] = ()) -> Surface:
     """Return a body through cross sections, closed at both ends.
 
-    Parameters
-    ----------
-    rings : array (m, c, 3) [m]
-        Corners of each cross section, counter-clockwise about the way from the first to the last; all star-shaped.
-    creases : sequence of int
-        Corners of a cross section at which its sides meet sharply; all round without any.
+    rings (m, c, 3) [m]: corners of each cross section, counter-clockwise about the way from the first to the last; all
+    star-shaped.
+    creases: corners of a cross section at which its sides meet sharply; all round without any.
     """
     count = rings.shape[1]
     parts = []
@@ -124,15 +92,9 @@ def swept(rings: Array, creases: Sequence[int] = ()) -> Surface:
 def plate(outline: ArrayLike, low: float, high: float, hole: ArrayLike | None = None, bevel: float = 0.0) -> Surface:
     """Return a flat body between two heights z.
 
-    Parameters
-    ----------
-    outline : array (k, 2) [m]
-        Counter-clockwise; star-shaped about its middle where it has no hole.
-    low, high : float [m]
-    hole : array (k, 2) [m], optional
-        Counter-clockwise too, each point facing one of the outline.
-    bevel : float [m]
-        How far the upper and lower edges of the outline are broken, toward the hole or the middle.
+    outline (k, 2) [m]: counter-clockwise; star-shaped about its middle where it has no hole.
+    low, high [m]; hole (k, 2) [m]: counter-clockwise too, each point facing one of the outline.
+    bevel [m]: how far the upper and lower edges of the outline are broken, toward the hole or the middle.
     """
     outer = np.asarray(outline, dtype=float)
     middle = np.mean(outer, axis=0) if hole is None else np.asarray(hole, dtype=float)
@@ -187,19 +149,8 @@ def toothed(root: float, tip: float, teeth: int) -> Array:
 def quaternions(frame: Array) -> Array:
     """Return the turns that carry x, y and z into frames, x y z w, signs continuous along the first axis.
 
-    Parameters
-    ----------
-    frame : array (p, 3, 3)
-        Where x, y and z point to, one a row.
-
-    Returns
-    -------
-    array (p, 4)
-
-    Examples
-    --------
-    >>> quaternions(np.asarray([[[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]]])).round(6)
-    array([[0.      , 0.      , 0.707107, 0.707107]])
+    frame (p, 3, 3): where x, y and z point to, one a row.
+    Returns (p, 4).
     """
     m = np.swapaxes(frame, -1, -2)
     xx, yy, zz = m[:, 0, 0], m[:, 1, 1], m[:, 2, 2]

@@ -89,8 +89,6 @@ def ratio(pair: Pair, w: Array) -> Array:
 def ratio_slope(pair: Pair, w: Array) -> Array:
     """Return the derivative of `ratio` by the input angle [1/rad].
 
-    Notes
-    -----
     -2 Re(k̄ · 2i b̄ w)/|k|⁴ with k = b̄ w + ā.
     """
     k = _kernel(pair, w)
@@ -113,16 +111,7 @@ def angle_error(pair: Pair, w: Array) -> Array:
 def course(pair: Pair, w: Array) -> tuple[Array, Array, Array]:
     """Return `angle_error`, `ratio` and `ratio_slope` at once, for half the work.
 
-    Notes
-    -----
     With x + iy = (b̄ w + ā)/ā: -arg(x + iy), 1/(|a|² (x² + y²)), 4 |a|² y ratio².
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> angle_error, ratio, slope = course(hooke(np.asarray(0.5)), np.asarray([1.0 + 0.0j]))
-    >>> print(angle_error, ratio * np.cos(0.5), slope)
-    [0.] [1.] [0.]
     """
     a, b = pair
     xp = namespace(a, b, w)
@@ -179,16 +168,8 @@ def vertex(pair: Pair) -> Array:
 def partial_products(joint_angle: Array, turn_before: Array) -> list[Pair]:
     """Return the pairs of the first 1, 2, … n joints of a chain of Hooke joints.
 
-    Parameters
-    ----------
-    joint_angle : array (..., n) [rad]
-        Joint angles.
-    turn_before : array (..., n) [rad]
-        Angle μ_i added before joint i.
-
-    Returns
-    -------
-    list of n Pair, each (...)
+    joint_angle (..., n) [rad]: joint angles; turn_before (..., n) [rad]: angle μ_i added before joint i.
+    Returns list of n Pair, each (...).
     """
     xp = namespace(joint_angle, turn_before)
     products: list[Pair] = []

@@ -27,34 +27,19 @@ POINT = 1e-15
 
 
 class Closure(NamedTuple):
-    """A closed, or nearly closed, polygon.
+    """A closed, or nearly closed, polygon."""
 
-    Attributes
-    ----------
-    turns : list of array (...) [rad]
-        Angle added before side 2, 3 … of each polygon, modulo π.
-    pair : Pair (...)
-        Product of all sides and turns.
-    loose : list of bool array (...)
-        Where a turn has no effect, because the polygon is at the origin or the side has no length.
-    """
-
-    turns: list[Array]
-    pair: Pair
+    turns: list[Array]  # list of array (...) [rad]: angle added before side 2, 3 … of each polygon, modulo π
+    pair: Pair  # (...): product of all sides and turns
+    # list of bool array (...): where a turn has no effect, because the polygon is at the origin or the side has no
+    # length
     loose: list[Array]
 
 
 def reach(lengths: Sequence[Array]) -> tuple[Array, Array]:
     """Return the shortest and longest way from start to end of a polygon with sides of given lengths.
 
-    Notes
-    -----
     By the triangle inequality exactly [max(0, 2 L_max - ΣL), ΣL].
-
-    Examples
-    --------
-    >>> reach([1.0, 2.0, 4.0])
-    (1.0, 7.0)
     """
     xp = namespace(*lengths)
     total, longest = lengths[0], lengths[0]
@@ -77,22 +62,9 @@ def windows(lengths: Sequence[Array], end: Array) -> list[tuple[Array, Array]]:
 def shortest_diagonals(lengths: Sequence[Array], weights: Sequence[float], end: Array) -> list[Array]:
     """Return the diagonals to aim at so that Σ w_k sinh D_k becomes smallest.
 
-    Parameters
-    ----------
-    lengths : sequence of n arrays (...)
-        Sides.
-    weights : sequence of n floats
-        w_k ≥ 0 of the diagonal D_k.
-    end : array (...)
-        D_n.
-
-    Returns
-    -------
-    list of n arrays (...)
-        Aim for D_k, given that every later diagonal follows its own aim; `close` keeps to the reachable.
-
-    Notes
-    -----
+    lengths, sequence of n arrays (...); weights: w_k ≥ 0 of the diagonal D_k; end (...): D_n.
+    Returns list of n arrays (...): aim for D_k, given that every later diagonal follows its own aim; `close` keeps to
+    the reachable.
     The reachable diagonals are a convex polytope and the sum is convex, so the least sum of the diagonals from k on is
     a convex function V_k of D_k, and the best D_k is the minimiser of V_k moved into the interval that D_{k-1} leaves.
     The aims are those minimisers, found from the end by halving on the sign of V_k'.
@@ -139,34 +111,16 @@ def close(
 ) -> Closure:
     """Return turns between the sides that bring the end of the polygon to a given distance from its start.
 
-    Parameters
-    ----------
-    sides : sequence of n Pair (...)
-        The sides in order.
-    end : array (...), optional
-        Distance between start and end, within `reach`; the shortest by default.
-    aims : sequence of n arrays (...), optional
-        Diagonals wished for; each is moved into what the sides before and after allow. The shortest by default.
-    folds : sequence of n floats, optional
-        +1 or -1: to which side the polygon turns at side k; -1 everywhere mirrors it. The first one is not used.
-    keep : sequence of n-1 arrays (...) [rad], optional
-        Turns to keep where they have no effect.
+    sides, sequence of n Pair (...): the sides in order.
+    end (...): distance between start and end, within `reach`; the shortest by default.
+    aims, sequence of n arrays (...): diagonals wished for; each is moved into what the sides before and after allow.
+    The shortest by default.
+    folds: +1 or -1: to which side the polygon turns at side k; -1 everywhere mirrors it. The first one is not used.
+    keep, sequence of n-1 arrays (...) [rad]: turns to keep where they have no effect.
 
-    Returns
-    -------
-    Closure
-
-    Notes
-    -----
     With D = D_{k-1}, L = L_k, X = D_k: sin²m = sinh((D+L+X)/2) sinh((D+L-X)/2)/(sinh D sinh L), cos²m =
     sinh((X+D-L)/2) sinh((X-D+L)/2)/(sinh D sinh L); the turn is μ_k = ±m - arg(a b c d*)/2 for the product (a, b) so
     far and the side (c, d). The half-angle form keeps all digits where an acos keeps half of them.
-
-    Examples
-    --------
-    >>> sides = [mobius.hooke(angle) for angle in (0.2, 0.25, 0.3, 0.2)]
-    >>> float(mobius.speed_fluctuation(close(sides).pair)) < 1e-15
-    True
     """
     lengths = [mobius.length(side) for side in sides]
     target = reach(lengths)[0] if end is None else end

@@ -8,25 +8,12 @@ from cardan.maths.arrays import Array
 
 
 def polynomial(*coefficients: Array) -> Array:
-    """Return the polynomial with these coefficients, the constant one first.
-
-    Examples
-    --------
-    >>> polynomial(np.zeros(2), 1.0)
-    array([[0., 1.],
-           [0., 1.]])
-    """
+    """Return the polynomial with these coefficients, the constant one first."""
     return np.stack(np.broadcast_arrays(*coefficients), axis=-1)
 
 
 def added(one: Array, other: Array) -> Array:
-    """Return the sum of two polynomials.
-
-    Examples
-    --------
-    >>> added(np.asarray([1.0]), np.asarray([1.0, 2.0]))
-    array([2., 2.])
-    """
+    """Return the sum of two polynomials."""
     size = max(one.shape[-1], other.shape[-1])
     total = np.zeros((*np.broadcast_shapes(one.shape[:-1], other.shape[:-1]), size))
     total[..., : one.shape[-1]] += one
@@ -35,13 +22,7 @@ def added(one: Array, other: Array) -> Array:
 
 
 def product(one: Array, other: Array) -> Array:
-    """Return the product of two polynomials.
-
-    Examples
-    --------
-    >>> product(np.asarray([1.0, 1.0]), np.asarray([-1.0, 1.0]))
-    array([-1.,  0.,  1.])
-    """
+    """Return the product of two polynomials."""
     outer = np.broadcast_shapes(one.shape[:-1], other.shape[:-1])
     total = np.zeros((*outer, one.shape[-1] + other.shape[-1] - 1))
     for k in range(one.shape[-1]):
@@ -50,13 +31,7 @@ def product(one: Array, other: Array) -> Array:
 
 
 def derivative(one: Array) -> Array:
-    """Return the derivative.
-
-    Examples
-    --------
-    >>> derivative(np.asarray([5.0, 3.0, 1.0]))
-    array([3., 2.])
-    """
+    """Return the derivative."""
     found: Array = one[..., 1:] * np.arange(1, one.shape[-1])
     return found
 
@@ -64,14 +39,7 @@ def derivative(one: Array) -> Array:
 def roots(one: Array) -> Array:
     """Return all roots, complex; the leading coefficient must not be 0.
 
-    Notes
-    -----
     Eigenvalues of the companion matrix.
-
-    Examples
-    --------
-    >>> np.sort(roots(np.asarray([-1.0, 0.0, 1.0])).real)
-    array([-1.,  1.])
     """
     degree = one.shape[-1] - 1
     companion = np.zeros((*one.shape[:-1], degree, degree))

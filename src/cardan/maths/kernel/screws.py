@@ -23,21 +23,12 @@ GAP = 1e3
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Rank:
-    """Rank of a matrix.
+    """Rank of a matrix."""
 
-    Attributes
-    ----------
-    value : int
-        How many singular values count.
-    gap : float
-        The least of these over the largest of the others; infinite where the others are exactly nought or none is left.
-    least : float
-        The least of these over the largest of all.
-    """
-
-    value: int
+    value: int  # how many singular values count
+    # the least of these over the largest of the others; infinite where the others are exactly nought or none is left
     gap: float
-    least: float
+    least: float  # the least of these over the largest of all
 
     @property
     def certain(self) -> bool:
@@ -50,13 +41,7 @@ NOTHING = Rank(value=0, gap=np.inf, least=1.0)
 
 
 def rotation(axis: Array, point: Array) -> Array:
-    """Return the twist of turning about an axis through a point: (a; p × a), array (..., 6).
-
-    Examples
-    --------
-    >>> rotation(np.asarray([0.0, 0, 1]), np.asarray([2.0, 0, 0])) + 0.0
-    array([ 0.,  0.,  1.,  0., -2.,  0.])
-    """
+    """Return the twist of turning about an axis through a point: (a; p × a), array (..., 6)."""
     return np.concatenate((axis, frames.cross(np.broadcast_to(point, np.shape(axis)), axis)), axis=-1)
 
 
@@ -76,18 +61,7 @@ def independent(twists: Array) -> Array:
 def reciprocal(twists: Array) -> Array:
     """Return the wrenches that do no work on any of some twists, orthonormal, array (6 - rank, 6).
 
-    Parameters
-    ----------
-    twists : array (f, 6)
-        Freedoms of a pair.
-
-    Examples
-    --------
-    What turns about z is held against two moments and three forces:
-
-    >>> z = np.asarray([0.0, 0.0, 1.0])
-    >>> reciprocal(rotation(z, np.zeros(3))[None]).shape
-    (5, 6)
+    twists (f, 6): freedoms of a pair.
     """
     if not len(twists):
         return np.eye(6)
@@ -98,14 +72,7 @@ def reciprocal(twists: Array) -> Array:
 def rank(matrix: Array) -> Rank:
     """Return the rank of a matrix (m, n) and how certain it is.
 
-    Notes
-    -----
     Singular values above `RANK` times the largest count.
-
-    Examples
-    --------
-    >>> rank(np.diag([1.0, 1e-3, 1e-15]))
-    Rank(value=2, gap=1000000000000.0, least=0.001)
     """
     if not min(matrix.shape):
         return NOTHING
@@ -124,19 +91,8 @@ def _rank_of(size: Array) -> Rank:
 def null_spaces(matrix: Array) -> tuple[Rank, Array, Array]:
     """Return rank, left and right null space of a matrix (m, n), the spaces orthonormal.
 
-    Returns
-    -------
-    rank : Rank
-    left : array (m - rank, m)
-        Combinations of the rows that vanish.
-    right : array (n - rank, n)
-        Vectors that all rows leave free.
-
-    Examples
-    --------
-    >>> found, left, right = null_spaces(np.asarray([[1.0, 0.0], [1.0, 0.0]]))
-    >>> found.value, left.shape, abs(right)
-    (1, (1, 2), array([[0., 1.]]))
+    Returns left (m - rank, m): combinations of the rows that vanish; right (n - rank, n): vectors that all rows leave
+    free.
     """
     m, n = matrix.shape
     if not min(m, n):
@@ -157,16 +113,7 @@ def hat(vector: Array) -> Array:
 def exponential(twist: Array, amount: Array) -> Array:
     """Return the displacements (..., 4, 4) after moving along twists (..., 6) by amounts (...).
 
-    Notes
-    -----
     Rodrigues' formula with the unit of the turning part; a twist that does not turn slides.
-
-    Examples
-    --------
-    >>> z = np.asarray([0.0, 0.0, 1.0])
-    >>> quarter = exponential(rotation(z, np.asarray([1.0, 0.0, 0.0])), np.asarray(np.pi / 2))
-    >>> np.round(quarter @ [0.0, 0.0, 0.0, 1.0], 12)
-    array([ 1., -1.,  0.,  1.])
     """
     turning, moving = twist[..., :3], twist[..., 3:]
     speed = frames.norm(turning)
@@ -207,14 +154,7 @@ def moved(displacement: Array, twist: Array) -> Array:
 
 
 def turned_by(displacement: Array) -> Array:
-    """Return axis times angle of the turn in displacements (..., 4, 4), array (..., 3) [rad].
-
-    Examples
-    --------
-    >>> z = np.asarray([0.0, 0.0, 1.0])
-    >>> turned_by(exponential(rotation(z, np.zeros(3)), np.asarray(0.5)))
-    array([0. , 0. , 0.5])
-    """
+    """Return axis times angle of the turn in displacements (..., 4, 4), array (..., 3) [rad]."""
     turn = displacement[..., :3, :3]
     odd = 0.5 * np.stack(
         (turn[..., 2, 1] - turn[..., 1, 2], turn[..., 0, 2] - turn[..., 2, 0], turn[..., 1, 0] - turn[..., 0, 1]), -1

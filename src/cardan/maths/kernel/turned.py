@@ -15,26 +15,9 @@ from . import mobius
 def equivalent(joint_angle: Array, phase: Array) -> tuple[Array, Array, Array]:
     """Return what joints in series come to: F_k = T(F_{k-1} + ψ_k; α_k) - T(ψ_k; α_k) from F_0 = q to the last.
 
-    Parameters
-    ----------
-    joint_angle, phase : array (..., m) [rad]
-        α_k and ψ_k of the joints.
-
-    Returns
-    -------
-    tau, cosine, sine : arrays (...)
-        τ and cos 2ψ, sin 2ψ of the one joint that turns like all of them.
-
-    Notes
-    -----
+    joint_angle, phase (..., m) [rad]: α_k and ψ_k of the joints.
+    Returns tau, cosine, sine (...): τ and cos 2ψ, sin 2ψ of the one joint that turns like all of them.
     w → (w - τ)/(1 - τ w) at w = e^(2iθ); the zero of the product of the maps is e^(-2iψ) τ.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> tau, _cosine, _sine = equivalent(np.asarray([0.5, 0.5]), np.asarray([0.0, np.pi / 2]))
-    >>> bool(tau < 1e-15)  # a Z drive turns evenly
-    True
     """
     xp = namespace(joint_angle, phase)
     pair = mobius.compose(mobius.hooke(joint_angle[..., 0]), mobius.turn(phase[..., 0]))

@@ -14,21 +14,10 @@ from .rotor_beams import Line, layout
 def assembled(whole: Line, elements: Array, nodes: Array, slopes: Array) -> Array:
     """Return the matrix of a line from those of its beams and what stands at its nodes and slopes.
 
-    Parameters
-    ----------
-    whole : Line
-        How the beams are joined and held.
-    elements : array (..., e, 4, 4)
-        Of each beam, for deflection and slope at its start and end.
-    nodes : array (..., e+1)
-        Entries for the deflections.
-    slopes : array (..., s)
-        Entries for the slopes.
-
-    Returns
-    -------
-    array (..., f, f)
-        For the unknowns that nothing holds.
+    whole: how the beams are joined and held.
+    elements (..., e, 4, 4): of each beam, for deflection and slope at its start and end.
+    nodes (..., e+1): entries for the deflections; slopes (..., s): entries for the slopes.
+    Returns (..., f, f): for the unknowns that nothing holds.
     """
     at = layout(whole)
     size = len(at.deflection) + len(at.slope)
@@ -57,27 +46,11 @@ class Matrices(NamedTuple):
 def matrices(whole: Line) -> Matrices:
     """Return the finite-element matrices of a line.
 
-    Parameters
-    ----------
-    whole : Line
-        One line or many, divided as finely as wanted.
-
-    Returns
-    -------
-    Matrices
-        For the unknowns that nothing holds, in the order of `layout`. A forward whirl with ω at the spin Ω has
-        (K + ωΩ G - ω² M) x = 0; where both are the same, (K - Ω²(M - G)) x = 0.
-
-    Notes
-    -----
+    whole: one line or many, divided as finely as wanted.
+    Returns Matrices: for the unknowns that nothing holds, in the order of `layout`. A forward whirl with ω at the spin
+    Ω has (K + ωΩ G - ω² M) x = 0; where both are the same, (K - Ω²(M - G)) x = 0.
     Timoshenko's beam with the exact static shape, so that thin beams do not lock; consistent inertia. E. P. Friedman
     and J. B. Kosmatka, Computers & Structures 47 (1993); H. D. Nelson, J. Mech. Design 102 (1980).
-
-    Examples
-    --------
-    >>> from cardan.maths.linear.rotor_beams import line
-    >>> matrices(line([1.0, 1.0], 2e4, 3.0, held=(0, 2))).stiffness.shape
-    (4, 4)
     """
     h, phi, size = _shape(whole)
     soft = 1.0 / (1.0 + phi)

@@ -9,39 +9,13 @@ from cardan.maths.kernel.frames import cross
 def bending(axis: Array, place: Array, force: Array, couple: Array, end: Array, since: Array | None = None) -> Array:
     """Return the bending flexibilities of a beam of unit stiffness between its loads.
 
-    Parameters
-    ----------
-    axis : array (..., 3)
-        Unit vector along the beam.
-    place : array (..., u) [m]
-        Where each load acts along it.
-    force, couple : arrays (..., u, 3)
-        Force and couple of each load for a unit of its amount; what lies along the axis does not bend.
-    end : array (...) [m]
-        Any place behind all loads.
-    since : array (...) [m], optional
-        Only what lies behind this place bends.
-
-    Returns
-    -------
-    array (..., u, u)
-        f with the energy ½ x·f x/EI for amounts x in equilibrium.
-
-    Notes
-    -----
+    axis (..., 3): unit vector along the beam; place (..., u) [m]: where each load acts along it.
+    force, couple (..., u, 3): force and couple of each load for a unit of its amount; what lies along the axis does not
+    bend.
+    end (...) [m]: any place behind all loads; since (...) [m]: only what lies behind this place bends.
+    Returns (..., u, u): f with the energy ½ x·f x/EI for amounts x in equilibrium.
     The loads before a section x make the moment Σ m_k - (x - x_k) e×t_k there; f is the integral of the products of
     the moments of two loads, from the later of both on. For loads in equilibrium nothing is left behind ``end``.
-
-    Examples
-    --------
-    A unit force amid a beam on two supports of span 2 bends by l³/48:
-
-    >>> import numpy as np
-    >>> along, up = np.eye(3)[0], np.asarray([[0, 0, 1.0]] * 3)
-    >>> f = bending(along, np.asarray([0.0, 1.0, 2.0]), up, 0 * up, np.asarray(2.0))
-    >>> x = np.asarray([-0.5, 1.0, -0.5])
-    >>> round(float(x @ f @ x) * 48, 12)
-    8.0
     """
     loads = place, force, couple
     return bending_between(axis, loads, loads, end, since)
@@ -56,16 +30,9 @@ def bending_between(
 ) -> Array:
     """Return the bending flexibilities between two sets of loads, array (..., u, w); see `bending`.
 
-    Parameters
-    ----------
-    axis : array (..., 3)
-        Unit vector along the beam.
-    one, other : (array (..., u) [m], array (..., u, 3), array (..., u, 3))
-        Places, forces and couples of each set.
-    end : array (...) [m]
-        Any place behind all loads.
-    since : array (...) [m], optional
-        Only what lies behind this place bends.
+    axis (..., 3): unit vector along the beam.
+    one, other (array (..., u) [m], array (..., u, 3), array (..., u, 3)): places, forces and couples of each set.
+    end (...) [m]: any place behind all loads; since (...) [m]: only what lies behind this place bends.
     """
     xp = namespace(axis, *one, *other)
     e = axis[..., None, :]
@@ -103,33 +70,11 @@ def stretching(
 ) -> Array:
     """Return the axial flexibilities of a beam of unit stiffness between its loads.
 
-    Parameters
-    ----------
-    axis : array (..., 3)
-        Unit vector along the beam.
-    place : array (..., u) [m]
-        Where each load acts along it.
-    force : array (..., u, 3)
-        Force of each load for a unit of its amount.
-    end : array (...) [m]
-        Any place behind all loads.
-    cut : array (...) [m], optional
-        Place of a joint that slides freely: no axial force passes it.
-    since : array (...) [m], optional
-        Only what lies behind this place stretches.
-
-    Returns
-    -------
-    array (..., u, u)
-        f with the energy ½ x·f x/EA for amounts x in equilibrium.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> pull = np.asarray([[-1.0, 0, 0], [1.0, 0, 0]])
-    >>> f = stretching(np.eye(3)[0], np.asarray([0.5, 2.0]), pull, np.asarray(2.0))
-    >>> float(np.ones(2) @ f @ np.ones(2))
-    1.5
+    axis (..., 3): unit vector along the beam; place (..., u) [m]: where each load acts along it.
+    force (..., u, 3): force of each load for a unit of its amount; end (...) [m]: any place behind all loads.
+    cut (...) [m]: place of a joint that slides freely: no axial force passes it.
+    since (...) [m]: only what lies behind this place stretches.
+    Returns (..., u, u): f with the energy ½ x·f x/EA for amounts x in equilibrium.
     """
     loads = place, force
     return stretching_between(axis, loads, loads, end, cut, since)
@@ -145,18 +90,10 @@ def stretching_between(
 ) -> Array:
     """Return the axial flexibilities between two sets of loads, array (..., u, w); see `stretching`.
 
-    Parameters
-    ----------
-    axis : array (..., 3)
-        Unit vector along the beam.
-    one, other : (array (..., u) [m], array (..., u, 3))
-        Places and forces of each set.
-    end : array (...) [m]
-        Any place behind all loads.
-    cut : array (...) [m], optional
-        Place of a joint that slides freely.
-    since : array (...) [m], optional
-        Only what lies behind this place stretches.
+    axis (..., 3): unit vector along the beam.
+    one, other (array (..., u) [m], array (..., u, 3)): places and forces of each set.
+    end (...) [m]: any place behind all loads; cut (...) [m]: place of a joint that slides freely.
+    since (...) [m]: only what lies behind this place stretches.
     """
     xp = namespace(axis, *one, *other)
     along = [xp.sum(force * axis[..., None, :], axis=-1) for _place, force in (one, other)]

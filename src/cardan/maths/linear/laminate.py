@@ -21,20 +21,10 @@ class PlyStiffness(NamedTuple):
 def laminate_moduli(angles: ArrayLike, thickness: ArrayLike, ply: PlyStiffness) -> tuple[float, float, float]:
     """Return E_x, E_y and G_xy of a laminate [Pa].
 
-    Parameters
-    ----------
-    angles : array (k,) [rad]
-        Of the plies, from the x axis to their fibres.
-    thickness : array (k,) [m]
-    ply : PlyStiffness
-
-    Notes
-    -----
+    angles (k,) [rad]: of the plies, from the x axis to their fibres; thickness (k,) [m].
     Membrane stiffness Ā = Σ t Q̄(θ)/Σ t; E_x = 1/(Ā⁻¹)_11, E_y = 1/(Ā⁻¹)_22, G_xy = 1/(Ā⁻¹)_66: an unsymmetrical stack
     is held flat, as in a closed tube.
 
-    Examples
-    --------
     >>> ply = PlyStiffness(135e9, 10e9, 5e9, 0.3)
     >>> [round(one / 1e9, 3) for one in laminate_moduli(np.radians([0, 45, -45, 90]), np.ones(4), ply)]
     [52.401, 52.401, 19.992]

@@ -16,30 +16,11 @@ from .rotor_beams import Line, layout
 def lowest(stiffness: Array, inertia: Array, count: int) -> tuple[Array, Array]:
     """Return the lowest positive λ with (K - λN) x = 0, and their x.
 
-    Parameters
-    ----------
-    stiffness : array (..., f, f)
-        K, positive definite.
-    inertia : array (..., f, f)
-        N, symmetric; it need not be positive, and each direction in which it is not has no λ.
-    count : int
-        How many are wanted.
-
-    Returns
-    -------
-    roots : array (..., count)
-        In rising order; nan where there are fewer.
-    vectors : array (..., f, count)
-        With x·N x = 1/λ; nan where there is none.
-
-    Notes
-    -----
+    stiffness (..., f, f): K, positive definite.
+    inertia (..., f, f): N, symmetric; it need not be positive, and each direction in which it is not has no λ.
+    Returns roots (..., count): in rising order; nan where there are fewer; vectors (..., f, count): with x·N x = 1/λ;
+    nan where there is none.
     The largest 1/λ of N x = (1/λ) K x, which is definite by K; only the wanted ones are found.
-
-    Examples
-    --------
-    >>> lowest(np.eye(2), np.diag([0.25, -1.0]), 2)[0]
-    array([ 4., nan])
     """
     size = stiffness.shape[-1]
     wanted = min(count, size)
@@ -65,51 +46,21 @@ NONE = 1e-14
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Modes:
-    """Natural modes of one line or many (...).
+    """Natural modes of one line or many (...)."""
 
-    Attributes
-    ----------
-    speed : array (..., m) [rad/s]
-        ω of each mode in rising order; nan where there are fewer.
-    deflection : array (..., m, e+1)
-        At the nodes; the largest of each mode is 1.
-    slope : array (..., m, s) [1/m]
-        In the order of `Line`.
-    """
-
-    speed: Array
-    deflection: Array
-    slope: Array
+    speed: Array  # (..., m) [rad/s]: ω of each mode in rising order; nan where there are fewer
+    deflection: Array  # (..., m, e+1): at the nodes; the largest of each mode is 1
+    slope: Array  # (..., m, s) [1/m]: in the order of `Line`
 
 
 def synchronous(whole: Line, count: int, *, spinning: bool = True) -> Modes:
     """Return the lowest forward critical speeds of a line, by finite elements.
 
-    Parameters
-    ----------
-    whole : Line
-        One line or many, held so that it cannot move without bending, divided as finely as wanted.
-    count : int
-        How many modes.
-    spinning : bool
-        Whether it spins as fast as it whirls; else it stands still, and these are its natural frequencies.
-
-    Returns
-    -------
-    Modes
-        Fewer than asked for where lumps with more inertia about the line than across it take a mode away.
-
-    Notes
-    -----
+    whole: one line or many, held so that it cannot move without bending, divided as finely as wanted.
+    spinning: whether it spins as fast as it whirls; else it stands still, and these are its natural frequencies.
+    Returns Modes: fewer than asked for where lumps with more inertia about the line than across it take a mode away.
     Supports are alike all round, so a circular whirl stands still in the turning plane and is one symmetric problem,
     (K - Ω²(M - G)) x = 0; no sweep over the speed is needed.
-
-    Examples
-    --------
-    >>> from cardan.maths.linear.rotor_beams import divided, line
-    >>> beam = divided(line(1.0, 1.0, 1.0, held=(0, 1)), [8])
-    >>> (synchronous(beam, 2).speed / np.pi**2).round(2)
-    array([1., 4.])
     """
     found = matrices(whole)
     roots, vectors = lowest(found.stiffness, found.inertia - found.gyroscopic if spinning else found.inertia, count)
@@ -125,39 +76,18 @@ def synchronous(whole: Line, count: int, *, spinning: bool = True) -> Modes:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Strain:
-    """Where the energy of modes sits while they are bent most; all parts of a mode add up to 1.
+    """Where the energy of modes sits while they are bent most; all parts of a mode add up to 1."""
 
-    Attributes
-    ----------
-    beams : array (..., m, e)
-        In each beam.
-    springs : array (..., m, e+1)
-        In the spring of each node.
-    tilt_springs : array (..., m, s)
-        In the spring of each slope.
-    """
-
-    beams: Array
-    springs: Array
-    tilt_springs: Array
+    beams: Array  # (..., m, e)
+    springs: Array  # (..., m, e+1): in the spring of each node
+    tilt_springs: Array  # (..., m, s): in the spring of each slope
 
 
 def strain(whole: Line, modes: Modes) -> Strain:
     """Return where the energy of modes sits.
 
-    Parameters
-    ----------
-    whole : Line
-        The line of the modes.
-    modes : Modes
-        As `synchronous` found them.
+    modes: as `synchronous` found them.
 
-    Returns
-    -------
-    Strain
-
-    Examples
-    --------
     >>> from cardan.maths.linear.rotor_beams import divided, line
     >>> beam = divided(line(1.0, 1e6, 1.0, spring=[3.0, 1.0]), [8])
     >>> print(strain(beam, synchronous(beam, 1)).springs.sum().round(3))

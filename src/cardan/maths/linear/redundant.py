@@ -11,23 +11,9 @@ RANK = 1e-9
 def surplus(matrix: Array) -> tuple[Array, Array]:
     """Return how many unknowns and how many equations of A x = b are too many.
 
-    Parameters
-    ----------
-    matrix : array (..., m, u)
-        A, its rows and columns of like size.
-
-    Returns
-    -------
-    unknowns : array of int (...)
-        u - rank A, unknowns that the equations leave open.
-    equations : array of int (...)
-        m - rank A, equations that no unknown can meet.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> surplus(np.asarray([[1.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 2.0]]))
-    (np.int64(1), np.int64(1))
+    matrix (..., m, u): a, its rows and columns of like size.
+    Returns unknowns (...) of int: u - rank A, unknowns that the equations leave open; equations (...) of int: m - rank
+    A, equations that no unknown can meet.
     """
     xp = namespace(matrix)
     size = xp.linalg.svdvals(matrix)
@@ -39,37 +25,15 @@ def surplus(matrix: Array) -> tuple[Array, Array]:
 def least_energy(matrix: Array, load: Array, compliance: Array, gap: Array) -> tuple[Array, Array]:
     """Return the unknowns that meet all equations and store the least energy.
 
-    Parameters
-    ----------
-    matrix : array (..., m, u)
-        A of the equations A x = b; its rank is m.
-    load : array (..., m)
-        b.
-    compliance : array (..., u, u)
-        C, symmetric, positive definite on all x that A x = 0 leaves open.
-    gap : array (..., u)
-        d, what each unknown has to close.
+    matrix (..., m, u): a of the equations A x = b; its rank is m.
+    load (..., m): b; compliance (..., u, u): C, symmetric, positive definite on all x that A x = 0 leaves open.
+    gap (..., u): d, what each unknown has to close.
+    Returns unknowns (..., u): x with the least ½ x·C x - d·x among those with A x = b; multipliers (..., m): y with C x
+    + Aᵀ y = d: how far each equation gives way.
 
-    Returns
-    -------
-    unknowns : array (..., u)
-        x with the least ½ x·C x - d·x among those with A x = b.
-    multipliers : array (..., m)
-        y with C x + Aᵀ y = d: how far each equation gives way.
-
-    Notes
-    -----
     Least complementary energy (Castigliano) with the equations as side conditions. C and d are divided by the largest
     entry of C, so that both blocks of the bordered matrix are of order one. Where A and C are the same along the last
     axis of the batch, length one or none there, the matrix is factored once.
-
-    Examples
-    --------
-    Two springs side by side share a load of 3 as their stiffness, 1 to 2:
-
-    >>> import numpy as np
-    >>> least_energy(np.asarray([[1.0, 1.0]]), np.asarray([3.0]), np.diag([2.0, 1.0]), np.zeros(2))[0]
-    array([1., 2.])
     """
     xp = namespace(matrix, load, compliance, gap)
     m, u = matrix.shape[-2:]
@@ -95,13 +59,7 @@ def least_energy(matrix: Array, load: Array, compliance: Array, gap: Array) -> t
 
 
 def broadcast_shapes(*shapes: tuple[int, ...]) -> tuple[int, ...]:
-    """Return the shape that arrays of these shapes have together.
-
-    Examples
-    --------
-    >>> broadcast_shapes((3, 1), (2,))
-    (3, 2)
-    """
+    """Return the shape that arrays of these shapes have together."""
     depth = max(len(shape) for shape in shapes)
     full = [(1,) * (depth - len(shape)) + shape for shape in shapes]
     return tuple(max(sizes) if 0 not in sizes else 0 for sizes in zip(*full, strict=True))

@@ -17,48 +17,22 @@ class Line:
 
     Beam k runs from node k to node k+1. The slope is the same on both sides of a node unless it is hinged; so slopes
     are counted along the line, two of them at a hinge: the one that ends before it, then the one that begins there.
-
-    Attributes
-    ----------
-    length : array (..., e) [m]
-        Of each beam.
-    bending : array (..., e) [N m²]
-        EI.
-    shear : array (..., e) [1/N]
-        1/(κGA); zero where shear does not count.
-    mass : array (..., e) [kg/m]
-        ρA.
-    rotary : array (..., e) [kg m]
-        ρI; zero where rotary inertia and gyroscopic action of the beams do not count.
-    spring : array (..., e+1) [N/m]
-        Stiffness that holds each node sideways.
-    lump : array (..., e+1) [kg]
-        Mass at each node.
-    tilt_spring : array (..., s) [N m/rad]
-        Stiffness that holds each slope.
-    diametral, polar : arrays (..., s) [kg m²]
-        Moments of inertia at each slope, across and about the line.
-    hinged : tuple of int
-        Nodes at which the slope jumps and no moment passes, in rising order, none of them an end.
-    held : tuple of int
-        Nodes that do not move sideways.
-    clamped : tuple of int
-        Slopes that stay zero.
     """
 
-    length: Array
-    bending: Array
-    shear: Array
-    mass: Array
-    rotary: Array
-    spring: Array
-    lump: Array
-    tilt_spring: Array
-    diametral: Array
-    polar: Array
+    length: Array  # (..., e) [m]: of each beam
+    bending: Array  # (..., e) [N m²]: EI
+    shear: Array  # (..., e) [1/N]: 1/(κGA); zero where shear does not count
+    mass: Array  # (..., e) [kg/m]: ρA
+    rotary: Array  # (..., e) [kg m]: ρI; zero where rotary inertia and gyroscopic action of the beams do not count
+    spring: Array  # (..., e+1) [N/m]: stiffness that holds each node sideways
+    lump: Array  # (..., e+1) [kg]: mass at each node
+    tilt_spring: Array  # (..., s) [N m/rad]: stiffness that holds each slope
+    diametral: Array  # diametral, polar (..., s) [kg m²]: moments of inertia at each slope, across and about the line
+    polar: Array  # (..., s) [kg m²]
+    # nodes at which the slope jumps and no moment passes, in rising order, none of them an end
     hinged: tuple[int, ...] = ()
-    held: tuple[int, ...] = ()
-    clamped: tuple[int, ...] = ()
+    held: tuple[int, ...] = ()  # nodes that do not move sideways
+    clamped: tuple[int, ...] = ()  # slopes that stay zero
 
     @property
     def beams(self) -> int:
@@ -98,21 +72,10 @@ def line(
 ) -> Line:
     """Return beams end to end; what is one number holds for all of them. See `Line` for every argument.
 
-    Parameters
-    ----------
-    length, bending, mass, shear, rotary : arrays (..., e)
-        Of each beam [m, N m², kg/m, 1/N, kg m].
-    spring, lump : arrays (..., e+1)
-        At each node [N/m, kg].
-    tilt_spring, diametral, polar : arrays (..., s)
-        At each slope [N m/rad, kg m², kg m²].
-    hinged, held, clamped : tuple of int
-        Nodes with a hinge, nodes held, slopes held.
-
-    Examples
-    --------
-    >>> line([1.0, 0.5], 2e4, 3.0, hinged=(1,)).polar
-    array([0., 0., 0., 0.])
+    length, bending, mass, shear, rotary (..., e): of each beam [m, N m², kg/m, 1/N, kg m].
+    spring, lump (..., e+1): at each node [N/m, kg].
+    tilt_spring, diametral, polar (..., s): at each slope [N m/rad, kg m², kg m²].
+    hinged, held, clamped: nodes with a hinge, nodes held, slopes held.
     """
     size = np.atleast_1d(np.asarray(length, dtype=float))
     beams = size.shape[-1]
@@ -203,17 +166,7 @@ def round_section(
 def divided(whole: Line, parts: ArrayLike) -> Line:
     """Return the same line with each beam cut into equal parts.
 
-    Parameters
-    ----------
-    whole : Line
-        The line.
-    parts : array of int (e,)
-        Into how many.
-
-    Examples
-    --------
-    >>> divided(line([1.0, 0.5], 2e4, 3.0, spring=[0, 7.0, 0]), [2, 1]).spring
-    array([0., 0., 7., 0.])
+    parts (e,) of int: into how many.
     """
     count = np.asarray(parts, dtype=int)
     node = np.concatenate(([0], np.cumsum(count)))
@@ -286,26 +239,10 @@ def _layout(beams: int, hinged: tuple[int, ...], held: tuple[int, ...], clamped:
 def rigid_motions(whole: Line) -> Array:
     """Return how a line can move without bending and without straining a spring.
 
-    Parameters
-    ----------
-    whole : Line
-        One line.
-
-    Returns
-    -------
-    array (f, r)
-        Deflections and slopes of the r independent motions, for the unknowns that nothing holds.
-
-    Notes
-    -----
+    whole: one line.
+    Returns (f, r): deflections and slopes of the r independent motions, for the unknowns that nothing holds.
     The beams between two hinges move as one: a deflection and a slope each. What a hinge joins, and what nodes,
     slopes and springs hold, are linear conditions on these; the motions are what the conditions leave.
-
-    Examples
-    --------
-    >>> free = line(1.0, 2e4, 3.0)
-    >>> rigid_motions(free).shape, rigid_motions(line(1.0, 2e4, 3.0, held=(0, 1))).shape
-    ((4, 2), (2, 0))
     """
     at = layout(whole)
     place = whole.place / whole.place[-1]

@@ -13,26 +13,9 @@ WORST = 1e9
 def solve_regular(matrix: Array, load: Array) -> tuple[Array, Array]:
     """Return the solutions of A x = b for many right-hand sides, and which systems are regular.
 
-    Parameters
-    ----------
-    matrix : array (..., m, m)
-        A.
-    load : array (..., p, m)
-        b, p of them for each A.
-
-    Returns
-    -------
-    solution : array (..., p, m)
-        x; nan where A is singular.
-    regular : array of bool (...)
-        Whether A is not singular: its condition number, by the largest sums of columns, is at most `WORST`.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> x, regular = solve_regular(np.asarray([np.eye(2), np.ones((2, 2))]), np.ones((2, 1, 2)))
-    >>> x[0], regular
-    (array([[1., 1.]]), array([ True, False]))
+    matrix (..., m, m): a; load (..., p, m): b, p of them for each A.
+    Returns solution (..., p, m): x; nan where A is singular; regular (...) of bool: whether A is not singular: its
+    condition number, by the largest sums of columns, is at most `WORST`.
     """
     xp = namespace(matrix, load)
     m, count = matrix.shape[-1], load.shape[-2]

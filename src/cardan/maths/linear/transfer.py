@@ -41,24 +41,12 @@ TINY = 1e-60
 def speeds(whole: Line, count: int, *, spin: float | None = None, near: ArrayLike | None = None) -> Array:
     """Return the lowest natural speeds of a line in forward whirl, exactly and none missed.
 
-    Parameters
-    ----------
-    whole : Line
-        One line.
-    count : int
-        How many.
-    spin : float [rad/s], optional
-        Ω; 0 is at rest, negative against the whirl. As fast as it whirls when not given: these are critical speeds.
-    near : array (count,) [rad/s], optional
-        Where they are likely to be, which saves looking for them; wrong guesses do no harm.
+    whole: one line.
+    spin [rad/s]: Ω; 0 is at rest, negative against the whirl. As fast as it whirls when not given: these are critical
+    speeds.
+    near (count,) [rad/s]: where they are likely to be, which saves looking for them; wrong guesses do no harm.
+    Returns (count,) [rad/s]: ω in rising order: a zero for each motion without bending, then the roots.
 
-    Returns
-    -------
-    array (count,) [rad/s]
-        ω in rising order: a zero for each motion without bending, then the roots.
-
-    Notes
-    -----
     The state s = (w, θ, M, V) of each section follows from s' = A s by the matrix exponential,
 
         w' = θ + V/(κGA);  θ' = M/(EI);  M' = -V + ρI(2Ωω - ω²) θ;  V' = -ρAω² w.
@@ -67,12 +55,6 @@ def speeds(whole: Line, count: int, *, spin: float | None = None, near: ArrayLik
     ω it falls with ω, so its negative eigenvalues count the roots below a speed (W. H. Wittrick and F. W. Williams,
     Q. J. Mech. Appl. Math. 24, 1971), provided that no piece can whirl between clamped ends. The count encloses root
     j; within, the j-th eigenvalue has its only zero.
-
-    Examples
-    --------
-    >>> from cardan.maths.linear.rotor_beams import line
-    >>> (speeds(line(1.0, 1.0, 1.0, held=(0, 1)), 3) / np.pi**2).round(9)
-    array([1., 4., 9.])
     """
     rigid = rigid_motions(whole)
     zeros = min(rigid.shape[-1], count)
@@ -91,15 +73,7 @@ def speeds(whole: Line, count: int, *, spin: float | None = None, near: ArrayLik
 
 
 def modes_below(whole: Line, speed: float, *, spin: float | None = None) -> int:
-    """Return how many natural speeds of a line lie below a speed [rad/s]; see `speeds`.
-
-    Examples
-    --------
-    >>> from cardan.maths.linear.rotor_beams import line
-    >>> beam = line(1.0, 1.0, 1.0, held=(0, 1))
-    >>> [modes_below(beam, speed * np.pi**2) for speed in (0.99, 1.01, 4.01, 100.01)]
-    [0, 1, 2, 10]
-    """
+    """Return how many natural speeds of a line lie below a speed [rad/s]; see `speeds`."""
     height, within = _spectrum(_pieces(whole, speed, spin), speed, spin)
     return within + int(np.sum(height < 0.0))
 
@@ -257,27 +231,10 @@ def _pieces(whole: Line, speed: float, spin: float | None) -> _Pieces:
 def dynamic_stiffness(whole: Line, speed: float, *, spin: float | None = None) -> Array:
     """Return the exact dynamic stiffness of a line that whirls, for what nothing holds at its nodes.
 
-    Parameters
-    ----------
-    whole : Line
-        One line, without beams that are short beside it.
-    speed : float [rad/s]
-        ω, not zero, and so low that no beam whirls between clamped ends.
-    spin : float [rad/s], optional
-        Ω; as fast as it whirls when not given.
-
-    Returns
-    -------
-    array (f, f)
-
-    Examples
-    --------
-    A beam on springs that hardly whirls is as stiff as they are:
-
-    >>> from cardan.maths.linear.rotor_beams import line
-    >>> stiff = dynamic_stiffness(line(1.0, 1e6, 1.0, spring=[3.0, 0], clamped=(0, 1)), 1e-6)
-    >>> print(np.sum(stiff).round(6))
-    3.0
+    whole: one line, without beams that are short beside it.
+    speed [rad/s]: ω, not zero, and so low that no beam whirls between clamped ends.
+    spin [rad/s]: Ω; as fast as it whirls when not given.
+    Returns (f, f).
     """
     return _stiffness(_pieces(whole, speed, spin), speed, spin)[0]
 

@@ -34,17 +34,11 @@ _THREAD = 20_000
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Response:
-    """Steady vibration of chains under harmonic loads; nan at a resonance without damping.
+    """Steady vibration of chains under harmonic loads; nan at a resonance without damping."""
 
-    Attributes
-    ----------
-    displacement : complex array (..., n, f)
-        Amplitude and phase of each place.
-    flow : complex array (..., n-1, f)
-        What each coupling passes on from its place to the next: coupling times difference of displacements.
-    """
-
-    displacement: Array
+    displacement: Array  # (..., n, f), complex: amplitude and phase of each place
+    # (..., n-1, f), complex: what each coupling passes on from its place to the next: coupling times difference of
+    # displacements
     flow: Array
 
     @property
@@ -68,41 +62,18 @@ def response(
 ) -> Response:
     """Return the steady vibration x e^(iωt) of chains under loads F e^(iωt).
 
-    Parameters
-    ----------
-    mass : array (..., n)
-        m of each place, at least 0.
-    coupling : array (..., n-1)
-        k between neighbours, not 0; complex where it loses energy.
-    omega : array (f,) [rad/s]
-        ω.
-    load : array (..., n)
-        F at each place, complex.
-    drag : array (..., n-1) or number
-        d of the couplings: they carry (k + iωd) times the difference of displacements.
-    ground, ground_drag : arrays (..., n) or numbers
-        The same from each place to the ground.
-    attached : complex array (..., n, f), optional
-        Dynamic stiffness of whatever else hangs on each place; array expressions only.
-    method : Plain or Compiled, optional
-        Compiled by default from a million places times frequencies on, where numba is installed.
+    mass (..., n): m of each place, at least 0.
+    coupling (..., n-1): k between neighbours, not 0; complex where it loses energy.
+    omega (f,) [rad/s]: ω; load (..., n): F at each place, complex.
+    drag (..., n-1) or number: d of the couplings: they carry (k + iωd) times the difference of displacements.
+    ground, ground_drag (..., n) or numbers: the same from each place to the ground.
+    attached (..., n, f), complex: dynamic stiffness of whatever else hangs on each place; array expressions only.
+    method: Compiled by default from a million places times frequencies on, where numba is installed.
 
-    Returns
-    -------
-    Response
-
-    Notes
-    -----
     Looking from a coupling to one side, the chain is a dynamic stiffness Z; through the coupling k it is felt as
     Zk/(Z + k), and the next place adds -ω²m to that. Swept from both ends, the sums of both sides at each place give
     its displacement under its own load, and k/(Z + k) what of it reaches the next place. The quotient keeps its digits
     through any resonance of a part, where an elimination without exchange of rows loses them.
-
-    Examples
-    --------
-    >>> found = response([2.0, 0.5], [900.0], [30.0], [1.0, 0.0])
-    >>> found.displacement[:, 0]
-    array([-0.00037037+0.j, -0.00074074+0.j])
     """
     given = (mass, coupling, load, drag, ground, ground_drag)
     xp = namespace(*given, omega, [] if attached is None else attached)
@@ -226,33 +197,16 @@ def _compiled(
 def modes(mass: ArrayLike, coupling: ArrayLike, ground: ArrayLike = 0.0) -> tuple[Array, Array]:
     """Return natural frequencies and modes of chains without damping.
 
-    Parameters
-    ----------
-    mass : array (..., n)
-        m of each place, at least 0 and not all of a chain 0.
-    coupling : array (..., n-1)
-        k between neighbours, positive.
-    ground : array (..., n) or number
-        k from each place to the ground, at least 0.
+    mass (..., n): m of each place, at least 0 and not all of a chain 0.
+    coupling (..., n-1): k between neighbours, positive.
+    ground (..., n) or number: k from each place to the ground, at least 0.
+    Returns omega (..., n) [rad/s]: natural frequencies, the slowest first; exactly 0 for the first of a free chain.
+    Each place without mass adds one that is infinite; shape (..., n, n): displacements of each mode, a mode a row, with
+    Σ m x² = 1; nan where the frequency is infinite.
 
-    Returns
-    -------
-    omega : array (..., n) [rad/s]
-        Natural frequencies, the slowest first; exactly 0 for the first of a free chain. Each place without mass adds
-        one that is infinite.
-    shape : array (..., n, n)
-        Displacements of each mode, a mode a row, with Σ m x² = 1; nan where the frequency is infinite.
-
-    Notes
-    -----
     With differences D, couplings C and masses M the stiffness is DᵀCD; ω are the singular values of the bidiagonal
     matrix C^½ D M^-½, which LAPACK finds with full accuracy, not the square roots of eigenvalues. Places
     without mass are taken out beforehand; all terms of that are positive.
-
-    Examples
-    --------
-    >>> modes([2.0, 0.6], [900.0])[0]
-    array([ 0.        , 44.15880433])
     """
     m = np.asarray(mass, dtype=float)
     k, g = np.asarray(coupling, dtype=float), np.asarray(ground, dtype=float)

@@ -37,27 +37,13 @@ class Switching(Protocol):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Plan:
-    """Switches of a period in their order, and the steps between them.
+    """Switches of a period in their order, and the steps between them."""
 
-    Attributes
-    ----------
-    times : array (k+2,) [s]
-        0, the switches, the duration.
-    elements : array of int (k,)
-        Which element switches.
-    levels : array (k,)
-        At what twist.
-    sides : array of int (k+1, E)
-        Side of every element between the times.
-    counts : array of int (k+1,)
-        Steps there.
-    """
-
-    times: Array
-    elements: Array
-    levels: Array
-    sides: Array
-    counts: Array
+    times: Array  # (k+2,) [s]: 0, the switches, the duration
+    elements: Array  # (k,) of int: which element switches
+    levels: Array  # (k,): at what twist
+    sides: Array  # (k+1, E) of int: side of every element between the times
+    counts: Array  # (k+1,) of int: steps there
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

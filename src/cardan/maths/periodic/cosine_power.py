@@ -10,24 +10,10 @@ from cardan.maths.arrays import Array
 def hump_coefficients(power: int) -> Array:
     """Return a_0 … a_m of cos^(2m)(θ/2) = a_0 + Σ a_j cos jθ.
 
-    Parameters
-    ----------
-    power : int
-        m, at least 0.
-
-    Returns
-    -------
-    array (m+1,)
-
-    Notes
-    -----
+    power: m, at least 0.
+    Returns (m+1,).
     a_0 = C(2m, m)/4^m and a_j = 2 C(2m, m-j)/4^m, from one to the next by their ratios: no binomial leaves the range
     of numbers, whatever m.
-
-    Examples
-    --------
-    >>> hump_coefficients(2)
-    array([0.375, 0.5  , 0.125])
     """
     order = np.arange(1, power + 1)
     mean = np.prod((2.0 * order - 1.0) / (2.0 * order))
@@ -37,21 +23,8 @@ def hump_coefficients(power: int) -> Array:
 def hump(unit: Array, power: int) -> tuple[Array, Array]:
     """Return cos^(2m)(θ/2) and its slope by θ [1/rad], arrays (...), or numbers of a number.
 
-    Parameters
-    ----------
-    unit : complex array (...)
-        e^(iθ).
-    power : int
-        m, at least 0.
-
-    Notes
-    -----
+    unit (...), complex: e^(iθ); power: m, at least 0.
     ((1 + cos θ)/2)^m.
-
-    Examples
-    --------
-    >>> hump(1j, 1)
-    (0.5, -0.5)
     """
     half = 0.5 * (1.0 + unit.real)
     if power == 0:

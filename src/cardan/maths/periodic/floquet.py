@@ -36,16 +36,7 @@ BLOCK = 2_000_000
 def collocation(stages: int, *, stiff: bool = False) -> tuple[Array, Array]:
     """Return points (s,) and the integrals of their polynomials up to each point and to the end, array (s+1, s).
 
-    Parameters
-    ----------
-    stages : int
-    stiff : bool
-        Points of Radau, the last of which is the end, instead of those of Gauss.
-
-    Examples
-    --------
-    >>> collocation(2)[1].sum(axis=-1).round(4)
-    array([0.2113, 0.7887, 1.    ])
+    stiff: points of Radau, the last of which is the end, instead of those of Gauss.
     """
     series = np.polynomial.legendre.Legendre.basis(stages)
     if stiff:
@@ -59,34 +50,12 @@ def collocation(stages: int, *, stiff: bool = False) -> tuple[Array, Array]:
 def monodromy(coefficients: Coefficients, duration: ArrayLike, *, steps: int | None = None) -> Array:
     """Return the monodromy matrices of linear oscillators whose coefficients repeat.
 
-    Parameters
-    ----------
-    coefficients : callable
-        `Coefficients`.
-    duration : array (B,) [s]
-        T.
-    steps : int, optional
-        Steps of a period; by default as many as the fastest oscillation asks for.
-
-    Returns
-    -------
-    array (B, m, m)
-        For the disturbance (x, ẋ) in the order of the coordinates, the speeds of those without mass left out.
-
-    Notes
-    -----
+    coefficients: `Coefficients`; duration (B,) [s]: T.
+    steps: steps of a period; by default as many as the fastest oscillation asks for.
+    Returns (B, m, m): for the disturbance (x, ẋ) in the order of the coordinates, the speeds of those without mass left
+    out.
     Collocation: within a step the accelerations (without mass, the speeds) are polynomials that fulfil the equations
     at the points of Gauss, or of Radau where a coordinate has no mass.
-
-    Examples
-    --------
-    An undamped oscillator turns by its phase, whatever the mass:
-
-    >>> def spring(share):
-    ...     one = np.ones((1, share.size, 1))
-    ...     return 4.0 * one, 0.0 * one[..., None], 36.0 * one[..., None]
-    >>> print(np.trace(monodromy(spring, [0.5])[0]) / 2.0, np.cos(1.5))
-    0.07073720 0.07073720
     """
     period = np.atleast_1d(np.asarray(duration, dtype=float))
     trial = np.arange(2 * FEWEST) / (2 * FEWEST)
@@ -171,21 +140,8 @@ def _product(parts: Array) -> Array:
 def without_direction(matrix: Array, direction: Array) -> Array:
     """Return matrices without an eigenvector: their other eigenvalues remain, array (B, m-1, m-1) of (B, m, m).
 
-    Parameters
-    ----------
-    matrix : array (B, m, m)
-    direction : array (B, m)
-        Eigenvectors, of any length.
-
-    Notes
-    -----
+    matrix (B, m, m); direction (B, m): eigenvectors, of any length.
     Turned by a reflection that makes the direction the first axis, the matrix is block triangular.
-
-    Examples
-    --------
-    >>> whole = np.asarray([[[1.0, 5.0], [0.0, 3.0]]])
-    >>> without_direction(whole, np.asarray([[2.0, 0.0]]))
-    array([[[3.]]])
     """
     unit = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
     normal = unit.copy()

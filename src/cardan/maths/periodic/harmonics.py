@@ -30,22 +30,12 @@ class Status(IntEnum):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Linearised:
-    """Balance of oscillators at moments of their motion, and its slopes.
+    """Balance of oscillators at moments of their motion, and its slopes."""
 
-    Attributes
-    ----------
-    balance : array (..., R)
-        Left minus right side.
-    mass : array (..., R)
-        Slopes by the accelerations; each acts in its own balance only.
-    damping, stiffness : array (..., R, R)
-        Slopes by the rates and by the coordinates.
-    """
-
-    balance: Array
-    mass: Array
-    damping: Array
-    stiffness: Array
+    balance: Array  # (..., R): left minus right side
+    mass: Array  # (..., R): slopes by the accelerations; each acts in its own balance only
+    damping: Array  # damping, stiffness (..., R, R): slopes by the rates and by the coordinates
+    stiffness: Array  # (..., R, R)
 
 
 SMALL = 1e-6
@@ -79,24 +69,12 @@ class HarmonicBalance:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Waves:
-    """Periodic motions x = Re Σ c_k e^(ikz), z the phase of the period.
+    """Periodic motions x = Re Σ c_k e^(ikz), z the phase of the period."""
 
-    Attributes
-    ----------
-    coefficient : array (B, R, H+1), complex
-        c_k.
-    force : array (B,)
-        Constant force on the first coordinate that keeps a free motion at its frequency; 0 elsewhere.
-    status : array of int (B,)
-        A `Status` each.
-    tail : array (B,)
-        Largest of the upper quarter of the harmonics over the largest of all.
-    """
-
-    coefficient: Array
-    force: Array
-    status: Array
-    tail: Array
+    coefficient: Array  # (B, R, H+1), complex: c_k
+    force: Array  # (B,): constant force on the first coordinate that keeps a free motion at its frequency; 0 elsewhere
+    status: Array  # (B,) of int: a `Status` each
+    tail: Array  # (B,): largest of the upper quarter of the harmonics over the largest of all
 
     def at(self, phase: ArrayLike) -> tuple[Array, Array, Array]:
         """Return x and its first two derivatives by the phase, arrays (B, p, R), at phases (p,) [rad]."""
@@ -114,41 +92,12 @@ def harmonic_balance(
 ) -> Waves:
     """Return periodic motions of oscillators.
 
-    Parameters
-    ----------
-    equation : callable
-        An `Equation`.
-    frequency : array (B,) [rad/s]
-        Base frequencies: the rate of the phase z.
-    coordinates : int
-        R.
-    free : bool
-        Whether a motion may be shifted in time; then the mean of the first coordinate is held at 0 and the constant
-        force on it is sought instead.
-    start : array (B, R, h+1), complex, optional
-        Motions to begin with; none by default.
-    method : HarmonicBalance, optional
-
-    Returns
-    -------
-    Waves
-
-    Notes
-    -----
+    equation: an `Equation`; frequency (B,) [rad/s]: base frequencies: the rate of the phase z; coordinates: R.
+    free: whether a motion may be shifted in time; then the mean of the first coordinate is held at 0 and the constant
+    force on it is sought instead.
+    start (B, R, h+1), complex: motions to begin with; none by default.
     Block of coordinates r, s of Newton's matrix: Γ⁺(ω² M_rs Γ'' + ω C_rs Γ' + K_rs Γ), Γ the harmonics at the samples,
     4H + 4 of them, Γ⁺ the way back.
-
-    Examples
-    --------
-    A swing with a hardening spring, ẍ + x + x³ = cos 0.5 t:
-
-    >>> def duffing(rows, phase, x, v, a):
-    ...     one = np.ones_like(x)
-    ...     slope = (one + 3.0 * x**2)[..., None]
-    ...     left = a + x + x**3 - np.cos(phase)[:, None]
-    ...     return Linearised(balance=left, mass=one, damping=0.0 * slope, stiffness=slope)
-    >>> abs(harmonic_balance(duffing, [0.5], 1).coefficient[0, 0, [1, 3]]).round(5)
-    array([0.71384, 0.26737])
     """
     how = method or HarmonicBalance()
     omega = np.atleast_1d(np.asarray(frequency, dtype=float))
@@ -293,11 +242,9 @@ def _steps(
 def solve_blocks(blocks: dict[tuple[int, int], Array], right: Array) -> Array:
     """Return the solution of systems made of blocks, array (B, R, n) as ``right``; the shortest where one is singular.
 
-    Parameters
-    ----------
-    blocks : dict from (r, s) to arrays (B, n, n)
-        What is left out is zero. Where only neighbours are coupled elimination goes block by block.
-    right : array (B, R, n)
+    blocks, dict from (r, s) to arrays (B, n, n): what is left out is zero. Where only neighbours are coupled
+    elimination goes block by block.
+    right (B, R, n).
     """
     rank = right.shape[-2]
     try:

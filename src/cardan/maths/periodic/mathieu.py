@@ -30,21 +30,11 @@ TAIL = 8
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Exponents:
-    """How fast the solutions of Mathieu's equations turn and grow.
+    """How fast the solutions of Mathieu's equations turn and grow."""
 
-    Attributes
-    ----------
-    below : array (...)
-        1 - cos πβ; negative in the zones with a period of π.
-    above : array (...)
-        1 + cos πβ; negative in the zones with a period of 2π, the principal one among them.
-    damping : array (...)
-        n, per radian of z.
-    """
-
-    below: Array
-    above: Array
-    damping: Array
+    below: Array  # (...): 1 - cos πβ; negative in the zones with a period of π
+    above: Array  # (...): 1 + cos πβ; negative in the zones with a period of 2π, the principal one among them
+    damping: Array  # (...): n, per radian of z
 
     @property
     def half_trace(self) -> Array:
@@ -125,13 +115,7 @@ def exponents(a: ArrayLike, q: ArrayLike, n: ArrayLike = 0.0) -> Exponents:
 
 
 def check_range(a: Array, q: Array, n: Array, xp: Any) -> None:
-    """Refuse parameters that are not finite or out of range.
-
-    Raises
-    ------
-    InputError
-        Naming a, q or n, all that are wrong.
-    """
+    """Refuse parameters that are not finite or out of range."""
 
     def wrong(value: Array, low: float, high: float) -> bool:
         return not bool(xp.all((value >= low) & (value <= high)))
@@ -198,8 +182,6 @@ def _front(s: Array, near: Array, gap: Array, positive: Array, odd: int, xp: Any
 def _beyond(r: float, a: Array, q: Array) -> Array:
     """Return the logarithm of what the rows beyond r multiply a determinant by.
 
-    Notes
-    -----
     With x_r = q²/((r² - a)((r+2)² - a)) it is -Σ (x_r + x_r x_(r-2) + x_r²/2). In m = r + 1, x = q²/(m⁴ - 2(1+a) m² +
     (1-a)²) is a series in 1/m²; sums of powers by Euler and Maclaurin.
     """
@@ -217,8 +199,6 @@ def _beyond(r: float, a: Array, q: Array) -> Array:
 def _power_sum(r: float, p: int) -> float:
     """Return Σ m^(-p) over m = r+1, r+3, r+5 ….
 
-    Examples
-    --------
     >>> round(_power_sum(10.0, 4) * 1e6 - sum((11 + 2 * k) ** -4 for k in range(10**5)) * 1e6, 6)
     0.0
     """

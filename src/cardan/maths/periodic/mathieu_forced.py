@@ -28,18 +28,10 @@ UNBOUNDED = 1e11
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ForcedSolution:
-    """A steady solution y = Im Σ C_ω e^(iωz).
+    """A steady solution y = Im Σ C_ω e^(iωz)."""
 
-    Attributes
-    ----------
-    order : array (k,)
-        ω ≥ 0, rising.
-    coefficient : complex array (..., k)
-        C_ω; purely imaginary where ω = 0.
-    """
-
-    order: Array
-    coefficient: Array
+    order: Array  # (k,): ω ≥ 0, rising
+    coefficient: Array  # (..., k), complex: C_ω; purely imaginary where ω = 0
 
     @property
     def amplitude(self) -> Array:
@@ -74,35 +66,12 @@ def forced(
 ) -> ForcedSolution:
     """Return the steady solution of y'' + 2n y' + (a - 2q cos 2z) y = Σ Q sin(νz + δ).
 
-    Parameters
-    ----------
-    a, q, n : arrays (...)
-        Of one equation or many.
-    order : array (m,)
-        ν ≥ 0 of each forcing term; 0 is a constant Q sin δ.
-    amplitude, phase : arrays (m,)
-        Q, and δ [rad].
-
-    Returns
-    -------
-    ForcedSolution
-        Of all orders ν ± 2r.
-
-    Raises
-    ------
-    InputError
-        A value is out of range, or a forcing order is in resonance: ``order[i]``.
-
-    Notes
-    -----
+    a, q, n (...): of one equation or many.
+    order (m,): ν ≥ 0 of each forcing term; 0 is a constant Q sin δ.
+    amplitude, phase (m,): Q, and δ [rad].
+    Returns ForcedSolution: of all orders ν ± 2r.
     For each ν, (a - ω² + 2inω) Y_ω - q (Y_(ω+2) + Y_(ω-2)) = Q e^(iδ) where ω = ν, else 0, with ω = ν + 2r. Book
     (200)-(204) finds the same by variation of parameters.
-
-    Examples
-    --------
-    >>> found = forced(0.774, 0.0066, order=[0.0, 2.0], amplitude=[-0.0093, 0.0397], phase=[np.pi / 2, 0.0])
-    >>> print(found.mean.round(9), found.order[:3], found.amplitude[:3].round(9))
-    -0.012015085 [0. 2. 4.] [1.2015085e-02 1.2306371e-02 5.3340000e-06]
     """
     a, q, n = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in (a, q, n)))
     check_range(a, q, n, np)

@@ -27,31 +27,12 @@ CHUNK = 1 << 14
 def chirp(time: ArrayLike, omega: ArrayLike, zeta: ArrayLike, rate: ArrayLike) -> tuple[Array, Array]:
     """Return the response to the force ω² e^(i a t²/2), whose frequency a t rises from rest, and its rate.
 
-    Parameters
-    ----------
-    time : array (...) [s]
-        t, at least 0.
-    omega, zeta : arrays (...) [rad/s], [-]
-        ω, and ζ, at least 0.
-    rate : array (...) [rad/s²]
-        a, positive.
-
-    Returns
-    -------
-    x, velocity : complex arrays (...)
-        The real part answers ω² cos(a t²/2), the imaginary part ω² sin(a t²/2).
-
-    Notes
-    -----
+    time (...) [s]: t, at least 0; omega, zeta (...) [rad/s], [-]: ω, and ζ, at least 0.
+    rate (...) [rad/s²]: a, positive.
+    Returns x, velocity (...), complex: the real part answers ω² cos(a t²/2), the imaginary part ω² sin(a t²/2).
     With s = -ζω ± ω√(ζ² - 1) and p = √(-ia/2), ∫ e^(s(t-u) + iau²/2) du = (√π/2p) e^(st + z_0²) [erf z_1 - erf z_0],
     z_0 = s/2p, z_1 = pt + z_0. Each erf z = ±(1 - e^(-z²) w(±iz)), with the sign of Re z and Faddeeva's w; the powers
     of e that are left have no positive exponent, so nothing overflows however slow the rise.
-
-    Examples
-    --------
-    >>> x, _velocity = chirp([1.8, 3.6, 5.4], 20.0, 0.02, 8.0)
-    >>> x.real
-    array([ 1.94433623, -3.35990165,  2.59807693])
     """
     t, w, z, a = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in (time, omega, zeta, rate)))
     z = np.where(np.abs(z - 1.0) < CONFLUENT, 1.0 - CONFLUENT, z)
@@ -76,17 +57,8 @@ def chirp(time: ArrayLike, omega: ArrayLike, zeta: ArrayLike, rate: ArrayLike) -
 def impulse(time: Array, omega: float, zeta: float) -> tuple[Array, Array]:
     """Return the response to a unit impulse and its rate, arrays (...).
 
-    Parameters
-    ----------
-    time : array (...) [s]
-        t; not so long that ζωt leaves the range of the exponential.
-    omega, zeta : float [rad/s], [-]
-        ω, ζ.
-
-    Examples
-    --------
-    >>> impulse(np.asarray([0.0, 0.1]), 10.0, 1.0)
-    (array([0.        , 0.03678794]), array([1., 0.]))
+    time (...) [s]: t; not so long that ζωt leaves the range of the exponential.
+    omega, zeta [rad/s] [-]: ω, ζ.
     """
     damped = omega * np.sqrt(complex(1.0 - zeta) * (1.0 + zeta))
     decay = np.exp(-zeta * omega * time)
@@ -99,26 +71,10 @@ def advanced(
 ) -> tuple[Array, Array]:
     """Return displacement and velocity a while later.
 
-    Parameters
-    ----------
-    force : callable
-        From times (...) to F.
-    begin, span : arrays (...) [s]
-        When, and how much later; the force and ωt must be smooth over a span.
-    state : pair of arrays (...)
-        Displacement and velocity at the beginning.
-    omega, zeta : float [rad/s], [-]
-        ω, ζ.
-
-    Returns
-    -------
-    x, velocity : arrays (...)
-
-    Examples
-    --------
-    >>> x, velocity = advanced(np.ones_like, np.asarray(0.0), np.asarray(0.1), (0.0, 0.0), 5.0, 0.0)
-    >>> print(f"{x:.9f} {(1 - np.cos(0.5)) / 25:.9f}")
-    0.004896697 0.004896697
+    force: from times (...) to F.
+    begin, span (...) [s]: when, and how much later; the force and ωt must be smooth over a span.
+    state, pair of arrays (...): displacement and velocity at the beginning; omega, zeta [rad/s] [-]: ω, ζ.
+    Returns x, velocity (...).
     """
     half = 0.5 * span[..., None]
     node, weight = _rule()
@@ -145,26 +101,8 @@ def stepped(
 ) -> Iterator[tuple[Array, Array, Array]]:
     """Yield times, displacements and velocities from rest to an end, in pieces that share their end points.
 
-    Parameters
-    ----------
-    force : callable
-        From times (...) to F.
-    end : float [s]
-        Where to stop.
-    steps : int
-        How many equal steps.
-    omega, zeta : float [rad/s], [-]
-        ω, ζ.
-
-    Notes
-    -----
+    force: from times (...) to F; end [s]; omega, zeta [rad/s] [-]: ω, ζ.
     States are u_n+1 = Φu_n + F_n with one Φ. All of a piece are summed by doubling: adding Φ^d u_n-d for d = 1, 2, 4 …
-
-    Examples
-    --------
-    >>> *_rest, (t, x, v) = stepped(np.ones_like, 2.0, 40, 5.0, 0.0)
-    >>> print(f"{t[-1]:.1f} {x[-1]:.9f} {(1 - np.cos(10.0)) / 25:.9f}")
-    2.0 0.073562861 0.073562861
     """
     h = end / steps
     x, v = impulse(np.asarray(h), omega, zeta)

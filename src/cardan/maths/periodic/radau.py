@@ -36,38 +36,18 @@ class System(Protocol):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Tableau:
-    """Coefficients of the stages.
+    """Coefficients of the stages."""
 
-    Attributes
-    ----------
-    nodes : array (s,)
-        c.
-    matrix : array (s, s)
-        A: Y_i = y + h Σ A_ij Y'_j; its last row are the weights of the step.
-    filter : float
-        γ_0, the one real eigenvalue of A.
-    misses : array (s,)
-        (b - b̂)/γ_0 of the formula of order s that judges the step.
-    powers : array (s, s)
-        Coefficients of the stages' Lagrange polynomials: ℓ_j(θ) = Σ_k powers[k, j] θ^k.
-    """
-
-    nodes: Array
-    matrix: Array
-    filter: float
-    misses: Array
-    powers: Array
+    nodes: Array  # (s,): c
+    matrix: Array  # (s, s): a: Y_i = y + h Σ A_ij Y'_j; its last row are the weights of the step
+    filter: float  # γ_0, the one real eigenvalue of A
+    misses: Array  # (s,): (b - b̂)/γ_0 of the formula of order s that judges the step
+    powers: Array  # (s, s): coefficients of the stages' Lagrange polynomials: ℓ_j(θ) = Σ_k powers[k, j] θ^k
 
 
 @cache
 def tableau(stages: int = STAGES) -> Tableau:
-    """Return the coefficients of Radau's collocation; an odd number of stages.
-
-    Examples
-    --------
-    >>> tableau(3).nodes.round(6)
-    array([0.155051, 0.644949, 1.      ])
-    """
+    """Return the coefficients of Radau's collocation; an odd number of stages."""
     legendre = np.polynomial.legendre.Legendre
     ends = legendre.basis(stages) - legendre.basis(stages - 1)
     nodes = 0.5 * (1.0 + np.sort(ends.roots().real))
@@ -85,23 +65,13 @@ def tableau(stages: int = STAGES) -> Tableau:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Step:
-    """One step, and the polynomial through its stages.
+    """One step, and the polynomial through its stages."""
 
-    Attributes
-    ----------
-    start, end : float
-        Times.
-    before, after : array (n,)
-        y at both.
-    slopes : array (s, n)
-        y' at the stages.
-    """
-
-    start: float
+    start: float  # start, end: times
     end: float
-    before: Array
-    after: Array
-    slopes: Array
+    before: Array  # before, after (n,): y at both
+    after: Array  # (n,)
+    slopes: Array  # (s, n): y' at the stages
 
     @property
     def stages(self) -> tuple[Array, Array, Array]:
@@ -137,21 +107,8 @@ Scale: TypeAlias = Callable[[Array], Array]
 class Radau:
     """Steps of an implicit system, as long as their error allows.
 
-    Parameters
-    ----------
-    system : System
-    time : float
-        Where it begins.
-    y : array (n,)
-        Consistent with the equations that hold no derivative.
-    bound : float
-        Where it ends.
-    scale : function
-        Error allowed in one step.
-    first : float
-        Length of the first step that is tried.
-    longest : float
-        No step is longer.
+    time: where it begins; y (n,): consistent with the equations that hold no derivative; bound: where it ends.
+    scale: error allowed in one step; first: length of the first step that is tried; longest: no step is longer.
     """
 
     def __init__(
@@ -175,10 +132,7 @@ class Radau:
     def step(self, upto: float | None = None) -> Step | None:
         """Return the next step and stand at its end; None where no step is short enough.
 
-        Parameters
-        ----------
-        upto : float, optional
-            End of this step, which is then not judged: a place found inside a step that was.
+        upto: end of this step, which is then not judged: a place found inside a step that was.
         """
         form = tableau()
         shortest = SHORTEST * max(abs(self.time), abs(self.bound))

@@ -37,18 +37,10 @@ _PIECE = 2**16
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StabilityMap:
-    """Which of many of Mathieu's equations are stable.
+    """Which of many of Mathieu's equations are stable."""
 
-    Attributes
-    ----------
-    half_trace : array (...)
-        cos πβ of the equation freed of its damping.
-    damping : array (...)
-        n, per radian of z.
-    """
-
-    half_trace: Array
-    damping: Array
+    half_trace: Array  # (...): cos πβ of the equation freed of its damping
+    damping: Array  # (...): n, per radian of z
 
     @property
     def stable(self) -> Array:
@@ -74,37 +66,14 @@ def stability_map(
 ) -> StabilityMap:
     """Return the stability of y'' + 2n y' + (a - 2q cos 2z) y = 0 at many points.
 
-    Parameters
-    ----------
-    a, q, n : arrays (...)
-        For a grid ``a[None, :]`` and ``q[:, None]``.
-    accuracy : float
-        Error of half the trace of the compiled form, a share of it where it is large.
-    out : StabilityMap, optional
-        Result of an earlier call of the same size, to be written over.
-    method : Plain or Compiled, optional
-        Compiled by default from 100,000 points on, where numba is installed; plain is Hill's determinant, exact.
-
-    Returns
-    -------
-    StabilityMap
-        arrays (...).
-
-    Raises
-    ------
-    InputError
-        A value is not finite or out of range, or ``out`` has not the size of the results.
-
-    Notes
-    -----
+    a, q, n (...): for a grid ``a[None, :]`` and ``q[:, None]``.
+    accuracy: error of half the trace of the compiled form, a share of it where it is large.
+    out: result of an earlier call of the same size, to be written over.
+    method: Compiled by default from 100,000 points on, where numba is installed; plain is Hill's determinant, exact.
+    Returns StabilityMap: arrays (...).
+    Raises InputError: a value is not finite or out of range, or ``out`` has not the size of the results.
     Compiled: half a period by Blanes and Moan's splitting of sixth order, in as many steps as the fastest of 64 points
     needs. a' = a - n² takes in the damping exactly.
-
-    Examples
-    --------
-    >>> found = stability_map([0.774, 1.0], 0.1, [0.0, 0.06])
-    >>> print(found.half_trace, found.stable)
-    [-0.94407713 -1.01235078] [ True  True]
     """
     xp = namespace(a, q, n)
     xp = np if xp is NUMBERS else xp

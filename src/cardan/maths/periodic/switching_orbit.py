@@ -81,41 +81,20 @@ class Curve(Protocol):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Pieces:
-    """A periodic motion in steps of collocation.
+    """A periodic motion in steps of collocation."""
 
-    Attributes
-    ----------
-    omega : float [rad/s]
-        Rate of the phase.
-    time : array (n+1,) [s]
-        Ends of the steps, the last one period after the first, which is 0.
-    x, v : arrays (n+1, R)
-        State there; the speeds of coordinates without mass mean nothing.
-    inner : array (n, s, R)
-        Accelerations at the points of the steps; speeds of coordinates without mass.
-    sides : array of int (n, E)
-        Side of every element in every step.
-    heavy : array of bool (R,)
-    force : float
-        Constant force on the first coordinate of a free motion.
-    monodromy : array (m, m)
-        What a disturbance (x, v) at time 0 has become after a period, speeds without mass left out.
-    status : Status
-    work : int
-        What the search took of `Shooting.work`.
-    """
-
-    omega: float
-    time: Array
-    x: Array
-    v: Array
-    inner: Array
-    sides: Array
-    heavy: Array
-    force: float
+    omega: float  # [rad/s]: rate of the phase
+    time: Array  # (n+1,) [s]: ends of the steps, the last one period after the first, which is 0
+    x: Array  # x, v (n+1, R): state there; the speeds of coordinates without mass mean nothing
+    v: Array  # (n+1, R)
+    inner: Array  # (n, s, R): accelerations at the points of the steps; speeds of coordinates without mass
+    sides: Array  # (n, E) of int: side of every element in every step
+    heavy: Array  # (R,) of bool
+    force: float  # constant force on the first coordinate of a free motion
+    # (m, m): what a disturbance (x, v) at time 0 has become after a period, speeds without mass left out
     monodromy: Array
     status: Status
-    work: int
+    work: int  # what the search took of `Shooting.work`
 
     @property
     def duration(self) -> float:
@@ -174,26 +153,12 @@ def periodic_pieces(
 ) -> Pieces | None:
     """Return a periodic motion of an oscillator that switches.
 
-    Parameters
-    ----------
-    system : Switching
-    omega : float [rad/s]
-        Rate of the phase z, of either sign; a period is 2π of it.
-    start : Curve
-        Motion to begin with.
-    free : bool
-        Whether a motion may be shifted in time; then the first coordinate is 0 at time 0 and the constant force on it
-        is sought.
-    method : Shooting, optional
-
-    Returns
-    -------
-    Pieces or None
-        Its status says whether Newton's method came to rest and all sides are as assumed. None where a period holds too
-        many swings of the fastest for the work that may be done.
-
-    Notes
-    -----
+    omega [rad/s]: rate of the phase z, of either sign; a period is 2π of it.
+    start: motion to begin with.
+    free: whether a motion may be shifted in time; then the first coordinate is 0 at time 0 and the constant force on it
+    is sought.
+    Returns Pieces or None: its status says whether Newton's method came to rest and all sides are as assumed. None
+    where a period holds too many swings of the fastest for the work that may be done.
     The order of the switches is read off the motion at hand; when Newton's method has come to rest with them, it is
     read off again, until it stays.
     """

@@ -31,21 +31,8 @@ TAIL = 1e-15
 def pull(z: Array, unit: Array, share: Array, losses: Losses) -> Array:
     """Return the force of the spring over k.
 
-    Parameters
-    ----------
-    z : complex array (...)
-        Displacement; a number does as well.
-    unit : complex array (...)
-        e^(iθ).
-    share : array (...)
-        f(θ).
-    losses : pair of float
-        Δ_ξ, Δ_η.
-
-    Examples
-    --------
-    >>> print(pull(1.0 + 1.0j, 1.0, 1.0, (0.4, 0.1)))
-    (0.6+0.9j)
+    z (...), complex: displacement; a number does as well.
+    unit (...), complex: e^(iθ); share (...): f(θ); losses: Δ_ξ, Δ_η.
     """
     mean, half = _halves(losses)
     return z - share * (mean * z + half * unit**2 * z.conjugate())
@@ -54,21 +41,8 @@ def pull(z: Array, unit: Array, share: Array, losses: Losses) -> Array:
 def energy_slope(z: Array, unit: Array, share: Array, slope: Array, losses: Losses) -> Array:
     """Return how the energy of the spring changes with its angle over k: ½ zᵀK'z/k, the moment that turns it.
 
-    Parameters
-    ----------
-    z : complex array (...)
-        Displacement; a number does as well.
-    unit : complex array (...)
-        e^(iθ).
-    share, slope : arrays (...)
-        f(θ) and f'(θ).
-    losses : pair of float
-        Δ_ξ, Δ_η.
-
-    Examples
-    --------
-    >>> print(energy_slope(1.0 + 1.0j, 1.0, 1.0, 0.0, (0.4, 0.1)))
-    -0.3
+    z (...), complex: displacement; a number does as well.
+    unit (...), complex: e^(iθ); share, slope (...): f(θ) and f'(θ); losses: Δ_ξ, Δ_η.
     """
     mean, half = _halves(losses)
     cross = half * (unit * z.conjugate()) ** 2
@@ -77,14 +51,7 @@ def energy_slope(z: Array, unit: Array, share: Array, slope: Array, losses: Loss
 
 
 def matrices(angle: Array, share: Array, losses: Losses) -> Array:
-    """Return the stiffness matrices over k, array (..., 2, 2) of angles (...) and shares (...).
-
-    Examples
-    --------
-    >>> matrices(np.asarray(np.pi / 4), np.asarray(1.0), (0.4, 0.1))
-    array([[ 0.75, -0.15],
-           [-0.15,  0.75]])
-    """
+    """Return the stiffness matrices over k, array (..., 2, 2) of angles (...) and shares (...)."""
     mean, half = _halves(losses)
     even, swing = 1.0 - share * mean, share * half
     along, across = swing * np.cos(2.0 * angle), swing * np.sin(2.0 * angle)
@@ -94,37 +61,16 @@ def matrices(angle: Array, share: Array, losses: Losses) -> Array:
 def orbit(ratio: float, damping: float, humps: Array, losses: Losses, still: complex, turning: complex) -> Array:
     """Return the periodic motion of a mass on the spring, array (2H+1,) of Z_n, n = 1-H … 1+H, complex.
 
-    Parameters
-    ----------
-    ratio : float
-        η = Ω/ω, the rate at which the spring turns over √(k/m).
-    damping : float
-        ζ.
-    humps : array (m+1,)
-        a_j of f = a_0 + Σ a_j cos jθ.
-    losses : pair of float
-        Δ_ξ, Δ_η.
-    still, turning : complex
-        Forces over k: one that stands, and F of F e^(iθ).
+    ratio: η = Ω/ω, the rate at which the spring turns over √(k/m); damping: ζ.
+    humps (m+1,): a_j of f = a_0 + Σ a_j cos jθ; losses: Δ_ξ, Δ_η.
+    still, turning: forces over k: one that stands, and F of F e^(iθ).
+    Returns: of z = Σ Z_n e^(inθ), as many that the last ones are nought; nan where there is no such motion.
 
-    Returns
-    -------
-    complex array (2H+1,)
-        Of z = Σ Z_n e^(inθ), as many that the last ones are nought; nan where there is no such motion.
-
-    Notes
-    -----
     With V_n = conj Z_-n, W_n = V_n-2, D_n = 1 - (nη)² + 2iζnη and f = Σ f_j e^(ijθ)
 
     D_n Z_n - Σ f_j (s Z_n-j + d W_n-j) = F_n, D_n-2 W_n - Σ f_j (s W_n-j + d Z_n-j) = conj F_2-n:
 
     a matrix with 2m + 1 diagonals on either side, however many harmonics.
-
-    Examples
-    --------
-    >>> found = orbit(0.5, 0.02, np.asarray([0.5, 0.5]), (0.1, 0.02), 1.0, 0.0)
-    >>> abs(found[len(found) // 2 :][:3]).round(4)    # orders 1, 2, 3
-    array([0.0275, 0.4262, 0.0067])
     """
     heard = humps[: int(np.flatnonzero(humps > NOTHING)[-1]) + 1]
     reach = math.ceil(1.5 / ratio) + len(heard) + 8

@@ -73,38 +73,18 @@ class TransmissionError:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Course:
-    """What a curve over one turn of the input consists of; the axes (...) are those of the curves.
+    """What a curve over one turn of the input consists of; the axes (...) are those of the curves."""
 
-    Attributes
-    ----------
-    mean : array (...)
-        Mean over the turn; of an output angle the part that setting the drive up once takes away.
-    first, second : array (...)
-        Amplitudes once and twice a turn.
-    peak_to_peak : array (...)
-        Largest less smallest value.
-    """
-
-    mean: Array
-    first: Array
-    second: Array
-    peak_to_peak: Array
+    mean: Array  # (...): mean over the turn; of an output angle the part that setting the drive up once takes away
+    first: Array  # first, second (...): amplitudes once and twice a turn
+    second: Array  # (...)
+    peak_to_peak: Array  # (...): largest less smallest value
 
 
 def course(values: Array) -> Course:
     """Return mean, first two orders and peak to peak of curves over one turn.
 
-    Parameters
-    ----------
-    values : array (..., p)
-        At p evenly spaced positions of one turn, the end of the turn left out.
-
-    Examples
-    --------
-    >>> phi = np.arange(360) * (2 * np.pi / 360)
-    >>> found = course(1.0 + 2.0 * np.sin(phi) + 0.5 * np.cos(2 * phi))
-    >>> print(f"{found.mean:.3f} {found.first:.3f} {found.second:.3f}")
-    1.000 2.000 0.500
+    values (..., p): at p evenly spaced positions of one turn, the end of the turn left out.
     """
     xp = namespace(values)
     count = int(values.shape[-1])
@@ -128,32 +108,15 @@ def one_turn(count: int = POSITIONS) -> Array:
 def sensitivity(drive: Drive | Drives | Chain, angle: ArrayLike, *, located: Sequence[int] = ()) -> Array:
     """Return how the output of perfect joints feels each error, to first order.
 
-    Parameters
-    ----------
-    drive : Drive or Drives (...)
-        The drives.
-    angle : array (p,) [rad]
-        Input angle φ_1 from the start position.
-    located : sequence of int
-        Numbers of the intermediate shafts that a bearing holds along their axis: shifts end there. Leave empty for
-        angles.
+    drive (...); angle (p,) [rad]: input angle φ_1 from the start position.
+    located: numbers of the intermediate shafts that a bearing holds along their axis: shifts end there. Leave empty for
+    angles.
+    Returns (..., p, n, 5): derivative of the output angle by the `TURNS` of each joint; of the output shift by its
+    `WAYS`.
 
-    Returns
-    -------
-    array (..., p, n, 5)
-        Derivative of the output angle by the `TURNS` of each joint; of the output shift by its `WAYS`.
-
-    Notes
-    -----
     For joint j the row of φ_4 of `loops.influence`, with the sign of θ' = π/2 - φ_4, times the speed
     ratios of all joints behind it; the same numbers for shifts, because lengths are to angles as the dual parts of
     dual numbers.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> sensitivity(Drive.from_angles([30 * deg]), [0.0])[0, 0].round(4) + 0.0
-    array([1.1547, 0.    , 1.1547, 0.5774, 0.    ])
     """
     moved = motion(drive, angle)
     xp = namespace(moved.joint_angle)
@@ -252,25 +215,13 @@ def walk(
 ) -> tuple[tuple[Array, Array], list[tuple[Array, ...]]]:
     """Walk along chains, joint by joint.
 
-    Parameters
-    ----------
-    given : two arrays (..., n, 4)
-        Cosines and sines of the angles of each joint's loop, see `links`.
-    mu : array (..., n) [rad]
-        Angle added before each joint; that before the first is part of ``start``.
-    phase : array (..., n) [rad]
-        Errors of the angle of the driving yokes.
-    start : two arrays (..., p)
-        Cosine and sine of θ_1.
-    carry : sequence of (array (..., n, 5), sequence of int)
-        Errors to be carried along through the coefficients, and the numbers of the shafts where they end.
-
-    Returns
-    -------
-    tuple of two arrays (..., p)
-        Cosine and sine of the angle of the last driven yoke.
-    list of n tuples of arrays (..., p)
-        What has become of each of ``carry`` behind each joint.
+    given, two arrays (..., n, 4): cosines and sines of the angles of each joint's loop, see `links`.
+    mu (..., n) [rad]: angle added before each joint; that before the first is part of ``start``.
+    phase (..., n) [rad]: errors of the angle of the driving yokes; start, two arrays (..., p): cosine and sine of θ_1.
+    carry, sequence of (array (..., n, 5), sequence of int): errors to be carried along through the coefficients, and
+    the numbers of the shafts where they end.
+    Returns tuple of two arrays (..., p): cosine and sine of the angle of the last driven yoke; list of n tuples of
+    arrays (..., p): what has become of each of ``carry`` behind each joint.
     """
     cosine, sine = given
     xp = namespace(cosine, *start)
@@ -321,8 +272,6 @@ def located_shafts(drive: Drive | Drives | Chain) -> tuple[int, ...]:
 def error_arrays(errors: Sequence[object | None]) -> tuple[Array, Array]:
     """Return errors, or tolerances, by name as arrays (n, 5): those that turn [rad], those that shift [m].
 
-    Examples
-    --------
     >>> error_arrays([Error(alpha2=0.1, a4=0.2)])[0]
     array([[0. , 0. , 0.1, 0. , 0. ]])
     """

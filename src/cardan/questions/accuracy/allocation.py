@@ -54,33 +54,15 @@ class Of(StrEnum):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Allotted:
-    """One tolerance as allotted.
+    """One tolerance as allotted."""
 
-    Attributes
-    ----------
-    joint : int
-        Number of its joint, from 1.
-    key : str
-        Its key, ``alpha2``.
-    tolerance : float
-        ± [rad or m]; infinite where it has no influence.
-    cost : float
-        What it costs, its weight over the tolerance.
-    weight : float
-        Its weight in the cost.
-    kept : bool
-        Whether it was given and not to be changed.
-    before : float
-        The tolerance of the drive so far; 0 where none is given.
-    """
-
-    joint: int
-    key: str
-    tolerance: float
-    cost: float
-    weight: float
-    kept: bool
-    before: float
+    joint: int  # number of its joint, from 1
+    key: str  # its key, ``alpha2``
+    tolerance: float  # ± [rad or m]; infinite where it has no influence
+    cost: float  # what it costs, its weight over the tolerance
+    weight: float  # its weight in the cost
+    kept: bool  # whether it was given and not to be changed
+    before: float  # the tolerance of the drive so far; 0 where none is given
 
     @property
     def field(self) -> str:

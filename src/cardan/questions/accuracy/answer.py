@@ -60,21 +60,12 @@ METHODS: dict[type, str] = {Linear: "squares", WorstCase: "worst", MonteCarlo: "
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Accuracy:
-    """What errors and tolerances do to the output.
+    """What errors and tolerances do to the output."""
 
-    Attributes
-    ----------
-    known : TransmissionError
-        What the known errors do, exactly.
-    band : ToleranceBand or None
-        What the tolerances leave open, as asked; None without any, or where the joints cannot be assembled.
-    worst : ToleranceBand or None
-        The same in the worst case.
-    """
-
-    known: TransmissionError
+    known: TransmissionError  # what the known errors do, exactly
+    # what the tolerances leave open, as asked; None without any, or where the joints cannot be assembled
     band: ToleranceBand | None = None
-    worst: ToleranceBand | None = None
+    worst: ToleranceBand | None = None  # the same in the worst case
 
     @property
     def closes(self) -> bool:
@@ -94,26 +85,9 @@ def ask(
 ) -> Accuracy | None:
     """Return what errors and tolerances do to the output; None where there are errors alone, and these do nothing.
 
-    Parameters
-    ----------
-    drive : Drive
-        With errors or tolerances of its joints.
-    method : Linear, WorstCase or MonteCarlo
-        How tolerances add up.
-    progress : function, optional
-        Called with the share done of a sampling; answering "stop" ends it.
-
-    Raises
-    ------
-    InputError
-        No joint has an error or a tolerance, or errors of joints of such a kind cannot be told.
-
-    Examples
-    --------
-    >>> from cardan.io import example
-    >>> found = ask(example("instrument-joint"))
-    >>> f"{found.band.output.largest / arcmin:.2f}′, {found.worst.output.largest / arcmin:.2f}′ in the worst case"
-    '2.41′, 4.11′ in the worst case'
+    drive: with errors or tolerances of its joints.
+    progress: called with the share done of a sampling; answering "stop" ends it.
+    Raises InputError: no joint has an error or a tolerance, or errors of joints of such a kind cannot be told.
     """
     if lacking(drive):
         tolerance(drive, method=method)  # refuses, and says why
@@ -345,8 +319,6 @@ def _remarks(drive: Drive, result: Accuracy) -> Iterator[Remark]:
 def goal(size: float, side: Side) -> str:
     """Return an error as ``--allocate`` takes it.
 
-    Examples
-    --------
     >>> goal(1e-5, SHIFT)
     '0.01mm'
     """
@@ -469,14 +441,7 @@ def _bounds(result: Accuracy) -> Table:
 def answer_of_allocation(drive: Drive, found: Allocation, *, written: Path | None = None) -> Answer:
     """Return what there is to say of the cheapest tolerances.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive they are for.
-    found : Allocation
-        What was found.
-    written : path, optional
-        File they were written into.
+    written: file they were written into.
     """
     side = _side(found)
     return Answer(
@@ -552,8 +517,6 @@ def _change(before: float, after: float, *, kept: bool) -> str:
 def values_of(found: Allocation) -> dict[str, float]:
     """Return key with unit -> value of the tolerances found, rounded down so that the target holds.
 
-    Examples
-    --------
     >>> from .allocation import allocate
     >>> values_of(allocate(Drive.from_angles([0.5]), 1e-3))["joints[0].tolerance.phase_arcmin"]
     1.77

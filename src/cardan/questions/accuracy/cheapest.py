@@ -20,43 +20,19 @@ TINY = 1e-25
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Cheapest:
-    """The cheapest numbers, and the proof.
+    """The cheapest numbers, and the proof."""
 
-    Attributes
-    ----------
-    value : array (m,)
-        The numbers t.
-    price : array (p,)
-        What a bound at each place costs at the margin, λ ≥ 0; zero where there is room left.
-    gap : float
-        Cost less the bound that λ proves, as a share of the cost; no numbers within the bounds cost less than that.
-    """
-
-    value: Array
-    price: Array
+    value: Array  # (m,): the numbers t
+    price: Array  # (p,): what a bound at each place costs at the margin, λ ≥ 0; zero where there is room left
+    # cost less the bound that λ proves, as a share of the cost; no numbers within the bounds cost less than that
     gap: float
 
 
 def single(weight: Array, use: Array, power: int) -> Array:
     """Return the t of least Σ w/t with Σ u t^q = 1 at a single place, in closed form; array (m,).
 
-    Parameters
-    ----------
-    weight : array (m,)
-        w > 0.
-    use : array (m,)
-        u > 0.
-    power : int
-        q.
-
-    Notes
-    -----
+    weight (m,): w > 0; use (m,): u > 0; power: q.
     w/t² = λ q u t^(q-1), so t = (w/u)^(1/(q+1)) times a constant.
-
-    Examples
-    --------
-    >>> single(np.asarray([1.0, 8.0]), np.asarray([1.0, 1.0]), 2).round(6)
-    array([0.447214, 0.894427])
     """
     shape = (weight / use) ** (1.0 / (power + 1))
     found: Array = shape / np.sum(use * shape**power) ** (1.0 / power)
@@ -66,26 +42,10 @@ def single(weight: Array, use: Array, power: int) -> Array:
 def cheapest(weight: Array, use: Array, power: int) -> Cheapest:
     """Return the t of least Σ w/t with Σ u t^q ≤ 1 at every place.
 
-    Parameters
-    ----------
-    weight : array (m,)
-        w > 0.
-    use : array (p, m)
-        u ≥ 0, each column with something above zero.
-    power : int
-        q ≥ 1.
-
-    Notes
-    -----
+    weight (m,): w > 0; use (p, m): u ≥ 0, each column with something above zero; power: q ≥ 1.
     In x = t^q the bounds are linear and Σ w x^(-1/q) is strictly convex. Primal-dual interior-point steps, with x kept
     within the bounds and λ ≥ 0 throughout; x = (w/(q Σ λ u))^(q/(q+1)) of the last λ, drawn into the bounds, is the
     answer, and the Lagrange function there bounds the cost from below.
-
-    Examples
-    --------
-    >>> found = cheapest(np.asarray([1.0, 1.0]), np.asarray([[1.0, 0.0], [0.0, 4.0]]), 2)
-    >>> found.value.round(9), found.gap < 1e-12
-    (array([1. , 0.5]), True)
     """
     places = use.shape[0]
     scale = single(weight, np.max(use, axis=0), power)  # of the right order, and within the bounds

@@ -37,22 +37,12 @@ SIGNS = {"alpha1": "α₁", "alpha2": "α₂", "alpha3": "α₃", "alpha4": "α�
 
 @dataclass(frozen=True, kw_only=True)
 class Side:
-    """What errors do to the output: its angle, or its place along its axis.
+    """What errors do to the output: its angle, or its place along its axis."""
 
-    Attributes
-    ----------
-    key : str
-        ``"angle"`` or ``"shift"``, for programs.
-    dimension, unit : str
-        In which it is told, see `Quantity`.
-    size : float
-        That unit in SI.
-    """
-
-    key: str
-    dimension: str
+    key: str  # ``"angle"`` or ``"shift"``, for programs
+    dimension: str  # dimension, unit: in which it is told, see `Quantity`
     unit: str
-    size: float
+    size: float  # that unit in SI
 
     @property
     def title(self) -> str:
@@ -71,12 +61,9 @@ SHIFT = Side(key="shift", dimension="displacement", unit="um", size=MICRON)
 def sides(found: ToleranceBand, *, shifts: bool = True) -> list[tuple[Side, Band]]:
     """Return the sides of the output that tolerances leave open; its shift only where nothing holds it.
 
-    Parameters
-    ----------
-    found : ToleranceBand
-        Of one drive.
-    shifts : bool
-        Whether the output shaft may shift; where it may not, its shift still stands in for an angle without tolerances.
+    found: of one drive.
+    shifts: whether the output shaft may shift; where it may not, its shift still stands in for an angle without
+    tolerances.
     """
     turned = [(ANGLE, found.output)] if found.output.contributions else []
     shifted = [(SHIFT, found.shift)] if found.shift.contributions and (shifts or not turned) else []
@@ -91,15 +78,8 @@ def tolerance_figures(found: ToleranceBand) -> tuple[Figure, ...]:
 def tolerance_name(joint: int, key: str) -> str:
     """Return what a tolerance is called.
 
-    Parameters
-    ----------
-    joint : int
-        Number of its joint, from 1.
-    key : str
-        Its key in the file.
+    joint: number of its joint, from 1; key: its key in the file.
 
-    Examples
-    --------
     >>> tolerance_name(1, "alpha2")
     'α₂ of joint 1'
     """
@@ -109,12 +89,8 @@ def tolerance_name(joint: int, key: str) -> str:
 def band_figure(found: ToleranceBand, *, shifts: bool = True) -> Figure:
     """Return the bounds of the output's angle over a turn, and of its shift where it shifts.
 
-    Parameters
-    ----------
-    found : ToleranceBand
-        Of one drive.
-    shifts : bool
-        Show the shift of the output too; leave it out where a bearing holds it.
+    found: of one drive.
+    shifts: show the shift of the output too; leave it out where a bearing holds it.
     """
     angle = _round(np.asarray(found.angle), 2.0 * np.pi) / deg
     both = sides(found, shifts=shifts)
@@ -184,12 +160,8 @@ def _band(angle: Array, side: Side, one: Band, found: ToleranceBand, *, named: b
 def pareto_figure(found: ToleranceBand, *, shifts: bool = True) -> Figure:
     """Return the share of every tolerance, the largest first.
 
-    Parameters
-    ----------
-    found : ToleranceBand
-        Of one drive.
-    shifts : bool
-        Show the shift of the output too; leave it out where a bearing holds it.
+    found: of one drive.
+    shifts: show the shift of the output too; leave it out where a bearing holds it.
     """
     return Figure(
         name="pareto",
@@ -243,12 +215,8 @@ def error_figures(found: TransmissionError) -> tuple[Figure, ...]:
 def error_figure(found: TransmissionError, *, shifts: bool = True) -> Figure:
     """Return the error of the output over a turn, exact and to first order, and its shift where it shifts.
 
-    Parameters
-    ----------
-    found : TransmissionError
-        Of one drive.
-    shifts : bool
-        Show the shift of the output too; leave it out where a bearing holds it.
+    found: of one drive.
+    shifts: show the shift of the output too; leave it out where a bearing holds it.
     """
     angle = _round(np.asarray(found.angle), 2.0 * np.pi) / deg
     both = [(ANGLE, np.asarray(found.error), np.asarray(found.error_linear))]

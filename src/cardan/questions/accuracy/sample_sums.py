@@ -92,8 +92,6 @@ class Sums:
 def spread(rows: Array) -> Array:
     """Return standard deviations from counts, sums and sums of squares, array (3, ...).
 
-    Examples
-    --------
     >>> float(spread(np.asarray([4.0, 0.0, 12.0])))
     2.0
     """
@@ -106,20 +104,8 @@ def spread(rows: Array) -> Array:
 class Exact:
     """Exact output of a drive with errors, at fixed positions.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-    phi : array (p,) [rad]
-        Input angles.
-    known, limits : array (n, 10)
-        Known errors, and tolerances, those that turn before those that shift.
-    centre : TransmissionError
-        What the known errors make.
-    samples : int
-        How many are to come.
-    method : Plain or Compiled, optional
-        How to compute.
+    phi (p,) [rad]: input angles.
+    known, limits (n, 10): known errors, and tolerances, those that turn before those that shift.
     """
 
     def __init__(

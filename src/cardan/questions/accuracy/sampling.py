@@ -69,27 +69,16 @@ class MonteCarlo:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Sample:
-    """What the draws came to, over one turn; [rad] for angles, [m] for shifts.
+    """What the draws came to, over one turn; [rad] for angles, [m] for shifts."""
 
-    Attributes
-    ----------
-    average, deviation : array (p,)
-        Mean and standard deviation at each position.
-    lower, upper : array (p,)
-        0.15 % and 99.85 % quantiles.
-    lower_95, upper_95 : array (p,)
-        2.5 % and 97.5 % quantiles.
-    mean, first, second, peak_to_peak : float
-        99.7 % quantiles of the sizes of mean and first two orders over a turn, and of the change over it, each less
-        what the known errors make.
-    """
-
-    average: Array
-    deviation: Array
-    lower: Array
-    upper: Array
-    lower_95: Array
-    upper_95: Array
+    average: Array  # average, deviation (p,): mean and standard deviation at each position
+    deviation: Array  # (p,)
+    lower: Array  # lower, upper (p,): 0.15 % and 99.85 % quantiles
+    upper: Array  # (p,)
+    lower_95: Array  # lower_95, upper_95 (p,): 2.5 % and 97.5 % quantiles
+    upper_95: Array  # (p,)
+    # mean, first, second, peak_to_peak: 99.7 % quantiles of the sizes of mean and first two orders over a turn, and of
+    # the change over it, each less what the known errors make
     mean: float
     first: float
     second: float
@@ -98,25 +87,14 @@ class Sample:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Convergence:
-    """How a result settles as samples are added.
+    """How a result settles as samples are added."""
 
-    Attributes
-    ----------
-    samples : array of int (b,)
-        Samples after each batch.
-    deviation : array (b,) [rad]
-        Standard deviation of the output angle at its worst position, from the samples so far; of the shift [m] where
-        no tolerance of an angle is given.
-    standard_error : float
-        Standard error of the last of them, as a share, from the scatter of the batches.
-    lost : int
-        Samples that could not be assembled at some position; they are left out.
-    """
-
-    samples: Array
+    samples: Array  # (b,) of int: samples after each batch
+    # (b,) [rad]: standard deviation of the output angle at its worst position, from the samples so far; of the shift
+    # [m] where no tolerance of an angle is given
     deviation: Array
-    standard_error: float
-    lost: int
+    standard_error: float  # standard error of the last of them, as a share, from the scatter of the batches
+    lost: int  # samples that could not be assembled at some position; they are left out
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -131,25 +109,10 @@ class Draw:
 def drawn(limits: Array, distributions: Sequence[str], count: int, *, seed: int, points: str) -> Iterator[Array]:
     """Yield independent batches of errors.
 
-    Parameters
-    ----------
-    limits : array (d,)
-        Tolerances.
-    distributions : sequence of d str
-        "normal" with σ a third of the tolerance, "uniform" or "triangular" within it.
-    count : int
-        Samples in all batches together.
-    seed : int
-        Seed.
-    points : str
-        "sobol" or "random".
+    limits (d,); distributions: "normal" with σ a third of the tolerance, "uniform" or "triangular" within it.
+    count: samples in all batches together; points: "sobol" or "random".
+    Yields (m, d).
 
-    Yields
-    ------
-    array (m, d)
-
-    Examples
-    --------
     >>> first = next(drawn(np.asarray([1.0]), ["uniform"], 1024, seed=1, points="sobol"))
     >>> first.shape, bool(abs(first.mean()) < 0.01)
     ((128, 1), True)
@@ -197,20 +160,8 @@ def sampled(
 ) -> Draw:
     """Return what random errors do to the output of a drive, by exact loops.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive; its known errors are added to those drawn.
-    spreads : sequence of n Tolerance or None
-        Tolerances of each joint.
-    method : MonteCarlo
-        How many, which seed.
-    progress : function, optional
-        Called with the share done; answering "stop" ends the sampling.
-
-    Returns
-    -------
-    Draw
+    drive: the drive; its known errors are added to those drawn.
+    spreads: tolerances of each joint; method: how many, which seed.
     """
     limits = np.concatenate(error_arrays(spreads), axis=-1)
     laws = [law for row in spreads for law in ["normal" if row is None else row.distribution] * 10]

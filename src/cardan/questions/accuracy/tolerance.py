@@ -44,29 +44,14 @@ Spread: TypeAlias = Tolerance | Sequence[Tolerance | None] | None
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Contribution:
-    """What one tolerance contributes.
+    """What one tolerance contributes."""
 
-    Attributes
-    ----------
-    joint : int
-        Number of its joint, from 1.
-    key : str
-        Its key, ``alpha2``.
-    tolerance : float
-        The tolerance, ± [rad or m].
-    share : float
-        Its share of the variance over the turn.
-    largest : float
-        The largest error it makes by itself, at the worst position [rad or m].
-    mean, first, second : float
-        The parts of that error that stay, come once a turn, and come twice a turn [rad or m].
-    """
-
-    joint: int
-    key: str
-    tolerance: float
-    share: float
-    largest: float
+    joint: int  # number of its joint, from 1
+    key: str  # its key, ``alpha2``
+    tolerance: float  # the tolerance, ± [rad or m]
+    share: float  # its share of the variance over the turn
+    largest: float  # the largest error it makes by itself, at the worst position [rad or m]
+    # mean, first, second: the parts of that error that stay, come once a turn, and come twice a turn [rad or m]
     mean: float
     first: float
     second: float
@@ -79,37 +64,23 @@ class Contribution:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Band:
-    """Between which bounds an error of the output lies, over one turn; [rad] for its angle, [m] for its shift.
+    """Between which bounds an error of the output lies, over one turn; [rad] for its angle, [m] for its shift."""
 
-    Attributes
-    ----------
-    centre : array (p,)
-        Error that the known errors of the drive make, exactly; zero without any.
-    lower, upper : array (p,)
-        Bounds by the method: ± root of the sum of squares, ± worst case, or the 0.15 % and 99.85 % quantiles.
-    lower_95, upper_95 : array (p,)
-        Bounds that hold 95 % of the drives at each position.
-    deviation : array (p,)
-        Standard deviation by the distributions of the errors.
-    mean, first, second : float
-        Bounds of the size of the parts that stay over a turn, come once and come twice; of the tolerances alone.
-    peak_to_peak : float
-        Bound of the change over a turn; of the tolerances alone.
-    contributions : tuple of Contribution
-        Every tolerance that has a part in it, the largest share first.
-    """
-
-    centre: Array
+    centre: Array  # (p,): error that the known errors of the drive make, exactly; zero without any
+    # lower, upper (p,): bounds by the method: ± root of the sum of squares, ± worst case, or the 0.15 % and 99.85 %
+    # quantiles
     lower: Array
-    upper: Array
-    lower_95: Array
-    upper_95: Array
-    deviation: Array
+    upper: Array  # (p,)
+    lower_95: Array  # lower_95, upper_95 (p,): bounds that hold 95 % of the drives at each position
+    upper_95: Array  # (p,)
+    deviation: Array  # (p,): standard deviation by the distributions of the errors
+    # mean, first, second: bounds of the size of the parts that stay over a turn, come once and come twice; of the
+    # tolerances alone
     mean: float
     first: float
     second: float
-    peak_to_peak: float
-    contributions: tuple[Contribution, ...]
+    peak_to_peak: float  # bound of the change over a turn; of the tolerances alone
+    contributions: tuple[Contribution, ...]  # every tolerance that has a part in it, the largest share first
 
     @property
     def largest(self) -> float:
@@ -245,8 +216,6 @@ class _Part:
 def stacked(parts: Array, power: int) -> Array:
     """Return Σ \\|x\\| for the power 1, √Σ x² for 2, over the last axis.
 
-    Examples
-    --------
     >>> [float(stacked(np.asarray([3.0, -4.0]), power)) for power in (1, 2)]
     [7.0, 5.0]
     """
@@ -295,14 +264,8 @@ def _from_sample(part: _Part, sample: Sample) -> Band:
 def contributions(table: Array, limits: Array, deviations: Array, names: Sequence[str]) -> tuple[Contribution, ...]:
     """Return what every tolerance contributes, the largest share first.
 
-    Parameters
-    ----------
-    table : array (p, n, 5)
-        Sensitivity over one turn.
-    limits, deviations : array (n, 5)
-        Tolerances and standard deviations.
-    names : sequence of 5 str
-        Names of the tolerances of a joint.
+    table (p, n, 5): sensitivity over one turn; limits, deviations (n, 5): tolerances and standard deviations.
+    names: names of the tolerances of a joint.
     """
     reach = table * limits
     variance = np.mean((table * deviations) ** 2, axis=0)

@@ -13,39 +13,20 @@ SLOW = 500.0 * rpm
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class AllowedUnbalance:
-    """Unbalance that a balance grade allows, arrays (...).
+    """Unbalance that a balance grade allows, arrays (...)."""
 
-    Attributes
-    ----------
-    whole : array (...) [kg m]
-        U of the shaft.
-    plane : array (...) [kg m]
-        Half of it, for each of the two planes of a symmetrical shaft.
-    eccentricity : array (...) [m]
-        e of the centre of mass.
-    force : array (...) [N]
-        U Ω², which turns with the shaft.
-    """
-
-    whole: Array
-    plane: Array
-    eccentricity: Array
-    force: Array
+    whole: Array  # (...) [kg m]: U of the shaft
+    plane: Array  # (...) [kg m]: half of it, for each of the two planes of a symmetrical shaft
+    eccentricity: Array  # (...) [m]: e of the centre of mass
+    force: Array  # (...) [N]: U Ω², which turns with the shaft
 
 
 def allowed_unbalance(mass: ArrayLike, speed: ArrayLike, grade: ArrayLike) -> AllowedUnbalance:
     """Return the unbalance that a balance grade allows, ISO 21940-11: e Ω = G.
 
-    Parameters
-    ----------
-    mass : array (...) [kg]
-    speed : array (...) [rad/s]
-        Ω, the highest in use.
-    grade : array (...) [m/s]
-        G; 0.016 for G16.
+    mass (...) [kg]; speed (...) [rad/s]: Ω, the highest in use.
+    grade (...) [m/s]: G; 0.016 for G16.
 
-    Examples
-    --------
     >>> round(float(allowed_unbalance(10.0, 3000 * 3.141592653589793 / 30, 0.016).whole) * 1e6, 1)
     509.3
     """

@@ -57,21 +57,11 @@ class Running(IntEnum):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Part:
-    """What moves in a mode.
+    """What moves in a mode."""
 
-    Attributes
-    ----------
-    kind : "shaft" or "support"
-        A shaft that bows, or a support that gives way while shafts hardly bend.
-    number : int
-        Its number.
-    waves : int
-        Half waves of the shaft between its ends; 1 for a support.
-    """
-
-    kind: Literal["shaft", "support"]
+    kind: Literal["shaft", "support"]  # a shaft that bows, or a support that gives way while shafts hardly bend
     number: int
-    waves: int = 1
+    waves: int = 1  # half waves of the shaft between its ends; 1 for a support
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -357,13 +347,6 @@ def _waves(shape: Array) -> int:
 def wear_factors(drive: Drive) -> Array:
     """Return real over computed critical speed of each shaft, array (n+1,).
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-
-    Notes
-    -----
     What the shaft says, else 0.9 with a spline and 1 without: the play of a spline lets the shaft whirl sooner, Book
     p. 228, where a new one has 0.9 to 0.95 and a worn one 0.7 to 0.8.
     """

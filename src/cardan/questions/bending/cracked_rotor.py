@@ -38,49 +38,23 @@ PHASE = 0.5
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CrackedRotor:
-    """Steady whirling of a cracked, unbalanced shaft, X down, Y 90° ahead in the sense of rotation.
+    """Steady whirling of a cracked, unbalanced shaft, X down, Y 90° ahead in the sense of rotation."""
 
-    Attributes
-    ----------
-    mass : float [kg]
-        m.
-    stiffness : float [N/m]
-        k_0 of the sound shaft.
-    damping_ratio : float
-        ζ.
-    crack : Crack
-        Losses and law of breathing.
-    unbalance : float [kg·m]
-        m_u e.
-    speed : array (...) [rad/s]
-        Ω.
-    order : array of int (N,)
-        n; negative ones run backward.
-    amplitude : array (..., N), complex [m]
-        Z_n of X + iY = Σ Z_n e^(inΩt), the crack down at t = 0; nan where a multiplier is 1.
-    left_out : array (...) [m]
-        Largest amplitude of an order not given.
-    multiplier : array (..., 4), complex
-        What a small disturbance is multiplied by in a turn.
-    residual : array (...)
-        What damping takes, against what unbalance and drive put in, over the sum of both; and how far the multipliers
-        are from their exact product e^(-8πζω_0/Ω), where that is no smaller than 1e-6.
-    cancelled : bool
-        Whether ``progress`` stopped the work; what was not computed is nan.
-    """
-
-    mass: float
-    stiffness: float
-    damping_ratio: float
-    crack: Crack
-    unbalance: float
-    speed: Array
-    order: Array
+    mass: float  # [kg]: m
+    stiffness: float  # [N/m]: k_0 of the sound shaft
+    damping_ratio: float  # ζ
+    crack: Crack  # losses and law of breathing
+    unbalance: float  # [kg·m]: m_u e
+    speed: Array  # (...) [rad/s]: Ω
+    order: Array  # (N,) of int: n; negative ones run backward
+    # (..., N) [m], complex: Z_n of X + iY = Σ Z_n e^(inΩt), the crack down at t = 0; nan where a multiplier is 1
     amplitude: Array
-    left_out: Array
-    multiplier: Array
+    left_out: Array  # (...) [m]: largest amplitude of an order not given
+    multiplier: Array  # (..., 4), complex: what a small disturbance is multiplied by in a turn
+    # (...): what damping takes, against what unbalance and drive put in, over the sum of both; and how far the
+    # multipliers are from their exact product e^(-8πζω_0/Ω), where that is no smaller than 1e-6
     residual: Array
-    cancelled: bool = False
+    cancelled: bool = False  # whether ``progress`` stopped the work; what was not computed is nan
 
     @property
     def natural_frequency(self) -> float:

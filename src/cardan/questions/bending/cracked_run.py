@@ -26,42 +26,18 @@ from .whirl_in_time import fitted_orders, followed, longest_step
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CrackedRun:
-    """Whirling of a cracked, unbalanced shaft while its speed rises or falls evenly, X down, Y 90° ahead.
+    """Whirling of a cracked, unbalanced shaft while its speed rises or falls evenly, X down, Y 90° ahead."""
 
-    Attributes
-    ----------
-    natural_frequency : float [rad/s]
-        Critical speed of the sound shaft, ω_0.
-    speed : array (t,) [rad/s]
-        At the instants.
-    time : array (t,) [s]
-        Instants.
-    angle : array (t,) [rad]
-        Of the crack from the vertical.
-    deflection : array (t,), complex [m]
-        X + iY.
-    velocity : array (t,), complex [m/s]
-        Its rate.
-    static : float [m]
-        What the weight bends the sound shaft.
-    peak : float [m]
-        Largest distance from the static place, among the instants.
-    peak_time : float [s]
-        When.
-    cancelled : bool
-        Whether ``progress`` stopped the run; the curves end there.
-    """
-
-    natural_frequency: float
-    speed: Array
-    time: Array
-    angle: Array
-    deflection: Array
-    velocity: Array
-    static: float
-    peak: float
-    peak_time: float
-    cancelled: bool = False
+    natural_frequency: float  # [rad/s]: critical speed of the sound shaft, ω_0
+    speed: Array  # (t,) [rad/s]: at the instants
+    time: Array  # (t,) [s]: instants
+    angle: Array  # (t,) [rad]: of the crack from the vertical
+    deflection: Array  # (t,) [m], complex: X + iY
+    velocity: Array  # (t,) [m/s], complex: its rate
+    static: float  # [m]: what the weight bends the sound shaft
+    peak: float  # [m]: largest distance from the static place, among the instants
+    peak_time: float  # [s]: when
+    cancelled: bool = False  # whether ``progress`` stopped the run; the curves end there
 
     @property
     def peak_speed(self) -> float:
@@ -71,17 +47,8 @@ class CrackedRun:
     def orders(self, *, turns: int = 4, reach: int = 4, parts: int = 1) -> tuple[Array, Array, Array]:
         """Return the orders along the run: speeds (w,) [rad/s], orders (N,), amplitudes (w, N) [m], complex.
 
-        Parameters
-        ----------
-        turns : int
-            Turns in a window; it moves on by half of them.
-        reach : int
-            Orders from -reach to reach.
-        parts : int
-            2 for half orders too.
-
-        Notes
-        -----
+        turns: turns in a window; it moves on by half of them.
+        parts: 2 for half orders too.
         Least squares in each window; the instants are to be at least four to a swing of the highest order.
         """
         width = 2.0 * math.pi * turns

@@ -66,69 +66,30 @@ class WhirlingShaft:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CrackedShafts:
-    """Motion in time of two shafts joined by a Hooke joint, X down, Y 90° ahead in the sense of rotation.
+    """Motion in time of two shafts joined by a Hooke joint, X down, Y 90° ahead in the sense of rotation."""
 
-    Attributes
-    ----------
-    joint_angle : float [rad]
-        α.
-    phase : float [rad]
-        ψ of the driving yoke at the start.
-    speed : float [rad/s]
-        Ω of the motor.
-    crack : Crack
-        On the first shaft; open side down where its angle is 0.
-    time : array (t,) [s]
-        Instants.
-    angle : array (t, 2) [rad]
-        θ_1, θ_2 of the discs.
-    rate : array (t, 2) [rad/s]
-        Their speeds.
-    deflection : array (t, 2), complex [m]
-        X + iY of the discs.
-    velocity : array (t, 2), complex [m/s]
-        Its rates.
-    torque : array (t,) [N·m]
-        Of the motor on the first disc.
-    energy : array (t,) [J]
-        Of motion, springs and weight.
-    residual : float
-        How much of the energy is missing or too much at an instant, over the largest change of kinetic, elastic or
-        supplied energy.
-    cancelled : bool
-        Whether ``progress`` stopped the run; the curves end there.
-    """
-
-    joint_angle: float
-    phase: float
-    speed: float
-    crack: Crack
-    time: Array
-    angle: Array
-    rate: Array
-    deflection: Array
-    velocity: Array
-    torque: Array
-    energy: Array
+    joint_angle: float  # [rad]: α
+    phase: float  # [rad]: ψ of the driving yoke at the start
+    speed: float  # [rad/s]: Ω of the motor
+    crack: Crack  # on the first shaft; open side down where its angle is 0
+    time: Array  # (t,) [s]: instants
+    angle: Array  # (t, 2) [rad]: θ_1, θ_2 of the discs
+    rate: Array  # (t, 2) [rad/s]: their speeds
+    deflection: Array  # (t, 2) [m], complex: X + iY of the discs
+    velocity: Array  # (t, 2) [m/s], complex: its rates
+    torque: Array  # (t,) [N·m]: of the motor on the first disc
+    energy: Array  # (t,) [J]: of motion, springs and weight
+    # how much of the energy is missing or too much at an instant, over the largest change of kinetic, elastic or
+    # supplied energy
     residual: float
-    cancelled: bool = False
+    cancelled: bool = False  # whether ``progress`` stopped the run; the curves end there
 
     def orders(self, shaft: int, *, turns: int = 8, reach: int = 4, parts: int = 1) -> tuple[Array, Array]:
         """Return orders (N,) and amplitudes [m] (N,), complex, of a shaft's whirling in the last turns.
 
-        Parameters
-        ----------
-        shaft : int
-            0 or 1; its own angle counts.
-        turns : int
-            How many of the last whole turns; fewer where there are no more.
-        reach : int
-            Orders from -reach to reach.
-        parts : int
-            2 for half orders too.
-
-        Notes
-        -----
+        shaft: 0 or 1; its own angle counts.
+        turns: how many of the last whole turns; fewer where there are no more.
+        parts: 2 for half orders too.
         Least squares of Σ Z_n e^(inθ), each instant with its share of the angle.
         """
         return fitted_orders(self.angle[:, shaft], self.deflection[:, shaft], turns=turns, reach=reach, parts=parts)

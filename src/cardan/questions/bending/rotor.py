@@ -34,42 +34,18 @@ SAMPLES = 200
 
 @dataclass(frozen=True, kw_only=True)
 class Rotor:
-    """A shaft in its lowest mode of bending: a mass on a spring where it bows most.
-
-    Attributes
-    ----------
-    shaft : int
-        Its number.
-    mass : float [kg]
-        ∫ μφ² dx over the line, φ = 1 where the shaft bows most.
-    stiffness : float [N/m]
-        Mass times the square of the real critical speed.
-    gravity : float [m/s²]
-        Weight across the shaft that pushes the mode, over that mass.
-    unbalance : float [kg·m]
-        Of the mode.
-    unbalance_angle : float [rad]
-        About the axis, from the driving yoke of the shaft.
-    crack : Crack
-        Its losses of stiffness; none for a sound shaft.
-    crack_angle : float [rad]
-        About the axis, from the driving yoke of the shaft.
-    damping_ratio : float
-        Of the mode.
-    assumed : tuple of str
-        Key paths of what the drive does not say.
-    """
+    """A shaft in its lowest mode of bending: a mass on a spring where it bows most."""
 
     shaft: int
-    mass: float
-    stiffness: float
-    gravity: float
-    unbalance: float
-    unbalance_angle: float
-    crack: Crack
-    crack_angle: float
-    damping_ratio: float
-    assumed: tuple[str, ...] = ()
+    mass: float  # [kg]: ∫ μφ² dx over the line, φ = 1 where the shaft bows most
+    stiffness: float  # [N/m]: mass times the square of the real critical speed
+    gravity: float  # [m/s²]: weight across the shaft that pushes the mode, over that mass
+    unbalance: float  # [kg·m]: of the mode
+    unbalance_angle: float  # [rad]: about the axis, from the driving yoke of the shaft
+    crack: Crack  # its losses of stiffness; none for a sound shaft
+    crack_angle: float  # [rad]: about the axis, from the driving yoke of the shaft
+    damping_ratio: float  # of the mode
+    assumed: tuple[str, ...] = ()  # key paths of what the drive does not say
 
     @property
     def critical(self) -> float:
@@ -90,39 +66,16 @@ class Rotor:
 def rotor(drive: Drive, shaft: int | None = None, *, damping_ratio: float = DAMPING) -> Rotor:
     """Return a shaft of a drive as a mass on a spring, in its lowest mode of bending.
 
-    Parameters
-    ----------
-    drive : Drive
-        With a body for each shaft between two joints.
-    shaft : int, optional
-        Number of the shaft; the cracked one when not given, else the one with the largest unbalance, else the one whose
-        critical speed is the lowest.
-    damping_ratio : float
-        ζ of the mode.
+    drive: with a body for each shaft between two joints.
+    shaft: number of the shaft; the cracked one when not given, else the one with the largest unbalance, else the one
+    whose critical speed is the lowest.
+    damping_ratio: ζ of the mode.
 
-    Returns
-    -------
-    Rotor
-
-    Raises
-    ------
-    InputError
-        There is no such shaft, or the drive does not say enough of its body.
-
-    Notes
-    -----
     Rayleigh's quotients with the shape φ of `bending_speeds`: mass M = ∫ μφ² dx, stiffness M ω², push of the weight
     g⊥ ∫ μφ dx, unbalance Σ U_j φ(x_j) e^(iχ_j). For a uniform shaft between two joints M is half its mass and the push
     4/π of M g. Losses of a crack count as of this stiffness; those of `depth_ratio` are those of its section, taken
     along the whole shaft as in the paper on cracked shafts, which overstates one crack. Where no unbalance is given,
     the allowed one counts, amid the shaft.
-
-    Examples
-    --------
-    >>> from cardan.io import example
-    >>> found = rotor(example("car-propshaft"))
-    >>> found.shaft, round(found.critical * 30 / np.pi, -1), f"{1e6 * found.sag:.1f} μm"
-    (2, 8500.0, '15.8 μm')
     """
     if not 0.0 <= damping_ratio < 1.0:
         text = _("{value:.6g} is not at least 0 and below 1")

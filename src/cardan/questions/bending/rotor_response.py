@@ -176,28 +176,9 @@ def rotor_run(
 ) -> tuple[Rotor, CrackedRun]:
     """Return how a shaft whirls while the speed changes as the `run_up` of the duty says.
 
-    Parameters
-    ----------
-    drive : Drive
-        With bodies of its shafts and the `run_up` of its duty.
-    shaft : int, optional
-        Number of the shaft, as in `rotor`.
-    damping_ratio : float
-        ζ of the mode.
-    progress : function, optional
-        Told the share done; when it answers "stop" the run ends.
-
-    Returns
-    -------
-    Rotor
-        The shaft as a mass on a spring.
-    CrackedRun
-        Its motion in time.
-
-    Raises
-    ------
-    InputError
-        The duty has no run-up, or the drive does not say enough.
+    drive: with bodies of its shafts and the `run_up` of its duty; shaft: number of the shaft, as in `rotor`.
+    damping_ratio: ζ of the mode.
+    Returns Rotor: the shaft as a mass on a spring; CrackedRun: its motion in time.
     """
     course = drive.duty.run_up
     if course is None:
@@ -230,35 +211,11 @@ def joined_rotors(
 ) -> tuple[Rotor, Rotor, CrackedShafts]:
     """Return the motion in time of the two shafts that a joint joins, the first of them cracked where it has a crack.
 
-    Parameters
-    ----------
-    drive : Drive
-        With bodies of both shafts.
-    joint : int
-        Number of the joint, counted from 1; both shafts beside it need bodies.
-    speed : float, optional [rad/s]
-        Of the first shaft; that of the duty by default.
-    turns : float
-        How long, in turns.
-    damping_ratio : float
-        ζ of both modes.
-    progress : function, optional
-        Told the share done; when it answers "stop" the run ends.
-
-    Returns
-    -------
-    Rotor, Rotor
-        The shafts as masses on springs.
-    CrackedShafts
-        Their motion.
-
-    Raises
-    ------
-    InputError
-        There is no such joint, or the drive does not say enough.
-
-    Notes
-    -----
+    drive: with bodies of both shafts.
+    joint: number of the joint, counted from 1; both shafts beside it need bodies.
+    speed [rad/s]: of the first shaft; that of the duty by default.
+    turns: how long, in turns; damping_ratio: ζ of both modes.
+    Returns Rotor, Rotor: the shafts as masses on springs.
     `cracked_shafts.cracked_shafts` with the modes of both shafts; the motor turns the first shaft
     through its own torsional stiffness, Σ L/(G J).
     """

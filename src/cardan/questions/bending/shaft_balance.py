@@ -26,63 +26,32 @@ USUAL = "G16"
 
 @dataclass(frozen=True, kw_only=True)
 class Correction:
-    """Mass that cancels unbalance in a plane.
+    """Mass that cancels unbalance in a plane."""
 
-    Attributes
-    ----------
-    position : float [m]
-        Of the plane, along the power flow from the joint before.
-    unbalance : float [kg m]
-    angle : float [rad]
-        About the axis along the power flow, from the driving yoke: where the mass goes.
-    mass : float [kg]
-        At the outer radius of the shaft; nan where that is not known.
-    """
-
-    position: float
-    unbalance: float
-    angle: float
-    mass: float
+    position: float  # [m]: of the plane, along the power flow from the joint before
+    unbalance: float  # [kg m]
+    angle: float  # [rad]: about the axis along the power flow, from the driving yoke: where the mass goes
+    mass: float  # [kg]: at the outer radius of the shaft; nan where that is not known
 
 
 @dataclass(frozen=True, kw_only=True)
 class ShaftBalance:
-    """Balance of a shaft between two joints; nan where the drive does not say enough.
-
-    Attributes
-    ----------
-    number : int
-    mass : float [kg]
-    allowed, allowed_plane : float [kg m]
-        Unbalance that the grade allows: in all, and in each of two planes.
-    eccentricity : float [m]
-        Of the centre of mass, that the grade allows.
-    norm : float [kg m]
-        Upper limit of the book's norm.
-    unbalance : float [kg m]
-        What is there: the resultant, or twice that of the worst plane; nan where none was measured.
-    force : float [N]
-        Of that unbalance at the highest speed, turning with the shaft; of what the grade allows where none was
-        measured.
-    joint_forces : tuple of float [N]
-        Turning forces on the joints at both ends of what was measured.
-    corrections : tuple of Correction
-        Masses at both ends of the tube that cancel what was measured.
-    missing : tuple of str
-        Paths of the drive file without which the grade does not tell.
-    """
+    """Balance of a shaft between two joints; nan where the drive does not say enough."""
 
     number: int
-    mass: float
-    allowed: float
-    allowed_plane: float
-    eccentricity: float
-    norm: float
+    mass: float  # [kg]
+    allowed: float  # allowed, allowed_plane [kg m]: unbalance that the grade allows: in all, and in each of two planes
+    allowed_plane: float  # [kg m]
+    eccentricity: float  # [m]: of the centre of mass, that the grade allows
+    norm: float  # [kg m]: upper limit of the book's norm
+    # [kg m]: what is there: the resultant, or twice that of the worst plane; nan where none was measured
     unbalance: float
+    # [N]: of that unbalance at the highest speed, turning with the shaft; of what the grade allows where none was
+    # measured
     force: float
-    joint_forces: tuple[float, ...] = ()
-    corrections: tuple[Correction, ...] = ()
-    missing: tuple[str, ...] = ()
+    joint_forces: tuple[float, ...] = ()  # [N]: turning forces on the joints at both ends of what was measured
+    corrections: tuple[Correction, ...] = ()  # masses at both ends of the tube that cancel what was measured
+    missing: tuple[str, ...] = ()  # paths of the drive file without which the grade does not tell
 
     @property
     def limit(self) -> float:

@@ -30,34 +30,10 @@ def followed(
 ) -> tuple[Array, bool]:
     """Return the states at rising instants, from the first of them on.
 
-    Parameters
-    ----------
-    rate : function
-        From time and state (n,) to the rates of it.
-    state : array (n,)
-        At the first instant.
-    time : array (t,) [s]
-        Instants.
-    small : array (n,)
-        Sizes of no matter.
-    longest : float [s]
-        Longest step.
-    progress : function, optional
-        Told the share done; when it answers "stop" the run ends.
+    rate: from time and state (n,) to the rates of it; state (n,); time (t,) [s]; small (n,): sizes of no matter.
+    longest [s]: longest step.
+    Returns states (m, n): as many as were reached.
 
-    Returns
-    -------
-    states : array (m, n)
-        As many as were reached.
-    cancelled : bool
-
-    Raises
-    ------
-    InputError
-        A run of too many steps, or one that leaves the range of numbers, with the field ``end``.
-
-    Examples
-    --------
     >>> swing, _stopped = followed(lambda t, y: np.array([y[1], -y[0]]), np.array([1.0, 0.0]), np.array([0.0, np.pi]),
     ...                            np.full(2, 1e-12), 1.0)
     >>> swing[-1].round(9)
@@ -98,27 +74,11 @@ def fitted_orders(
 ) -> tuple[Array, Array]:
     """Return the orders of whirling over the last turns, by least squares.
 
-    Parameters
-    ----------
-    angle : array (t,) [rad]
-        θ, rising.
-    deflection : array (t,), complex [m]
-        X + iY.
-    turns : int
-        How many of the last whole turns; fewer where there are no more.
-    reach : int
-        Orders from -reach to reach.
-    parts : int
-        Into how many parts the step from order to order is divided.
+    angle (t,) [rad]: θ, rising; deflection (t,) [m], complex: X + iY.
+    turns: how many of the last whole turns; fewer where there are no more.
+    parts: into how many parts the step from order to order is divided.
+    Returns order (N,); amplitude (N,) [m], complex: Z_n of Σ Z_n e^(inθ).
 
-    Returns
-    -------
-    order : array (N,)
-    amplitude : array (N,), complex [m]
-        Z_n of Σ Z_n e^(inθ).
-
-    Examples
-    --------
     >>> turn = np.linspace(0.0, 30.0, 400)
     >>> order, size = fitted_orders(turn, 1e-3 * np.exp(-2j * turn), reach=2)
     >>> order, (1e3 * abs(size)).round(6)

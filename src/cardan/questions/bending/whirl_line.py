@@ -26,64 +26,28 @@ SAME = 2e-4
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class WhirlLine:
-    """The shafts of a drive end to end, straightened out.
+    """The shafts of a drive end to end, straightened out."""
 
-    Attributes
-    ----------
-    line : Line
-        Its beams.
-    place : array (nodes,) [m]
-        Where its nodes are, from joint 1 along the power flow.
-    shaft : array of int (beams,)
-        Number of the shaft that each beam belongs to.
-    joint_node : dict of int to int
-        Number of a joint -> its node, where the joint is part of the line.
-    support_node : dict of int to int
-        Number of a support -> its node, where it holds a shaft of the line sideways or against tilting.
-    support_slope : dict of int to int
-        Number of a support -> slope of its shaft there.
-    held : tuple of int
-        Numbers of the end joints that count as held by the machine, because their shaft is not part of the line.
-    assumed : tuple of str
-        Paths of what the drive does not say and the answers assume.
-    """
-
-    line: Line
-    place: Array
-    shaft: Array
-    joint_node: dict[int, int]
+    line: Line  # its beams
+    place: Array  # (nodes,) [m]: where its nodes are, from joint 1 along the power flow
+    shaft: Array  # array of int (beams,): number of the shaft that each beam belongs to
+    joint_node: dict[int, int]  # number of a joint -> its node, where the joint is part of the line
+    # number of a support -> its node, where it holds a shaft of the line sideways or against tilting
     support_node: dict[int, int]
-    support_slope: dict[int, int]
+    support_slope: dict[int, int]  # number of a support -> slope of its shaft there
+    # numbers of the end joints that count as held by the machine, because their shaft is not part of the line
     held: tuple[int, ...]
-    assumed: tuple[str, ...]
+    assumed: tuple[str, ...]  # paths of what the drive does not say and the answers assume
 
 
 def whirl_line(drive: Drive) -> WhirlLine:
     """Return the line of beams that the shafts of a drive are.
 
-    Parameters
-    ----------
-    drive : Drive
-        With a body and a length for each shaft between two joints, and supports.
-
-    Returns
-    -------
-    WhirlLine
-
-    Raises
-    ------
-    InputError
-        A shaft has no body or no length, a support or a part lies beyond its shaft, or shafts can swing freely: with
-        the keys to add.
-
-    Notes
-    -----
+    drive: with a body and a length for each shaft between two joints, and supports.
     Each shaft is taken along its own axis, as if the joints were straight: bends of usual size change the whirl by
     their squares. A joint is a hinge with the mass of its cross, half of whose inertia goes with each shaft. An end
     shaft is part of the line if it has a body and a support; else the machine holds its joint.
 
-    Examples
-    --------
     >>> from cardan.io import example
     >>> found = whirl_line(example("truck-supports"))
     >>> found.held, sorted(found.joint_node), found.shaft.tolist()

@@ -40,10 +40,7 @@ SURE = 0.6
 def answer(found: Examination) -> Answer:
     """Return what there is to say of a recording of a drive.
 
-    Parameters
-    ----------
-    found : Examination
-        As of `cardan.recordings.examine`.
+    found: as of `cardan.recordings.examine`.
     """
     findings = found.findings
     title = _("Diagnosis of {name}").format(name=found.signal.name) if found.signal.name else _("Diagnosis")
@@ -66,12 +63,7 @@ def answer(found: Examination) -> Answer:
 def answer_of_signs(signs: Signs, findings: Sequence[Finding]) -> Answer:
     """Return what there is to say of orders and symptoms alone.
 
-    Parameters
-    ----------
-    signs : Signs
-        What was seen.
-    findings : sequence of Finding
-        As of `cardan.recordings.diagnose`.
+    findings: as of `cardan.recordings.diagnose`.
     """
     return Answer(
         name="diagnosis",

@@ -33,17 +33,7 @@ SILENT = 0.4
 
 
 def doubts(signal: Signal, shaft: Rotation, base: Plant) -> Iterator[tuple[str, float]]:
-    """Yield what does not fit, each with the share of confidence that it leaves.
-
-    Parameters
-    ----------
-    signal : Signal
-        The recording.
-    shaft : Rotation
-        How the shaft turned.
-    base : Plant
-        The drive.
-    """
+    """Yield what does not fit, each with the share of confidence that it leaves."""
     yield from _speeds(shaft, base)
     yield from _other_speeds(signal, shaft)
     if base.assumed:

@@ -23,14 +23,7 @@ __all__ = ["answer", "answer_of_list", "by_torque", "grows"]
 def answer(found: Expected, made: Signal | None = None, path: Path | None = None) -> Answer:
     """Return what there is to say of a fault of a drive.
 
-    Parameters
-    ----------
-    found : Expected
-        Of a drive and a fault.
-    made : Signal, optional
-        A recording of it.
-    path : Path, optional
-        Where that was written.
+    made: a recording of it; path: where that was written.
     """
     channels = [] if made is None else [one.name for one in made.channels]
     span = Quantity(0.0 if made is None else made.duration, "time")
@@ -101,8 +94,6 @@ def answer_of_list() -> Answer:
 def fault_words(fault: str) -> str:
     """Return what a fault is, in words.
 
-    Examples
-    --------
     >>> fault_words("unbalance"), fault_words("healthy")
     ('unbalance of a shaft', 'nothing wrong')
     """
@@ -116,17 +107,7 @@ def fault_words(fault: str) -> str:
 def grows(power: float, *, amplified: bool) -> str:
     """Return how an order follows the speed, in words.
 
-    Parameters
-    ----------
-    power : float
-        Of the speed.
-    amplified : bool
-        Whether a bending mode amplifies it.
-
-    Examples
-    --------
-    >>> grows(2.0, amplified=False), grows(0.0, amplified=True)
-    ('square', 'stays the same, amplified near the critical speed')
+    amplified: whether a bending mode amplifies it.
     """
     plain = {0.0: _("stays the same"), 1.0: _("in proportion"), 2.0: _("square")}
     said = plain.get(power, _("power {power:g}").format(power=power))
@@ -136,15 +117,7 @@ def grows(power: float, *, amplified: bool) -> str:
 def by_torque(share: tuple[float, float, float]) -> str:
     """Return how an order follows the torque, in words.
 
-    Parameters
-    ----------
-    share : (float, float, float)
-        a, b, c of the factor \\|a + bτ + c\\|τ\\|\\|.
-
-    Examples
-    --------
-    >>> by_torque((1.0, 0.0, 0.0)), by_torque((0.0, 0.0, 1.0)), by_torque((0.2, 0.9, 0.0))
-    ('stays the same', 'in proportion', 'changes with its sense')
+    share: a, b, c of the factor |a + bτ + c|τ||.
     """
     still, signed, sized = share
     if signed:

@@ -51,61 +51,28 @@ UNEVEN = mark("equivalent joint of the drive: amplitude |τ| of order 2")
 
 @dataclass(frozen=True, kw_only=True)
 class ExpectedOrder:
-    """One order at one sensor, and how it follows speed and torque.
+    """One order at one sensor, and how it follows speed and torque."""
 
-    Attributes
-    ----------
-    order : float
-        Multiple of the speed of the shaft.
-    place : str
-        Key path of the support or shaft where the sensor sits.
-    kind : str
-        ``input``, ``centre`` or ``output``.
-    direction : str
-        ``radial``, ``axial`` [m/s²] or ``torsion`` (speed of the output beside its mean, [rad/s]).
-    size : float
-        Amplitude at top speed and the torque of the duty, without amplification.
-    speed_power : float
-        p of (ω/ω_top)^p.
-    torque : (float, float, float)
-        a, b, c of the factor \\|a + bτ + c\\|τ\\|\\|, τ torque over that of the duty.
-    amplified : bool
-        Whether the bending mode amplifies it where order times speed meets the critical speed.
-    source : str
-        Where the line comes from.
-    """
-
-    order: float
-    place: str
-    kind: str
-    direction: str
-    size: float
-    speed_power: float
+    order: float  # multiple of the speed of the shaft
+    place: str  # key path of the support or shaft where the sensor sits
+    kind: str  # ``input``, ``centre`` or ``output``
+    direction: str  # ``radial``, ``axial`` [m/s²] or ``torsion`` (speed of the output beside its mean, [rad/s])
+    size: float  # amplitude at top speed and the torque of the duty, without amplification
+    speed_power: float  # p of (ω/ω_top)^p
+    # a, b, c of the factor |a + bτ + c|τ||, τ torque over that of the duty
     torque: tuple[float, float, float] = (1.0, 0.0, 0.0)
-    amplified: bool = False
-    source: str
+    amplified: bool = False  # whether the bending mode amplifies it where order times speed meets the critical speed
+    source: str  # where the line comes from
 
 
 @dataclass(frozen=True, kw_only=True)
 class Bursts:
-    """Knocks: noise that comes some times a turn.
+    """Knocks: noise that comes some times a turn."""
 
-    Attributes
-    ----------
-    per_turn : int
-        How often.
-    kind : str
-        Housing where they are loudest.
-    size : float [m/s²]
-        Amplitude at light torque.
-    torque : (float, float, float)
-        As for orders.
-    """
-
-    per_turn: int
-    kind: str
-    size: float
-    torque: tuple[float, float, float]
+    per_turn: int  # how often
+    kind: str  # housing where they are loudest
+    size: float  # [m/s²]: amplitude at light torque
+    torque: tuple[float, float, float]  # as for orders
 
 
 def _spread(

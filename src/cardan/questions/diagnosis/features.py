@@ -82,37 +82,17 @@ BINS = 14
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Features:
-    """What a recording shows.
+    """What a recording shows."""
 
-    Attributes
-    ----------
-    value : array (f,)
-        By `NAMES`; nan where it cannot be told.
-    speed : (float, float) [rad/s]
-        Between which the shaft turned.
-    held : float [rad/s]
-        Speed that it was held at longest.
-    peak_2, peak_3 : float [rad/s]
-        Speeds at which orders 2 and 3 are largest.
-    critical : float [rad/s]
-        Lowest bending critical speed as computed; nan where not known.
-    confidence : float
-        From 0 to 1: that of the recording and of its rotation, less by what it cannot tell.
-    cautions : tuple of str
-        What was doubtful.
-    rotation : Rotation
-        How the shaft turned.
-    """
-
-    value: Array
-    speed: tuple[float, float]
-    held: float
-    peak_2: float
-    peak_3: float
-    critical: float
-    confidence: float
-    cautions: tuple[str, ...]
-    rotation: Rotation
+    value: Array  # (f,): by `NAMES`; nan where it cannot be told
+    speed: tuple[float, float]  # [rad/s]: between which the shaft turned
+    held: float  # [rad/s]: speed that it was held at longest
+    peak_2: float  # peak_2, peak_3 [rad/s]: speeds at which orders 2 and 3 are largest
+    peak_3: float  # [rad/s]
+    critical: float  # [rad/s]: lowest bending critical speed as computed; nan where not known
+    confidence: float  # from 0 to 1: that of the recording and of its rotation, less by what it cannot tell
+    cautions: tuple[str, ...]  # what was doubtful
+    rotation: Rotation  # how the shaft turned
 
     def __getitem__(self, name: str) -> float:
         """Return the feature of a name."""
@@ -133,40 +113,16 @@ def features(
 ) -> Features:
     """Return what a recording of a drive shows, in figures.
 
-    Parameters
-    ----------
-    signal : Signal
-        With one channel of vibration at least; better with a tacho, two torques and a run-up.
-    drive : Drive
-        The drive in order: levels are measured by what it should show.
-    speed_range : (float, float) [rad/s], optional
-        Between which the shaft turned, for a recording without a tacho; the duty of the drive otherwise.
-    progress : function, optional
-        Told the share done; when it answers "stop" channels not yet looked at are left out, and a caution says so.
+    signal: with one channel of vibration at least; better with a tacho, two torques and a run-up.
+    drive: the drive in order: levels are measured by what it should show.
+    speed_range [rad/s]: between which the shaft turned, for a recording without a tacho; the duty of the drive
+    otherwise.
+    progress: told the share done; when it answers "stop" channels not yet looked at are left out, and a caution says
+    so.
 
-    Returns
-    -------
-    Features
-
-    Raises
-    ------
-    InputError
-        No channel of vibration, or too few turns.
-
-    Notes
-    -----
     Levels are decadic logarithms of the amplitude at the held speed over that of the drive in order, all radial sensors
     together by the forces on their housings; exponents are slopes of log amplitude over log speed; nothing counts below
     what noise leaves in an average of as many windows.
-
-    Examples
-    --------
-    >>> from cardan.questions.diagnosis.simulate import simulate_fault
-    >>> from cardan.io import example
-    >>> drive = example("truck-supports")
-    >>> shown = features(simulate_fault(drive, "unbalance", seed=4), drive)
-    >>> print(shown["order_1"] > 0.3, abs(shown["torque_on_1"]) < 0.2)
-    True True
     """
     base, healthy = _known(drive)
     watch = Watch(progress, 1 + 2 * len(signal.measured))

@@ -140,15 +140,7 @@ def diagnose(
 
 
 def weighed(seen: Features, *, known: Catalogue | None = None) -> tuple[Finding, ...]:
-    """Return the causes of what a recording shows, the likeliest first; see `diagnose`.
-
-    Parameters
-    ----------
-    seen : Features
-        What it shows.
-    known : Catalogue, optional
-        With the table of faults; the shipped one when not given.
-    """
+    """Return the causes of what a recording shows, the likeliest first; see `diagnose`."""
     rows = (known or catalogue()).rows(Fault)
     model = shipped()
     sentences = [_sentence(name, value, seen) for name, value in zip(model.features, seen.value, strict=True)]

@@ -21,23 +21,9 @@ from .signals.watching import Watch
 def knocks(signal: Signal, shaft: Rotation, first: TrackedOrders, which: Array, watch: Watch) -> tuple[float, float]:
     """Return how much of the noise comes once and twice a turn: orders of the squared high-passed signal.
 
-    Parameters
-    ----------
-    signal : Signal
-        The recording.
-    shaft : Rotation
-        How the shaft turned.
-    first : TrackedOrders
-        Orders of one channel, whose windows count.
-    which : bool array (w,)
-        Windows that are looked at.
-    watch : Watch
-        Told of every channel; channels after a stop are left out.
-
-    Returns
-    -------
-    (float, float)
-        Shares of the mean; nan where no channel tells.
+    first: orders of one channel, whose windows count; which (w,) of bool: windows that are looked at.
+    watch: told of every channel; channels after a stop are left out.
+    Returns: shares of the mean; nan where no channel tells.
     """
     best = {1.0: math.nan, 2.0: math.nan}
     for channel in signal.measured:

@@ -78,19 +78,7 @@ class Cause:
 def symptoms(known: Catalogue | None = None) -> tuple[str, ...]:
     """Return every symptom that a fault of the catalogue has, in its order.
 
-    Parameters
-    ----------
-    known : Catalogue, optional
-        The shipped one when not given.
-
-    Returns
-    -------
-    tuple of str
-
-    Examples
-    --------
-    >>> symptoms()[:3]
-    ('vibration_in_motion', 'noise', 'clunk_on_load_reversal')
+    known: the shipped one when not given.
     """
     rows = (known or catalogue()).rows(Fault).values()
     return tuple(dict.fromkeys(symptom for row in rows for symptom in row.symptoms))

@@ -21,27 +21,16 @@ FAR = 3.0
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Model:
-    """Weights of a multinomial logistic model.
+    """Weights of a multinomial logistic model."""
 
-    Attributes
-    ----------
-    features, causes : tuple of str
-        What it weighs, and what it tells apart; ``healthy`` or an id of the catalogue of faults.
-    mean, spread : array (f,)
-        Of the features in the calibration.
-    weight : array (c, 1 + 2f)
-        Of 1, z, and z² − 1 of every feature, z its distance from the mean over the spread.
-    least, most : array (f,)
-        Of the features in the calibration.
-    """
-
+    # features, causes: what it weighs, and what it tells apart; ``healthy`` or an id of the catalogue of faults
     features: tuple[str, ...]
     causes: tuple[str, ...]
-    mean: Array
-    spread: Array
-    weight: Array
-    least: Array
-    most: Array
+    mean: Array  # mean, spread (f,): of the features in the calibration
+    spread: Array  # (f,)
+    weight: Array  # (c, 1 + 2f): of 1, z, and z² − 1 of every feature, z its distance from the mean over the spread
+    least: Array  # least, most (f,): of the features in the calibration
+    most: Array  # (f,)
 
     def beyond(self, value: Array) -> tuple[int, ...]:
         """Return the features (f,) that lie a spread or more beyond all of the calibration, the farthest first."""
@@ -93,23 +82,9 @@ def model_of(tree: dict[str, object]) -> Model:
 def fitted(value: Array, cause: list[str], features: tuple[str, ...], *, pull: float = 1.0) -> Model:
     """Return the model that fits recordings of known causes best.
 
-    Parameters
-    ----------
-    value : array (r, f)
-        Features; nan where not known.
-    cause : list of str
-        Of each recording.
-    features : tuple of str
-        Names of the features.
-    pull : float
-        Pull of the weights to 0: half of it times the sum of their squares goes on top of the surprise.
-
-    Returns
-    -------
-    Model
-
-    Notes
-    -----
+    value (r, f): features; nan where not known.
+    features: names of the features.
+    pull: pull of the weights to 0: half of it times the sum of their squares goes on top of the surprise.
     Least of −Σ log p + ½ pull Σ w² over the weights w but those of 1 (maximum a posteriori), by L-BFGS; convex, so that
     the answer does not depend on a start.
     """

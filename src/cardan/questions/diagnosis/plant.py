@@ -37,72 +37,33 @@ HOUSING, HANGER = 8.0, 2.0
 
 @dataclass(frozen=True, kw_only=True)
 class Housing:
-    """Where a sensor can sit.
+    """Where a sensor can sit."""
 
-    Attributes
-    ----------
-    kind : str
-        ``input``, ``centre`` or ``output``.
-    place : str
-        Key path of the support, or of the shaft where the drive has no support there.
-    places : tuple of str
-        All key paths that belong to it: supports, shafts and joints.
-    joints : tuple of int
-        Joints whose forces it takes, counted from 0.
-    mass : float [kg]
-        That moves with it.
-    """
-
-    kind: str
-    place: str
-    places: tuple[str, ...]
-    joints: tuple[int, ...]
-    mass: float
+    kind: str  # ``input``, ``centre`` or ``output``
+    place: str  # key path of the support, or of the shaft where the drive has no support there
+    places: tuple[str, ...]  # all key paths that belong to it: supports, shafts and joints
+    joints: tuple[int, ...]  # joints whose forces it takes, counted from 0
+    mass: float  # [kg]: that moves with it
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Plant:
-    """Figures of a drive that decide how its faults show.
+    """Figures of a drive that decide how its faults show."""
 
-    Attributes
-    ----------
-    mass, length : array (n-1,) [kg], [m]
-        Of the shafts between two joints.
-    inertia : float [kg·m²]
-        Of these shafts together about their axes.
-    joint_angle : array (n,) [rad]
-        Of every joint.
-    uneven : float [rad]
-        Amplitude of order 2 of the angle of the output: |τ| of the equivalent joint.
-    allowed : array (n-1,) [kg·m]
-        Unbalance that the balance grade leaves in each of these shafts.
-    critical : float [rad/s]
-        Lowest bending critical speed in which a shaft bows (a soft support that gives way damps its mode); nan where
-        the drive does not say enough.
-    damping : float
-        Of that mode.
-    speed : (float, float) [rad/s]
-        Range of running.
-    torque : float [N·m]
-        Of the duty.
-    housings : tuple of Housing
-        From the input on.
-    assumed : tuple of str
-        Key paths of what the drive does not say.
-    """
-
-    mass: Array
-    length: Array
-    inertia: float
-    joint_angle: Array
-    uneven: float
-    allowed: Array
+    mass: Array  # mass, length (n-1,) [kg], [m]: of the shafts between two joints
+    length: Array  # (n-1,) [kg], [m]
+    inertia: float  # [kg·m²]: of these shafts together about their axes
+    joint_angle: Array  # (n,) [rad]
+    uneven: float  # [rad]: amplitude of order 2 of the angle of the output: |τ| of the equivalent joint
+    allowed: Array  # (n-1,) [kg·m]: unbalance that the balance grade leaves in each of these shafts
+    # [rad/s]: lowest bending critical speed in which a shaft bows (a soft support that gives way damps its mode); nan
+    # where the drive does not say enough
     critical: float
-    damping: float
-    speed: tuple[float, float]
-    torque: float
-    housings: tuple[Housing, ...]
-    assumed: tuple[str, ...]
+    damping: float  # of that mode
+    speed: tuple[float, float]  # [rad/s]: range of running
+    torque: float  # [N·m]: of the duty
+    housings: tuple[Housing, ...]  # from the input on
+    assumed: tuple[str, ...]  # key paths of what the drive does not say
 
     def housing(self, kind: str) -> Housing | None:
         """Return the housing of a kind, None where the drive has none."""
@@ -116,26 +77,9 @@ class Plant:
 def plant(drive: Drive) -> Plant:
     """Return the figures of a drive that decide how its faults show.
 
-    Parameters
-    ----------
-    drive : Drive
-        The more it says of bodies, balance and duty, the less is assumed.
-
-    Returns
-    -------
-    Plant
-
-    Notes
-    -----
+    drive: the more it says of bodies, balance and duty, the less is assumed.
     Each figure is that of the program's own analysis: `bending_speeds`, `balance`, `equivalent_joint`. What the drive
     does not say is assumed and listed: the answer is then about the shape of a vibration rather than its size.
-
-    Examples
-    --------
-    >>> from cardan.io import example
-    >>> found = plant(example("truck-supports"))
-    >>> [one.place for one in found.housings], f"{found.critical / rpm:.0f} rpm"
-    (['supports[0]', 'supports[2]', 'supports[3]'], '8393 rpm')
     """
     place = geometry(drive)
     lengths = known_lengths(drive)

@@ -54,24 +54,12 @@ ORDERS = 7
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Carried:
-    """What a drive carries.
+    """What a drive carries."""
 
-    Attributes
-    ----------
-    forces : Forces
-        As drawn.
-    moving : MovingForces, optional
-        While it moves, where the file says how.
-    unheld : tuple of Problem
-        Why the supports tell nothing.
-    unmoved : tuple of Problem
-        Why nothing is told of the movement.
-    """
-
-    forces: Forces
-    moving: MovingForces | None = None
-    unheld: tuple[Problem, ...] = ()
-    unmoved: tuple[Problem, ...] = ()
+    forces: Forces  # as drawn
+    moving: MovingForces | None = None  # while it moves, where the file says how
+    unheld: tuple[Problem, ...] = ()  # why the supports tell nothing
+    unmoved: tuple[Problem, ...] = ()  # why nothing is told of the movement
 
 
 def lacking(drive: Drive) -> Lacking:
@@ -82,15 +70,7 @@ def lacking(drive: Drive) -> Lacking:
 def ask(drive: Drive) -> Carried:
     """Return what a drive carries as drawn and while it moves; without supports where these tell nothing.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-
-    Raises
-    ------
-    InputError
-        What even the torques lack.
+    Raises InputError: what even the torques lack.
     """
     try:
         found = Carried(forces=forces(drive))
@@ -110,14 +90,7 @@ def ask(drive: Drive) -> Carried:
 def answer(drive: Drive, result: Carried, curves: Forces | None = None) -> Answer:
     """Return what there is to say of what a drive carries.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-    result : Carried
-        Over a turn.
-    curves : Forces, optional
-        At the positions whose curves are asked for.
+    curves: at the positions whose curves are asked for.
     """
     found = result.forces
     shown = found if curves is None else curves

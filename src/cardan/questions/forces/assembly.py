@@ -31,18 +31,10 @@ from .redundancy import Redundancy, redundancy
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Peak:
-    """The largest value over a turn.
+    """The largest value over a turn."""
 
-    Attributes
-    ----------
-    value : float
-        How much, in SI.
-    angle : float [rad]
-        Input angle φ_1 from the start position where it occurs.
-    """
-
-    value: float
-    angle: float
+    value: float  # how much, in SI
+    angle: float  # [rad]: input angle φ_1 from the start position where it occurs
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

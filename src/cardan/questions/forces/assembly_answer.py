@@ -48,15 +48,7 @@ def lacking(drive: Drive) -> Lacking:
 def ask(drive: Drive) -> AssemblyForces | None:
     """Return the forces of assembly; None where a stiffness is there for other questions alone.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-
-    Raises
-    ------
-    InputError
-        What they lack, where the file tells a misalignment.
+    Raises InputError: what they lack, where the file tells a misalignment.
     """
     try:
         return assembly(drive)
@@ -74,14 +66,7 @@ def otherwise(drive: Drive) -> str:
 def answer(drive: Drive, result: AssemblyForces, curves: AssemblyForces | None = None) -> Answer:
     """Return what there is to say of the forces of assembly.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-    result : AssemblyForces
-        Over a turn.
-    curves : AssemblyForces, optional
-        At the positions whose curves are asked for.
+    curves: at the positions whose curves are asked for.
     """
     shown = result if curves is None else curves
     machines, drive = machines_of(drive), machine_held(drive)

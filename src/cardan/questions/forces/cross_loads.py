@@ -13,17 +13,11 @@ SIDES = (1.0, -1.0)
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JournalLoads:
-    """Loads of the journals of crosses; leading axes (...) are those of drives, joints and positions.
+    """Loads of the journals of crosses; leading axes (...) are those of drives, joints and positions."""
 
-    Attributes
-    ----------
-    load : array (..., 4, 3) [N]
-        Force across each journal: on the cross at +u and -u, on the driven yoke at +v and -v.
-    thrust : array (..., 2) [N]
-        Force along u and along v that one of the two journals of the arm, or both together, pass on.
-    """
-
+    # (..., 4, 3) [N]: force across each journal: on the cross at +u and -u, on the driven yoke at +v and -v
     load: Array
+    # (..., 2) [N]: force along u and along v that one of the two journals of the arm, or both together, pass on
     thrust: Array
 
     @property
@@ -43,28 +37,11 @@ def journal_loads(
 ) -> JournalLoads:
     """Return the loads of the journals.
 
-    Parameters
-    ----------
-    driving, driven : arrays (..., 3) [N·m]
-        K⁻, couple of the driving yoke on the cross; K⁺, of the cross on the driven yoke.
-    driving_arm, driven_arm : arrays (..., 3)
-        u and v.
-    span : array (...) [m]
-        d, between the middles of opposite bearings.
-    driving_force, driven_force : arrays (..., 3) [N], optional
-        Force of the driving yoke on the cross, and of the cross on the driven yoke, in the joint centre; none when not
-        given.
-
-    Notes
-    -----
+    driving, driven (..., 3) [N·m]: K⁻, couple of the driving yoke on the cross; K⁺, of the cross on the driven yoke.
+    driving_arm, driven_arm (..., 3): u and v; span (...) [m]: d, between the middles of opposite bearings.
+    driving_force, driven_force (..., 3) [N]: force of the driving yoke on the cross, and of the cross on the driven
+    yoke, in the joint centre; none when not given.
     R = ±(K×u)/d + ½[F - (F·u)u] at ±(d/2) u, the same with v, Book (101)-(105); thrust F·u and F·v, Book (109).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> x, y, z = np.eye(3)
-    >>> journal_loads(100.0 * x, 100.0 * x, y, z, np.asarray(0.1)).size
-    array([1000., 1000., 1000., 1000.])
     """
     xp = namespace(driving, driving_arm, span)
     rows, thrusts = [], []

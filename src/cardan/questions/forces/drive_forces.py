@@ -145,26 +145,13 @@ def forces_from(
 ) -> Forces:
     """Return all forces of drives whose couples are known.
 
-    Parameters
-    ----------
-    whole : Train (...)
-        Masses and supports.
-    stand : Stand (..., p)
-        How shafts and crosses stand and turn.
-    points : array (..., p or 1, n+2, 3) [m]
-        B_0 … B_{n+1}.
-    acceleration : array (p, n+2, 3) [m/s²] or None
-        Of the points; None where they stand still.
-    angle : array (p,) [rad]
-        φ_1 from the start position.
-    carried : (Couples, array (..., p) [N·m])
-        Couples of the joints, and the torque that resists the output.
-    still : bool
-        Whether no speed is known, so that inertia does not count.
-    field : str
-        What an error about the supports names.
-    sense : array (p, number of splines), optional
-        Sense of the friction thrust of each spline; that of the train when not given.
+    whole (...): masses and supports; stand (..., p): how shafts and crosses stand and turn.
+    points (..., p or 1, n+2, 3) [m]: B_0 … B_{n+1}.
+    acceleration (p, n+2, 3) [m/s²]: of the points; None where they stand still.
+    angle (p,) [rad]: φ_1 from the start position.
+    carried (Couples, array (..., p) [N·m]): couples of the joints, and the torque that resists the output.
+    still: whether no speed is known, so that inertia does not count; field: what an error about the supports names.
+    sense (p, number of splines): sense of the friction thrust of each spline; that of the train when not given.
     """
     xp = namespace(points, angle)
     found, output = carried

@@ -81,18 +81,9 @@ def gaps(whole: Train, held: Frame, arms: Crosses) -> tuple[Array, Array]:
 def bent_by_loads(whole: Train, held: Frame, found: Couples, loads: list[Load], thrust: Array) -> Array:
     """Return how far known couples and forces bend the shafts at the unknowns, array (..., p, u) [m].
 
-    Parameters
-    ----------
-    whole : Train
-        How shafts give way.
-    held : Frame
-        Where the unknowns act.
-    found : Couples
-        Couples of the joints on the shafts.
-    loads : list of Load
-        Weights and inertia forces; the couples of swinging shafts are left out: they are spread along them.
-    thrust : array (..., p, number of splines) [N]
-        Friction thrust of the splines.
+    held: where the unknowns act; found: couples of the joints on the shafts.
+    loads: weights and inertia forces; the couples of swinging shafts are left out: they are spread along them.
+    thrust (..., p, number of splines) [N]: friction thrust of the splines.
     """
     xp = namespace(held.points, found.secondary)
     acting, n = held.acting, held.layout.joints
@@ -131,21 +122,10 @@ def elastic(
 ) -> Array:
     """Return the unknowns of a frame that is held too much, array (..., p, u).
 
-    Parameters
-    ----------
-    whole : Train (...)
-        How supports and shafts give way, and what is off.
-    held : Frame
-        Balance of the shafts.
-    stand, found : Stand, Couples
-        How crosses stand, and what they carry.
-    loads, thrust : list of Load, array (..., p, number of splines)
-        Other known forces.
-    known : array (..., p, rows)
-        Known side of the balance.
-
-    Notes
-    -----
+    whole (...): how supports and shafts give way, and what is off; held: balance of the shafts.
+    stand, found: how crosses stand, and what they carry.
+    loads, thrust, list of Load, array (..., p, number of splines): other known forces.
+    known (..., p, rows): known side of the balance.
     Least complementary energy under load and misfit at once: d of `least_energy` holds the offsets of the housings,
     the gaps in the joints, and what the loads bend the shafts by.
     """
@@ -161,14 +141,8 @@ def elastic(
 def refuse_soft(whole: Train, found: Redundancy, field: str = "") -> None:
     """Refuse a frame whose forces follow from a stiffness that is not given.
 
-    Parameters
-    ----------
-    whole : Train
-        One drive.
-    found : Redundancy
-        How far it is held too much.
-    field : str
-        What the error names: the list of supports, or each missing key by itself where this is empty.
+    whole: one drive; found: how far it is held too much.
+    field: what the error names: the list of supports, or each missing key by itself where this is empty.
     """
     missing = missing_stiffness(whole, found)
     if not missing:

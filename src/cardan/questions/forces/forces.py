@@ -164,15 +164,6 @@ def kinetostatics(
     -------
         Forces
             nan where friction locks a joint of a drive.
-
-    Examples
-    --------
-        >>> from cardan.drive.models.machine_held import machine_held, tables_proposed
-    from cardan.drive.models.train import train_of_points
-        >>> many = train_of_points(np.asarray([[[0.0, 0, 0], [1, 0, 0], [2, 0, z]] for z in (0.0, 0.5)]))
-        >>> kinetostatics(many, np.zeros(1), torque=1.0).input_torque
-        array([[1.        ],
-               [1.11803399]])
     """
     xp = namespace(whole.points, angle)
     place = place_of(whole)

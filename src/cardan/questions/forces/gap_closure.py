@@ -28,58 +28,26 @@ MANY, FEW = 360, 180
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class GapClosure:
-    """Whether the load keeps every joint pressed one way.
+    """Whether the load keeps every joint pressed one way."""
 
-    Attributes
-    ----------
-    closed : bool
-        Whether every joint keeps the sign of its couple over the turn, whichever it is.
-    least_couple : array (n,) [N·m]
-        Smallest T_i over the turn.
-    least_angle : array (n,) [rad]
-        Input angle where it occurs.
-    load_needed : float [N·m]
-        Least constant torque at the output that keeps all joints closed.
-    open_share : array (n,)
-        Share of the turn in which T_i is against the load: negative, or positive where the load is negative.
-    openings : tuple of array [rad]
-        Per joint, the input angles in [0, 2π) at which T_i changes its sign, rising.
-    """
-
-    closed: bool
-    least_couple: Array
-    least_angle: Array
-    load_needed: float
+    closed: bool  # whether every joint keeps the sign of its couple over the turn, whichever it is
+    least_couple: Array  # (n,) [N·m]: smallest T_i over the turn
+    least_angle: Array  # (n,) [rad]: input angle where it occurs
+    load_needed: float  # [N·m]: least constant torque at the output that keeps all joints closed
+    # (n,): share of the turn in which T_i is against the load: negative, or positive where the load is negative
     open_share: Array
-    openings: tuple[Array, ...]
+    openings: tuple[Array, ...]  # [rad]: per joint, the input angles in [0, 2π) at which T_i changes its sign, rising
 
 
 def gap_closure(train: Train, *, load: float, speed: float, acceleration: float = 0.0) -> GapClosure:
     """Return whether the clearances stay closed at a constant load.
 
-    Parameters
-    ----------
-    train : Train
-        One drive with the inertias of its shafts; the inertia of its crosses and friction are left out.
-    load : float [N·m]
-        Torque that resists the output; negative where it resists turning the other way.
-    speed, acceleration : float [rad/s, rad/s²]
-        ω_1, ε_1.
-
-    Notes
-    -----
+    train: one drive with the inertias of its shafts; the inertia of its crosses and friction are left out.
+    load [N·m]: torque that resists the output; negative where it resists turning the other way.
+    speed, acceleration [rad/s, rad/s²]: ω_1, ε_1.
     Every T_i is linear in the load: T_i = T_i(inertia alone) + load · T_i(load 1 without inertia), so the load needed
     is the largest of -T_i(inertia)/T_i(1) over joints and angles. Book (122), M_2 > J_2 ε_max, is the case of a single
     joint. The inertia of shaft 1 never matters.
-
-    Examples
-    --------
-    >>> from cardan.drive.models.train import train_of_points
-    >>> points = np.asarray([[-0.5, 0, 0], [0, 0, 0], [np.cos(0.4), np.sin(0.4), 0]])
-    >>> single = train_of_points(points, inertia=np.asarray([0.0, 0.05]))
-    >>> found = gap_closure(single, load=100.0, speed=150.0)
-    >>> found.closed, round(found.load_needed, 3)
-    (False, 186.471)
     """
     bare = replace(train, cross_inertia=None, drag=None)
     light = replace(bare, inertia=None, resisting_torque=None)
@@ -142,19 +110,11 @@ def _share(function: Callable[[Array], Array], angles: Array, k: int) -> float:
 def open_share(torque: Array, load: float) -> Array:
     """Return the share of the turn in which each joint is pressed against the load, array (n,).
 
-    Parameters
-    ----------
-    torque : array (n, p) [N·m]
-        Torque of every joint at evenly spaced places of a whole turn, its end beside its beginning or not.
-    load : float [N·m]
-        Its sign tells which way the load presses.
-
-    Notes
-    -----
+    torque (n, p) [N·m]: torque of every joint at evenly spaced places of a whole turn, its end beside its beginning or
+    not.
+    load [N·m]: its sign tells which way the load presses.
     Straight between the places.
 
-    Examples
-    --------
     >>> places = np.arange(360) * (2.0 * np.pi / 360)
     >>> open_share(np.stack((1.0 + 0.0 * places, 0.5 + np.cos(places))), 100.0).round(3)
     array([0.   , 0.333])
@@ -180,34 +140,14 @@ def least_load(
 ) -> Array:
     """Return the least torque at one end that keeps each joint pressed one way over the turn, array (..., n) [N·m].
 
-    Parameters
-    ----------
-    chain : Chain (..., n)
-        One drive or many.
-    inertia : array (..., n) [kg m²]
-        J of shafts 2 … n+1.
-    speed : float or array (...) [rad/s]
-        ω_1, uniform.
-    torque_at : str
-        ``output`` or ``input``: where the torque is given and constant but for its harmonics.
-    harmonics : sequence of Harmonic
-        Its swinging parts, which stay while the mean grows.
-    scale : float or array (...)
-        By which they count.
-    backwards : bool
-        Whether the torque presses the joints the other way.
+    chain (..., n): one drive or many; inertia (..., n) [kg m²]: J of shafts 2 … n+1; speed (...) [rad/s]: ω_1, uniform.
+    torque_at: ``output`` or ``input``: where the torque is given and constant but for its harmonics.
+    harmonics: its swinging parts, which stay while the mean grows; scale (...): by which they count.
+    backwards: whether the torque presses the joints the other way.
 
-    Notes
-    -----
     By power, P_j = J_j ε_j ω_j over ω_1: behind joint i the torque is (M r_{n+1} + Σ_{j>i} P_j)/r_{i+1} for a torque M
     at the output and (M - Σ_{j≤i} P_j)/r_{i+1} for one at the input, r the speed ratios; both must keep the sign of M.
     Of a single joint that is M_2 > J_2 ε_max, Kozhevnikov & Perfil'ev (1978), eq. 121, 122.
-
-    Examples
-    --------
-    >>> from cardan.drive.models.chain import given_chain
-    >>> least_load(given_chain(Drive.from_angles([0.4])), np.asarray([0.05]), 150.0).round(3)
-    array([186.471])
     """
     outer = np.broadcast_shapes(chain.joint_angle.shape[:-1], np.shape(speed), inertia.shape[:-1])
     places = FEW if math.prod(outer) > 1 else MANY
@@ -230,28 +170,16 @@ def least_load(
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Gaps:
-    """Whether the load of a duty keeps the gaps of a drive closed.
+    """Whether the load of a duty keeps the gaps of a drive closed."""
 
-    Attributes
-    ----------
-    open_share : array (n,)
-        Share of the turn in which each joint is pressed against the load.
-    load_needed : float [N·m]
-        Least mean torque, where the torque is given, that keeps all joints closed.
-    """
-
-    open_share: Array
-    load_needed: float
+    open_share: Array  # (n,): share of the turn in which each joint is pressed against the load
+    load_needed: float  # [N·m]: least mean torque, where the torque is given, that keeps all joints closed
 
 
 def gaps(drive: Drive, found: Forces) -> Gaps | None:
     """Return whether the load of a drive keeps its gaps closed; None where no speed or no inertia counts.
 
-    Parameters
-    ----------
-    drive : Drive
-    found : Forces
-        Of the drive over a whole turn.
+    found: of the drive over a whole turn.
     """
     whole, torque = train(drive, kinds=True), drive.duty.torque
     if not drive.duty.speed or not torque or whole.inertia is None:

@@ -24,24 +24,14 @@ WIDTH: dict[Hold, int] = {"radial": 2, "axial": 1, "tilt": 2}
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Layout:
-    """What holds what, without a number: the same for a whole batch.
+    """What holds what, without a number: the same for a whole batch."""
 
-    Attributes
-    ----------
-    joints : int
-        Number of joints n.
-    bearings : tuple of (int, tuple of Hold)
-        Shaft of each bearing, counted from 0, and what it holds.
-    slides : tuple of (bool, bool)
-        Per joint, whether the cross slides along the driving and the driven journals; empty when none does.
-    splines : tuple of int
-        Shafts with a spline that slides, counted from 0.
-    """
-
-    joints: int
+    joints: int  # number of joints n
+    # tuple of (int, tuple of Hold): shaft of each bearing, counted from 0, and what it holds
     bearings: tuple[tuple[int, tuple[Hold, ...]], ...]
+    # per joint, whether the cross slides along the driving and the driven journals; empty when none does
     slides: tuple[tuple[bool, bool], ...] = ()
-    splines: tuple[int, ...] = ()
+    splines: tuple[int, ...] = ()  # shafts with a spline that slides, counted from 0
 
     @property
     def unknowns(self) -> tuple[tuple[int, Hold | None], ...]:
@@ -60,48 +50,23 @@ class Layout:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Actions:
-    """The unknowns as forces and couples on the shafts, per unit of each.
+    """The unknowns as forces and couples on the shafts, per unit of each."""
 
-    Attributes
-    ----------
-    axis : array (..., s, 3)
-        Directions of the shafts.
-    across : array (..., s, 2, 3)
-        Two directions across each shaft.
-    length : array (..., s) [m]
-        Lengths of the shafts.
-    force, couple : arrays (..., s, u, 3)
-        On every shaft, of every unknown.
-    place : array (..., s, u) [m]
-        Where it acts, from the beginning of the shaft on.
-    cut : dict from int to array (...) [m]
-        Places of splines by their shaft, counted from 0.
-    """
-
-    axis: Array
-    across: Array
-    length: Array
-    force: Array
-    couple: Array
-    place: Array
-    cut: dict[int, Array]
+    axis: Array  # (..., s, 3): directions of the shafts
+    across: Array  # (..., s, 2, 3): two directions across each shaft
+    length: Array  # (..., s) [m]: lengths of the shafts
+    force: Array  # force, couple (..., s, u, 3): on every shaft, of every unknown
+    couple: Array  # (..., s, u, 3)
+    place: Array  # (..., s, u) [m]: where it acts, from the beginning of the shaft on
+    cut: dict[int, Array]  # dict from int to array (...) [m]: places of splines by their shaft, counted from 0
 
 
 def actions(axis: Array, length: Array, layout: Layout, position: Array, cut: Array | None = None) -> Actions:
     """Return the unknowns as forces and couples on the shafts.
 
-    Parameters
-    ----------
-    axis : array (..., n+1, 3)
-        Directions e_i of the shafts along the power flow.
-    length : array (..., n+1) [m]
-        Lengths of the shafts.
-    layout : Layout
-        What holds what.
-    position : array (..., k) [m]
-        Places of the bearings from the beginning of their shafts on; they may lie beyond the ends.
-    cut : array (..., number of splines) [m], optional
-        Places of the splines; the middle of the shafts when not given.
+    axis (..., n+1, 3): directions e_i of the shafts along the power flow; length (..., n+1) [m].
+    position (..., k) [m]: places of the bearings from the beginning of their shafts on; they may lie beyond the ends.
+    cut (..., number of splines) [m]: places of the splines; the middle of the shafts when not given.
     """
     xp = namespace(axis, length, position)
     n = layout.joints
@@ -145,8 +110,6 @@ def actions(axis: Array, length: Array, layout: Layout, position: Array, cut: Ar
 def balance(acting: Actions) -> Array:
     """Return the matrix of the balance of every shaft, array (..., 5 s + splines, u).
 
-    Notes
-    -----
     Rows of each shaft: forces along its two cross directions and along its axis, moments about the two directions
     through its beginning, these over the mean length of the shafts so that all rows are of order one. A spline parts
     the balance along the axis: the part behind it comes as a row of its own at the end.
@@ -174,16 +137,9 @@ def balance(acting: Actions) -> Array:
 def shaft_flexibility(acting: Actions, bending: Array, stretching: Array, stretch_start: Array | None = None) -> Array:
     """Return how shafts give way to the unknowns, array (..., u, u) [m/N].
 
-    Parameters
-    ----------
-    acting : Actions
-        The unknowns.
-    bending : array (..., n+1, s) [1/(N m²)]
-        1/EI of each stretch of each shaft; 0 where it is rigid.
-    stretching : array (..., n+1, s) [1/N]
-        1/EA of each stretch of each shaft; 0 where it is rigid.
-    stretch_start : array (..., n+1, s) [m], optional
-        Where each stretch begins, from the beginning of its shaft.
+    bending (..., n+1, s) [1/(N m²)]: 1/EI of each stretch of each shaft; 0 where it is rigid.
+    stretching (..., n+1, s) [1/N]: 1/EA of each stretch of each shaft; 0 where it is rigid.
+    stretch_start (..., n+1, s) [m]: where each stretch begins, from the beginning of its shaft.
     """
     xp = namespace(acting.force)
     total = 0.0

@@ -15,22 +15,10 @@ from .turn_loads import lean
 def kind_arms(chain: Chain, axis: Array, normal: Array, found: Motion) -> tuple[Array, Array, Array]:
     """Return arms or marks of the joints of a chain of mixed kinds, and the directions of their couples.
 
-    Parameters
-    ----------
-    chain : Chain (..., n)
-        With its laws.
-    axis, normal : arrays (..., n+1, 3), (..., n, 3)
-        Directions of the shafts, and normals of the joints' planes.
-    found : Motion (..., p)
-        How it turns.
-
-    Returns
-    -------
-    driving, driven, way : arrays (..., p, n, 3)
-        Unit vectors.
-
-    Notes
-    -----
+    chain (..., n): with its laws.
+    axis, normal (..., n+1, 3), (..., n, 3): directions of the shafts, and normals of the joints' planes.
+    found (..., p).
+    Returns driving, driven, way (..., p, n, 3): unit vectors.
     The couple of a joint without a cross is along (1, (1 - i cos α)/sin α, -f_α) in (e, N×e, N), see
     `cardan.questions.forces.turn_loads.across`: the bisector of e and e' where the joint is even.
     """

@@ -24,29 +24,19 @@ STILL = 1e-12
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Stand:
-    """How shafts and crosses stand and turn; the leading axes are those of the drives, then that of the positions.
+    """How shafts and crosses stand and turn; the leading axes are those of the drives, then that of the positions."""
 
-    Attributes
-    ----------
-    axis : array (..., p or 1, n+1, 3)
-        Directions e_i of the shafts.
-    axis_rate, axis_acceleration : array (p, n+1, 3) [1/s, 1/s²] or None
-        ė_i and ë_i; None where the axes stand still.
-    speed, acceleration : arrays (..., p, n+1) [rad/s, rad/s²]
-        ω_i, ε_i about the axes.
-    driving_arm, driven_arm : arrays (..., p, n, 3)
-        u_i, v_{i+1}: arms of the crosses in the driving and the driven yoke, or marks of joints without a cross.
-    way : array (..., p, n, 3) or None
-        Directions of the couples that the joints pass on; None where all are normals u×v of crosses.
-    """
-
-    axis: Array
+    axis: Array  # (..., p or 1, n+1, 3): directions e_i of the shafts
+    # axis_rate, axis_acceleration (p, n+1, 3) [1/s, 1/s²]: ė_i and ë_i; None where the axes stand still
     axis_rate: Array | None
-    axis_acceleration: Array | None
-    speed: Array
-    acceleration: Array
+    axis_acceleration: Array | None  # (p, n+1, 3) [1/s²]
+    speed: Array  # speed, acceleration (..., p, n+1) [rad/s, rad/s²]: ω_i, ε_i about the axes
+    acceleration: Array  # (..., p, n+1) [rad/s²]
+    # driving_arm, driven_arm (..., p, n, 3): u_i, v_{i+1}: arms of the crosses in the driving and the driven yoke, or
+    # marks of joints without a cross
     driving_arm: Array
-    driven_arm: Array
+    driven_arm: Array  # (..., p, n, 3)
+    # (..., p, n, 3): directions of the couples that the joints pass on; None where all are normals u×v of crosses
     way: Array | None = None
 
     def couple_way(self, i: int) -> Array:
@@ -73,37 +63,22 @@ class Stand:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Couples:
-    """Torques and couples; the leading axes are those of the drives, then that of the positions.
+    """Torques and couples; the leading axes are those of the drives, then that of the positions."""
 
-    Attributes
-    ----------
-    shaft_torque : array (..., p, n+1) [N·m]
-        τ_i, torque that must enter each shaft; the first one is the torque at the input.
-    joint_torque : array (..., p, n) [N·m]
-        T_i, part of the couple along the normal of each cross, on the driven yoke.
-    driving_torque : array (..., p, n) [N·m]
-        The same part on the side of the driving yoke; the two differ by what turns the cross.
-    driving, driven : arrays (..., p, n, 3) [N·m]
-        K_i⁻, couple of the driving yoke on the cross, and K_i⁺, of the cross on the driven yoke.
-    secondary : array (..., p, n+1, 3) [N·m]
-        S_i, couple across each shaft that its supports and the joint forces have to balance.
-    loss : array (..., p, n) [W]
-        Power lost in the journals of each joint.
-    power : array (..., p) [W]
-        What the power balance leaves.
-    flow : array (..., p) [W]
-        Largest power in that balance, to judge what is left by.
-    """
-
+    # (..., p, n+1) [N·m]: τ_i, torque that must enter each shaft; the first one is the torque at the input
     shaft_torque: Array
-    joint_torque: Array
+    joint_torque: Array  # (..., p, n) [N·m]: T_i, part of the couple along the normal of each cross, on the driven yoke
+    # (..., p, n) [N·m]: the same part on the side of the driving yoke; the two differ by what turns the cross
     driving_torque: Array
+    # driving, driven (..., p, n, 3) [N·m]: K_i⁻, couple of the driving yoke on the cross, and K_i⁺, of the cross on the
+    # driven yoke
     driving: Array
-    driven: Array
+    driven: Array  # (..., p, n, 3) [N·m]
+    # (..., p, n+1, 3) [N·m]: S_i, couple across each shaft that its supports and the joint forces have to balance
     secondary: Array
-    loss: Array
-    power: Array
-    flow: Array
+    loss: Array  # (..., p, n) [W]: power lost in the journals of each joint
+    power: Array  # (..., p) [W]: what the power balance leaves
+    flow: Array  # (..., p) [W]: largest power in that balance, to judge what is left by
 
 
 def standing(
@@ -111,21 +86,9 @@ def standing(
 ) -> Stand:
     """Return how drives whose axes stand still turn.
 
-    Parameters
-    ----------
-    chain : Chain (...)
-        Yoke angles and start phase.
-    axis : array (..., n+1, 3)
-        Directions of the shafts.
-    normal : array (..., n, 3)
-        Normals N_i of the joints' planes; the first one fixes the zero of φ_1.
-    angle : array (p,) [rad]
-        φ_1 from the start position.
-    speed, acceleration : float or array (...) [rad/s, rad/s²]
-        ω_1, ε_1.
-
-    Notes
-    -----
+    chain (...): yoke angles and start phase; axis (..., n+1, 3): directions of the shafts.
+    normal (..., n, 3): normals N_i of the joints' planes; the first one fixes the zero of φ_1.
+    angle (p,) [rad]: φ_1 from the start position; speed, acceleration (...) [rad/s, rad/s²]: ω_1, ε_1.
     The exact step u_1 = rot(e_1, φ_1+ψ_1) (N_1×e_1), v_{i+1} = unit(e_{i+1}×u_i), u_i = rot(e_i, -γ_i) v_i; joints of
     other kinds turn by their laws.
     """
@@ -190,17 +153,8 @@ def swinging(axes: tuple[Array, Array, Array], spins: Spins) -> Stand:
 def couples(train: Train, stand: Stand, load: Array) -> Couples:
     """Return torques and couples of all shafts, backwards from the load.
 
-    Parameters
-    ----------
-    train : Train (...)
-        Masses and friction.
-    stand : Stand (..., p)
-        How shafts and crosses stand and turn.
-    load : array (..., p) [N·m]
-        Torque that resists the output shaft, positive when it resists positive turning.
-
-    Notes
-    -----
+    train (...): masses and friction; stand (..., p): how shafts and crosses stand and turn.
+    load (..., p) [N·m]: torque that resists the output shaft, positive when it resists positive turning.
     With h = Ḣ of the cross: T⁺ = [τ_{i+1} + (h·u)(u·e_{i+1})]/(n·e_{i+1}), K⁺ = T⁺ n - (h·u) u, K⁻ = K⁺ + h,
     τ_i = K⁻·e_i + L_i + J_i ε_i. Friction of the journals adds -κ|T| sgn(p) u + κ|T| sgn(q) v to both couples, p and q
     the rates of the cross against the driving and of the driven yoke against the cross; where one of them changes its
@@ -271,17 +225,8 @@ def couples(train: Train, stand: Stand, load: Array) -> Couples:
 def resisted(train: Train, stand: Stand, drive: Array) -> Array:
     """Return the torque at the output that a torque at the input holds, array (..., p) [N·m].
 
-    Parameters
-    ----------
-    train : Train (...)
-        Masses and friction, no joint locked.
-    stand : Stand (..., p)
-        How shafts and crosses stand and turn.
-    drive : array (..., p) [N·m]
-        Torque that drives the input shaft.
-
-    Notes
-    -----
+    train (...): masses and friction, no joint locked; stand (..., p): how shafts and crosses stand and turn.
+    drive (..., p) [N·m]: torque that drives the input shaft.
     The equations of `couples` from their other end: friction leaves the couple of each cross the sign of the torque
     that its driving shaft passes on.
     """
@@ -330,8 +275,6 @@ class _CrossSwing:
 def _cross_swing(train: Train, stand: Stand, i: int, arms: tuple[Array, Array, Array]) -> _CrossSwing | None:
     """Return how cross i turns and what that takes; None where its inertia does not count.
 
-    Notes
-    -----
     Ω_c = Ω_i + p u with p = (Ω_{i+1} - Ω_i)·u; Ω̇_c = Ω̇_i + ṗ u + p Ω_i×u. u, v and n are principal axes that turn
     with the cross, so Euler's equations give Ḣ.
     """

@@ -13,54 +13,28 @@ from .held import Actions, Layout, balance
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Crosses:
-    """Where the crosses stand, and how they turn with the input; the axes (...) are those of drives and positions.
+    """Where the crosses stand, and how they turn with the input; the axes (...) are those of drives and positions."""
 
-    Attributes
-    ----------
-    driving, driven : arrays (..., n, 3)
-        Arms u_i and v_{i+1}.
-    driving_rate, driven_rate : arrays (..., n, 3) [1/rad]
-        Their derivatives by φ_1.
-    """
-
-    driving: Array
-    driven: Array
-    driving_rate: Array
-    driven_rate: Array
+    driving: Array  # driving, driven (..., n, 3): arms u_i and v_{i+1}
+    driven: Array  # (..., n, 3)
+    driving_rate: Array  # driving_rate, driven_rate (..., n, 3) [1/rad]: their derivatives by φ_1
+    driven_rate: Array  # (..., n, 3) [1/rad]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Misfit:
-    """Forces that balance themselves; the axes (...) are those of drives and positions.
+    """Forces that balance themselves; the axes (...) are those of drives and positions."""
 
-    Attributes
-    ----------
-    unknowns : array (..., u) [N]
-        Joint forces and what the bearings hold, in the order of the layout; couples in N·m.
-    energy : array (...) [J]
-        What bending and pressing the parts together has stored.
-    torque : array (...) [N·m]
-        Torque the input needs beside all others to turn against that energy, without friction.
-    """
-
-    unknowns: Array
-    energy: Array
-    torque: Array
+    unknowns: Array  # (..., u) [N]: joint forces and what the bearings hold, in the order of the layout; couples in N·m
+    energy: Array  # (...) [J]: what bending and pressing the parts together has stored
+    torque: Array  # (...) [N·m]: torque the input needs beside all others to turn against that energy, without friction
 
 
 def crosses(axis: Array, driving: Array, driven: Array) -> Crosses:
     """Return the arms of the crosses with their rates.
 
-    Parameters
-    ----------
-    axis : array (..., n+1, 3)
-        Directions e_i of the shafts.
-    driving, driven : arrays (..., n, 3)
-        Arms u_i and v_{i+1}.
-
-    Notes
-    -----
-    An arm turns with its shaft: u_i' = (ω_i/ω_1) e_i×u_i; ω_{i+1}/ω_i = (e_i·e_{i+1})/\\|e_{i+1}×u_i\\|².
+    axis (..., n+1, 3): directions e_i of the shafts; driving, driven (..., n, 3): arms u_i and v_{i+1}.
+    An arm turns with its shaft: u_i' = (ω_i/ω_1) e_i×u_i; ω_{i+1}/ω_i = (e_i·e_{i+1})/|e_{i+1}×u_i|².
     """
     xp = namespace(axis, driving)
     whole = 0.0 * driving
@@ -82,27 +56,12 @@ def crosses(axis: Array, driving: Array, driven: Array) -> Crosses:
 def joint_gap(axis: Array, normal: Array, arms: Crosses, error: Array) -> tuple[Array, Array]:
     """Return how far shaft i+1 is off its place in the centre of joint i, before anything gives way.
 
-    Parameters
-    ----------
-    axis : array (..., n+1, 3)
-        Directions e_i of the shafts.
-    normal : array (..., n, 3)
-        Normals N_i of the joints' planes.
-    arms : Crosses
-        Where the crosses stand.
-    error : array (..., n, 5) [m]
-        s_1, a_1, a_2, a_3, a_4 of each joint.
+    axis (..., n+1, 3): directions e_i of the shafts; normal (..., n, 3): normals N_i of the joints' planes.
+    arms: where the crosses stand; error (..., n, 5) [m]: s_1, a_1, a_2, a_3, a_4 of each joint.
+    Returns gap (..., n, 3) [m]: s_1 z_1 + a_1 x_2 + a_2 x_3 + a_3 x_4 + a_4 x_1 of the loop of axes shaft, journals,
+    journals, shaft: where the end of the parts of shaft i lies, seen from the end of shaft i+1; rate
+    (..., n, 3) [m/rad]: its derivative by φ_1.
 
-    Returns
-    -------
-    gap : array (..., n, 3) [m]
-        s_1 z_1 + a_1 x_2 + a_2 x_3 + a_3 x_4 + a_4 x_1 of the loop of axes shaft, journals, journals, shaft: where
-        the end of the parts of shaft i lies, seen from the end of shaft i+1.
-    rate : array (..., n, 3) [m/rad]
-        Its derivative by φ_1.
-
-    Notes
-    -----
     The common normals of the ideal loop are x_2 = -e_i×u_i, x_3 = u_i×v_{i+1}, x_4 = e_{i+1}×v_{i+1}, x_1 = -N_i:
     the cross turns, x_1 stands still. With the errors free to slide this gap is what the pairs take up, -(s_2 z_2 +
     s_3 z_3 + s_4 z_4), Book (171). Errors of angles change it in the second order only.
@@ -119,14 +78,7 @@ def joint_gap(axis: Array, normal: Array, arms: Crosses, error: Array) -> tuple[
 def sliding(layout: Layout, arms: Crosses, *, rate: bool = False) -> Array | None:
     """Return the conditions that no force acts along journals that slide, array (..., slides, u); None without any.
 
-    Parameters
-    ----------
-    layout : Layout
-        What slides.
-    arms : Crosses
-        Where the crosses stand.
-    rate : bool
-        The derivatives by φ_1 instead.
+    arms: where the crosses stand; rate: the derivatives by φ_1 instead.
     """
     xp = namespace(arms.driving)
     count = len(layout.unknowns)
@@ -157,23 +109,10 @@ def misfit(
 ) -> Misfit:
     """Return the forces that parts which do not fit put on each other.
 
-    Parameters
-    ----------
-    acting : Actions
-        The unknowns; its arrays have the axes of the drives, and one or none for the positions.
-    layout : Layout
-        What holds what.
-    arms : Crosses
-        Where the crosses stand, (..., n, 3).
-    compliance : array (..., u, u) [m/N]
-        How bearings and shafts give way.
-    gap : (array (..., n, 3) [m], array (..., n, 3) [m/rad])
-        What is off in the joints, and its derivative by φ_1.
-    housing : array (..., u) [m]
-        How far each bearing's housing is off in the direction of its unknown; 0 for the joints.
-
-    Notes
-    -----
+    acting: the unknowns; its arrays have the axes of the drives, and one or none for the positions.
+    arms: where the crosses stand, (..., n, 3); compliance (..., u, u) [m/N]: how bearings and shafts give way.
+    gap (array (..., n, 3) [m], array (..., n, 3) [m/rad]): what is off in the joints, and its derivative by φ_1.
+    housing (..., u) [m]: how far each bearing's housing is off in the direction of its unknown; 0 for the joints.
     The stationary value of L = d·X - ½ X·C X - y·A X is the stored energy, so the torque is dU/dφ_1 = X·d' - y·A'X:
     the gaps turn with the crosses, and so do the directions in which they slide.
     """

@@ -63,20 +63,12 @@ VECTORS = (
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Extreme:
-    """Largest and least value of a quantity over a movement; axes (...) are its own but for that of the positions.
+    """Largest and least value of a quantity over a movement; axes (...) are its own but for that of the positions."""
 
-    Attributes
-    ----------
-    low, high : arrays (...)
-        Least and largest value.
-    low_time, high_time : arrays (...) [s]
-        When, the first time.
-    """
-
-    low: Array
-    high: Array
-    low_time: Array
-    high_time: Array
+    low: Array  # low, high (...): least and largest value
+    high: Array  # (...)
+    low_time: Array  # low_time, high_time (...) [s]: when, the first time
+    high_time: Array  # (...) [s]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -30,43 +30,21 @@ class Held(IntEnum):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Load:
-    """Known forces on the shafts, as they act at places of their own.
+    """Known forces on the shafts, as they act at places of their own."""
 
-    Attributes
-    ----------
-    shaft : int
-        Which one, counted from 0.
-    force : array (..., p or 1, 3) [N]
-        The force.
-    place : array (..., p or 1) [m]
-        Where, from the beginning of the shaft.
-    """
-
-    shaft: int
-    force: Array
-    place: Array
+    shaft: int  # which one, counted from 0
+    force: Array  # (..., p or 1, 3) [N]
+    place: Array  # (..., p or 1) [m]: where, from the beginning of the shaft
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Frame:
-    """How a drive is held: its layout and where everything acts; lead axes (..., p or 1).
+    """How a drive is held: its layout and where everything acts; lead axes (..., p or 1)."""
 
-    Attributes
-    ----------
-    layout : Layout
-        What holds what.
-    acting : Actions
-        The unknowns as forces and couples.
-    matrix : array (..., p or 1, rows, unknowns)
-        Balance of the shafts, then no force along journals that slide.
-    points : array (..., p or 1, n+2, 3) [m]
-        B_0 … B_{n+1}.
-    """
-
-    layout: Layout
-    acting: Actions
-    matrix: Array
-    points: Array
+    layout: Layout  # what holds what
+    acting: Actions  # the unknowns as forces and couples
+    matrix: Array  # (..., p or 1, rows, unknowns): balance of the shafts, then no force along journals that slide
+    points: Array  # (..., p or 1, n+2, 3) [m]: B_0 … B_{n+1}
 
     @property
     def slides(self) -> int:
@@ -92,14 +70,7 @@ def layout_of(train: Train) -> Layout:
 def frame(train: Train, stand: Stand, points: Array) -> Frame:
     """Return how a train is held.
 
-    Parameters
-    ----------
-    train : Train (...)
-        Supports and splines.
-    stand : Stand (..., p)
-        How shafts and crosses stand.
-    points : array (..., p or 1, n+2, 3) [m]
-        B_0 … B_{n+1}.
+    train (...): supports and splines; stand (..., p); points (..., p or 1, n+2, 3) [m]: B_0 … B_{n+1}.
     """
     xp = namespace(points)
     layout = layout_of(train)
@@ -130,19 +101,8 @@ def _cut(train: Train) -> Array | None:
 def weights(train: Train, frame: Frame, stand: Stand, acceleration: Array | None) -> list[Load]:
     """Return weight and inertia force of shafts and crosses.
 
-    Parameters
-    ----------
-    train : Train
-        Masses.
-    frame : Frame
-        Where the points lie.
-    stand : Stand
-        How the axes move.
-    acceleration : array (p, n+2, 3) [m/s²] or None
-        Of the points; None where they stand still.
-
-    Notes
-    -----
+    frame: where the points lie.
+    acceleration (p, n+2, 3) [m/s²]: of the points; None where they stand still.
     The weight of a cross counts on its driving shaft, at the joint; a shaft's mass stays at its place from the joint
     before it, on the input shaft from joint 1.
     """
@@ -173,8 +133,6 @@ def weights(train: Train, frame: Frame, stand: Stand, acceleration: Array | None
 def thrusts(train: Train, couples: Couples, sense: Array | None = None) -> Array:
     """Return the friction thrust of every spline, array (..., p, number of splines) [N]; positive pushes apart.
 
-    Notes
-    -----
     2 μ|τ|/d with the torque that enters the shaft, Book (123).
     """
     xp = namespace(couples.shaft_torque)
@@ -225,8 +183,6 @@ def right_side(frame: Frame, secondary: Array, loads: list[Load], thrust: Array)
 def solved(frame: Frame, load: Array) -> tuple[Array, Array]:
     """Return the unknowns of a determinate frame, array (..., p, u), and where it is one, array of bool (..., p or 1).
 
-    Notes
-    -----
     While the axes stand still and no journal slides, the matrix is the same at all positions and is solved once.
     """
     xp = namespace(load)
@@ -275,23 +231,10 @@ def whole_balance(
 ) -> tuple[Array, Array]:
     """Return what external forces and moments on the whole drive leave, over the largest of them.
 
-    Parameters
-    ----------
-    train, frame, stand, couples : Train, Frame, Stand, Couples
-        The drive and its state.
-    loads : list of Load
-        Weights and inertia forces.
-    held : (array (..., p, k, 3) [N], array (..., p, k, 3) [N·m])
-        Forces and couples of the supports.
-    output : array (..., p) [N·m]
-        Torque that resists the output.
-
-    Returns
-    -------
-    force, moment : arrays (..., p)
-
-    Notes
-    -----
+    train, frame, stand, couples: the drive and its state; loads: weights and inertia forces.
+    held (array (..., p, k, 3) [N], array (..., p, k, 3) [N·m]): forces and couples of the supports.
+    output (..., p) [N·m]: torque that resists the output.
+    Returns force, moment (..., p).
     Sums over the whole drive about joint 1, from the results alone: torque at both ends and along the shafts, support
     forces and couples, weights, and what turning masses need. Joint forces do not appear: they are internal.
     """

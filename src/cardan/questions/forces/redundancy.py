@@ -26,58 +26,22 @@ MOST_TRIALS = 1024
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Redundancy:
-    """How far a drive is statically indeterminate, and where.
+    """How far a drive is statically indeterminate, and where."""
 
-    Attributes
-    ----------
-    degree : int
-        How many forces and couples the balance of the shafts leaves open.
-    strained : tuple of (int, Hold)
-        Bearings, counted from 0, and what of them misfit can load.
-    spare : tuple of (int, Hold)
-        What could be let go all at once without setting anything free: the components too many. Another choice among
-        `strained` may do as well.
-    """
-
-    degree: int
-    strained: tuple[tuple[int, Hold], ...] = ()
+    degree: int  # how many forces and couples the balance of the shafts leaves open
+    strained: tuple[tuple[int, Hold], ...] = ()  # bearings, counted from 0, and what of them misfit can load
+    # what could be let go all at once without setting anything free: the components too many. Another choice among
+    # `strained` may do as well.
     spare: tuple[tuple[int, Hold], ...] = ()
 
 
 def redundancy(matrix: Array, layout: Layout, *, field: str = "supports") -> Redundancy:
     """Return what of the bearings is too many.
 
-    Parameters
-    ----------
-    matrix : array (m, u) or (p, m, u)
-        Balance of the shafts, at one position or at several.
-    layout : Layout
-        What holds what.
-    field : str
-        What an error names.
-
-    Raises
-    ------
-    InputError
-        A shaft is free to move; the message says which, and how.
-
-    Notes
-    -----
+    matrix (m, u) or (p, m, u): balance of the shafts, at one position or at several.
     Degree = unknowns - rank A, loose = equations - rank A; statics of rigid shafts. A force state that balances itself
     is a null vector of A: what has a share in it can be loaded by misfit. A shaft that can move without a bearing
     giving way is a null vector of Aᵀ.
-
-    Examples
-    --------
-    >>> from cardan.questions.forces.held import actions, balance
-    >>> import numpy as np
-    >>> layout = Layout(joints=1, bearings=((0, ("radial", "axial")), (0, ("radial",)), (1, ("radial", "axial"))))
-    >>> axis = np.asarray([[1.0, 0, 0], [0.8, 0.6, 0]])
-    >>> found = redundancy(balance(actions(axis, np.ones(2), layout, np.asarray([0.2, 0.8, 0.5]))), layout)
-    >>> found.degree, found.spare
-    (1, ((2, 'axial'),))
-    >>> found.strained
-    ((0, 'radial'), (0, 'axial'), (1, 'radial'), (2, 'axial'))
     """
     rows = np.reshape(matrix, (-1, *matrix.shape[-2:]))
     open_, unmet = surplus(rows)

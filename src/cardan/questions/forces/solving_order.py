@@ -23,21 +23,8 @@ LOOK = 8
 def reaction_groups(drive: Drive) -> tuple[tuple[int, ...], ...]:
     """Return the groups of shafts in whose order the reactions of a drive can be found.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive with its supports.
-
-    Returns
-    -------
-    tuple of tuple of int
-        Numbers of the shafts of each group; empty where supports miss, or do not hold the drive just enough.
-
-    Examples
-    --------
-    >>> from cardan import example
-    >>> reaction_groups(example("truck-supports"))
-    ((3,), (4,), (2,), (1,))
+    drive: the drive with its supports.
+    Returns: numbers of the shafts of each group; empty where supports miss, or do not hold the drive just enough.
     """
     if not drive.supports:
         return ()
@@ -54,33 +41,14 @@ def reaction_groups(drive: Drive) -> tuple[tuple[int, ...], ...]:
 def solving_order(matrix: Array, layout: Layout) -> tuple[tuple[int, ...], ...]:
     """Return the groups of shafts whose forces can be found one after the other, each group by itself.
 
-    Parameters
-    ----------
-    matrix : array (p, m, m) or (m, m)
-        Balance of the shafts of a drive held just enough, at one position or at several; then the conditions that no
-        force acts along journals that slide.
-    layout : Layout
-        What holds what.
+    matrix (p, m, m) or (m, m): balance of the shafts of a drive held just enough, at one position or at several; then
+    the conditions that no force acts along journals that slide.
+    Returns: numbers of the shafts of each group. The forces on a group follow from its own balance and from those of
+    the groups before it; the last group is, as a rule, the one that is driven.
 
-    Returns
-    -------
-    tuple of tuple of int
-        Numbers of the shafts of each group. The forces on a group follow from its own balance and from those of the
-        groups before it; the last group is, as a rule, the one that is driven.
-
-    Notes
-    -----
     Book p. 148-150 takes statically determinate groups away from the far end of the drive: a shaft with the cross
     before it is a group of two links and three pairs (Fig. 67), two of them a group of four links and five pairs
     (Fig. 69). Smallest groups first, those farther from the input before others.
-
-    Examples
-    --------
-    >>> from cardan.questions.forces.held import actions, balance
-    >>> layout = Layout(joints=1, bearings=((0, ("radial", "axial")), (0, ("radial",)), (1, ("radial",))))
-    >>> axis = np.asarray([[1.0, 0, 0], [0.8, 0.6, 0]])
-    >>> solving_order(balance(actions(axis, np.ones(2), layout, np.asarray([0.2, 0.8, 0.5]))), layout)
-    ((2,), (1,))
     """
     rows = np.reshape(matrix, (-1, *matrix.shape[-2:]))
     left, known, found = list(range(layout.joints + 1)), set[int](), []

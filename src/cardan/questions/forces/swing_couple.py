@@ -12,18 +12,10 @@ from cardan.questions.motion.moving_chain import Spins, moving_axes
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SwingCouple:
-    """Couples that the shaft puts on what holds it while its axis swings, both across the axis.
+    """Couples that the shaft puts on what holds it while its axis swings, both across the axis."""
 
-    Attributes
-    ----------
-    gyroscopic : array (..., 3) [N·m]
-        -J ω ė, Book (125).
-    transverse : array (..., 3) [N·m]
-        -I_t e×ë.
-    """
-
-    gyroscopic: Array
-    transverse: Array
+    gyroscopic: Array  # (..., 3) [N·m]: -J ω ė, Book (125)
+    transverse: Array  # (..., 3) [N·m]: -I_t e×ë
 
     @property
     def whole(self) -> Array:
@@ -71,23 +63,9 @@ def parallel_ends(
 ) -> tuple[Jet, Spins]:
     """Return axes and spins of a double joint in a plane whose end shafts stay parallel while its joint angles swing.
 
-    Parameters
-    ----------
-    joint_angle : Jet (...) [rad, rad/s, rad/s²]
-        α of joint 1; joint 2 bends back by as much.
-    angle : array (...) [rad]
-        φ_1 from the plane of the joints.
-    speed : float or array (...) [rad/s]
-        ω_1.
-    yoke_angle : float [rad]
-        γ_2.
-
-    Returns
-    -------
-    axes : Jet (..., 3, 3)
-        Directions of the three shafts.
-    spins : Spins
-        Their spins.
+    joint_angle (...) [rad, rad/s, rad/s²]: α of joint 1; joint 2 bends back by as much.
+    angle (...) [rad]: φ_1 from the plane of the joints; speed (...) [rad/s]: ω_1; yoke_angle [rad]: γ_2.
+    Returns axes (..., 3, 3): directions of the three shafts.
     """
     xp = namespace(joint_angle[0])
     alpha, rate, curve = (real(part, xp) for part in joint_angle)

@@ -27,10 +27,7 @@ ROUNDING = 1e-9
 def senses(found: Forces) -> tuple[Forces, ...]:
     """Return the forces, and those with the splines sliding back where that differs.
 
-    Parameters
-    ----------
-    found : Forces
-        Of one drive.
+    found: of one drive.
     """
     return (found,) if found.reverse is None else (found, found.reverse)
 
@@ -38,8 +35,6 @@ def senses(found: Forces) -> tuple[Forces, ...]:
 def tidy(values: Any) -> Array:
     """Return values with what is nothing but rounding set to zero.
 
-    Examples
-    --------
     >>> tidy([1.0, 1e-15]).tolist()
     [1.0, 0.0]
     """
@@ -61,8 +56,6 @@ def size(vectors: Any) -> Array:
 def from_start(angle: float) -> float:
     """Return an input angle [rad] within a turn to 1e-9 degrees, as exactly as extremes are found; a whole turn is 0.
 
-    Examples
-    --------
     >>> from_start(2.0 * math.pi - 1e-13), round(from_start(0.5), 9)
     (0.0, 0.5)
     """
@@ -78,8 +71,6 @@ def along_axis(found: Forces) -> Array:
 def together(names: Sequence[str], places: Sequence[int]) -> Joined:
     """Return the parts at some places, counted from 0, as a sentence names them.
 
-    Examples
-    --------
     >>> from cardan.answers.reader import USUAL
     >>> together(["left", "right", ""], [1, 2]).told(USUAL)
     '2 (right) and 3'

@@ -32,25 +32,15 @@ LONGEST = 12
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TurnLoads:
-    """Loads of drives over a turn, masses and friction not counted; leading axes (...) are those of the drives.
+    """Loads of drives over a turn, masses and friction not counted; leading axes (...) are those of the drives."""
 
-    Attributes
-    ----------
-    low, high : arrays (..., n+1) [N·m]
-        Least and largest torque of each shaft, counted along its mean.
-    couple : array (..., n) [N·m]
-        Largest couple of each cross; over the span it is the load of a journal.
-    driving, driven : arrays (..., n) [N·m]
-        Largest secondary couple of each joint on its driving and on its driven shaft.
-    mises : array (..., n+1) [N·m]
-        Largest √(4 M_b² + 3 T²) at either end of each shaft: over W_t it is the stress by von Mises.
-    """
-
-    low: Array
-    high: Array
-    couple: Array
+    low: Array  # low, high (..., n+1) [N·m]: least and largest torque of each shaft, counted along its mean
+    high: Array  # (..., n+1) [N·m]
+    couple: Array  # (..., n) [N·m]: largest couple of each cross; over the span it is the load of a journal
+    # driving, driven (..., n) [N·m]: largest secondary couple of each joint on its driving and on its driven shaft
     driving: Array
-    driven: Array
+    driven: Array  # (..., n) [N·m]
+    # (..., n+1) [N·m]: largest √(4 M_b² + 3 T²) at either end of each shaft: over W_t it is the stress by von Mises
     mises: Array
 
     @property
@@ -150,20 +140,9 @@ def turn_loads(
 def across(laws: Laws, theta: Array, ratio: Array) -> tuple[Array, Array]:
     """Return what a joint of any kind bends its shafts with, over the torque of its driving shaft.
 
-    Parameters
-    ----------
-    laws : Laws (..., n)
-        The joints.
-    theta, ratio : arrays (..., n, p) [rad, 1]
-        Angles of their driving marks, and the speed ratio i of each joint.
-
-    Returns
-    -------
-    driving, driven : arrays (..., n, p)
-        Couples across the driving and the driven shaft.
-
-    Notes
-    -----
+    laws (..., n).
+    theta, ratio (..., n, p) [rad, 1]: angles of their driving marks, and the speed ratio i of each joint.
+    Returns driving, driven (..., n, p): couples across the driving and the driven shaft.
     A joint holds one turn of the driven shaft against the driving one, φ' = f(φ, α). No couple that it carries works on
     a motion it allows: on turning, i e' - e, and on bending, N + f_α e'. So the couple is
     (e, N×e, N): T (1, (1 - i cos α)/(i sin α), -f_α/i), and across the driven shaft ((cos α - i)/(i sin α), f_α/i) T:
@@ -181,17 +160,8 @@ def across(laws: Laws, theta: Array, ratio: Array) -> tuple[Array, Array]:
 def lean(theta: Array, ratio: Array, joint_angle: Array, steepness: Array, growth: Array) -> tuple[Array, Array]:
     """Return the parts of a joint's couple along N×e and against N, over that along e, arrays like ``theta``.
 
-    Parameters
-    ----------
-    theta : array [rad]
-        Angle of the driving mark.
-    ratio : array
-        Speed ratio of the joint.
-    joint_angle, steepness, growth : arrays
-        α, κ and dκ/dα, in the shape of the angles.
-
-    Notes
-    -----
+    theta [rad]: angle of the driving mark; ratio: speed ratio of the joint.
+    joint_angle, steepness, growth: α, κ and dκ/dα, in the shape of the angles.
     (1 - i cos α)/(i sin α) = tan(α/2) - (i - 1)/(i sin α), and f_α/i with f = arctan(κ tan θ).
     """
     sine, cosine, bent = np.sin(theta), np.cos(theta), np.sin(joint_angle)
@@ -203,13 +173,7 @@ def lean(theta: Array, ratio: Array, joint_angle: Array, steepness: Array, growt
 def at_joint_angle(chain: Chain, joint_angle: Array, joints: Sequence[Joint]) -> Chain:
     """Return a chain with other joint angles of its joints, array (..., n) [rad], its planes and yokes as they are.
 
-    Parameters
-    ----------
-    chain : Chain (..., n)
-        As the joints are given, not as they turn.
-    joint_angle : array (..., n) [rad]
-    joints : sequence of n Joint
-        Their kinds.
+    chain (..., n): as the joints are given, not as they turn; joint_angle (..., n) [rad].
     """
     wide = np.broadcast_shapes(joint_angle.shape, chain.joint_angle.shape)
     return turning(replace(chain, joint_angle=np.broadcast_to(joint_angle, wide)), joints, near=True)

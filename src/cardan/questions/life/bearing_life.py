@@ -54,19 +54,12 @@ POINTS = 96
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class BearingLife:
-    """Life L_10 of the bearings of a joint, arrays (...) [s].
+    """Life L_10 of the bearings of a joint, arrays (...) [s]."""
 
-    Attributes
-    ----------
-    simple : array (...)
-        By the mean load M/(2R) and a travel of 4α a turn.
-    driving, driven : arrays (...)
-        Of the bearings in the driving and in the driven yoke, by the exact integral over the turn.
-    """
-
-    simple: Array
+    simple: Array  # (...): by the mean load M/(2R) and a travel of 4α a turn
+    # driving, driven (...): of the bearings in the driving and in the driven yoke, by the exact integral over the turn
     driving: Array
-    driven: Array
+    driven: Array  # (...)
 
     @property
     def worst(self) -> Array:
@@ -123,28 +116,10 @@ def bearing_life(
 def swing_damage(joint_angle: ArrayLike, *, torque_at: str) -> tuple[Array, Array]:
     """Return the damage of a turn in the bearings of the driving and of the driven yoke, for Q = C at the mean load.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        0 ≤ α < π/2.
-    torque_at : str
-        Where the torque is constant, ``input`` or ``output``.
-
-    Returns
-    -------
-    tuple of arrays (...)
-        (1/2π) ∮ \\|dδ/dφ\\| (2R Q/M)^(10/3) dφ; both are 2α/π for small bends.
-
-    Notes
-    -----
+    joint_angle (...) [rad]: 0 ≤ α < π/2; torque_at: where the torque is constant, ``input`` or ``output``.
+    Returns tuple of arrays (...): (1/2π) ∮ |dδ/dφ| (2R Q/M)^(10/3) dφ; both are 2α/π for small bends.
     Taken over the swing δ itself the load is 1/cos δ in the yoke beside the constant torque and cos δ/cos α in the
     other one: (2/π) ∫_0^α (1/cos δ)^p dδ and (2/π) ∫_0^α (cos δ/cos α)^p dδ. With δ = gd(x) both are smooth up to 90°.
-
-    Examples
-    --------
-    >>> driving, driven = swing_damage(30 * deg, torque_at="input")
-    >>> print(f"{driving / (2 / 6):.6f} {driven / (2 / 6):.6f}")
-    1.181864 1.394439
     """
     (alpha,) = floats(joint_angle)
     xp = namespace(alpha)
@@ -168,25 +143,13 @@ def maker_life(
 ) -> Array:
     """Return the life of a joint by a maker's formula, constant/(n α)·(rating/M)^(10/3) [s].
 
-    Parameters
-    ----------
-    rating : array (...) [N·m]
-        T_c, rated torque for 5000 h at 3° and 100 rpm, or C R, by the convention.
-    torque : array (...) [N·m]
-        M; infinite life without it.
-    speed : array (...) [rad/s]
-        n, not zero.
-    joint_angle : array (...) [rad]
-        α; below 3° counted as 3°.
-    convention : str
-        A name of `CONVENTIONS`. Constants of makers differ, some by a factor of two: never mix rating and formula.
-    shock : array (...)
-        Factor on the torque.
-
-    Examples
-    --------
-    >>> print(f"{maker_life(1000.0, 1000.0, speed=100 * rpm, joint_angle=3 * deg, convention='Tc') / 3600:.6f} h")
-    5000.000000 h
+    rating (...) [N·m]: T_c, rated torque for 5000 h at 3° and 100 rpm, or C R, by the convention.
+    torque (...) [N·m]: M; infinite life without it.
+    speed (...) [rad/s]: n, not zero.
+    joint_angle (...) [rad]: α; below 3° counted as 3°.
+    convention: a name of `CONVENTIONS`. Constants of makers differ, some by a factor of two: never mix rating and
+    formula.
+    shock (...): factor on the torque.
     """
     rated, load, n, alpha, f = floats(rating, torque, speed, joint_angle, shock)
     xp = namespace(load)
@@ -197,21 +160,10 @@ def maker_life(
 def reliability_factor(reliability: ArrayLike) -> Array:
     """Return a_1, the life that a share of bearings reaches over the life L_10 that 90 % reach.
 
-    Parameters
-    ----------
-    reliability : array (...)
-        Share of bearings that last, in (0, 1).
-
-    Notes
-    -----
+    reliability (...): share of bearings that last, in (0, 1).
     From 90 to 99.95 % the table of ISO 281, between its values along Weibull's law behind it,
     a_1 = 0.05 + 0.95 (ln S/ln 0.9)^(2/3), which goes on beyond. Below 90 % Weibull's law of line contact, slope 9/8:
     half of the bearings reach 5.3 L_10, makers say 5.
-
-    Examples
-    --------
-    >>> print(reliability_factor([0.5, 0.9, 0.95, 0.985, 0.99]).round(3))
-    [5.336 1.    0.64  0.313 0.25 ]
     """
     share = np.asarray(reliability, dtype=float)
     left = np.log(share) / math.log(0.9)

@@ -29,47 +29,23 @@ RESTS = 1e-10
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class BearingLoads:
-    """Loads of the bearings of a drive in some parts of its duty cycle.
+    """Loads of the bearings of a drive in some parts of its duty cycle."""
 
-    Attributes
-    ----------
-    joint_angle : array (b, n) [rad]
-        Bend of each joint.
-    torque : array (b, n) [N·m]
-        Mean torque that enters each joint, over the turning of its driving shaft.
-    couple : array (b, n) [N·m]
-        Largest couple of each cross; over the span it is the load of a journal.
-    driving, driven : arrays (b, n) [(N·m)^(10/3)]
-        Mean of \\|dδ/dφ_1\\| K^(10/3), δ the swing in the driving and in the driven yoke, K the couple of the cross.
-    """
-
-    joint_angle: Array
-    torque: Array
-    couple: Array
+    joint_angle: Array  # (b, n) [rad]: bend of each joint
+    torque: Array  # (b, n) [N·m]: mean torque that enters each joint, over the turning of its driving shaft
+    couple: Array  # (b, n) [N·m]: largest couple of each cross; over the span it is the load of a journal
+    # driving, driven (b, n) [(N·m)^(10/3)]: mean of |dδ/dφ_1| K^(10/3), δ the swing in the driving and in the driven
+    # yoke, K the couple of the cross
     driving: Array
-    driven: Array
+    driven: Array  # (b, n) [(N·m)^(10/3)]
 
 
 def bearing_loads(drive: Drive, machine: Train, duty: Duty, parts: Sequence[LoadCase]) -> BearingLoads:
     """Return what the bearings of a drive go through in each part of a duty cycle.
 
-    Parameters
-    ----------
-    drive : Drive
-    machine : Train
-        Its machine half.
-    duty : Duty
-        Harmonics of the torque, acceleration, and at which end the torque is given.
-    parts : sequence of LoadCase (b,)
-        Torque, speed and bend of each part.
-
-    Raises
-    ------
-    InputError
-        Friction locks a joint.
-
-    Notes
-    -----
+    machine: its machine half; duty: harmonics of the torque, acceleration, and at which end the torque is given.
+    parts, sequence of LoadCase (b,): torque, speed and bend of each part.
+    Raises InputError: friction locks a joint.
     Torques go from the end where they are given through the drive, with the friction of the journals, inertia and
     resisting torques of the shafts where the drive gives them; the means by Gauss's rule between the angles at which
     a cross stops in a yoke.

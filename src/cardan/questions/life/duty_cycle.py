@@ -12,22 +12,9 @@ WHOLE = 1e-4
 def combined_life(life: ArrayLike, share: ArrayLike) -> Array:
     """Return the life in a duty cycle of several parts, Book (268): 100/Σ(N_i/L_i).
 
-    Parameters
-    ----------
-    life : array (..., k) [s]
-        L_i, life if the part ran all the time; infinite where nothing is damaged.
-    share : array (..., k)
-        N_i, share of the time; made to add up to 1.
-
-    Returns
-    -------
-    array (...) [s]
-        Infinite where no part damages; nan where one is unknown.
-
-    Examples
-    --------
-    >>> print(combined_life([1000.0, 4000.0, float("inf")], [0.2, 0.3, 0.5]).round(9))
-    3636.363636364
+    life (..., k) [s]: L_i, life if the part ran all the time; infinite where nothing is damaged.
+    share (..., k): N_i, share of the time; made to add up to 1.
+    Returns (...) [s]: infinite where no part damages; nan where one is unknown.
     """
     lives, shares = floats(life, share)
     xp = namespace(lives)
@@ -38,17 +25,7 @@ def combined_life(life: ArrayLike, share: ArrayLike) -> Array:
 def damage_shares(life: ArrayLike, share: ArrayLike) -> Array:
     """Return which share of the damage each part of a duty cycle does, array (..., k); zeros where nothing is damaged.
 
-    Parameters
-    ----------
-    life : array (..., k) [s]
-        L_i.
-    share : array (..., k)
-        N_i.
-
-    Examples
-    --------
-    >>> print(damage_shares([1000.0, 4000.0], [0.2, 0.8]))
-    [0.5 0.5]
+    life (..., k) [s]: L_i; share (..., k): N_i.
     """
     lives, shares = floats(life, share)
     xp = namespace(lives)
@@ -62,25 +39,9 @@ def equivalent_torque(
 ) -> Array:
     """Return the constant torque that damages bearings as much as a duty cycle, at its mean of speed times bend.
 
-    Parameters
-    ----------
-    torque : array (..., k) [N·m]
-        M_i.
-    share : array (..., k)
-        N_i, shares of the time.
-    speed, joint_angle : arrays (..., k)
-        n_i and α_i, or 1 where they are the same in all parts.
-    power : float
-        Exponent of the life.
-
-    Notes
-    -----
+    torque (..., k) [N·m]: M_i; share (..., k): N_i, shares of the time.
+    speed, joint_angle (..., k): n_i and α_i, or 1 where they are the same in all parts; power: exponent of the life.
     M = [Σ N_i n_i α_i M_i^p/Σ N_i n_i α_i]^(1/p).
-
-    Examples
-    --------
-    >>> print(equivalent_torque([100.0, 200.0], [0.5, 0.5]).round(4))
-    167.1266
     """
     load, shares, n, alpha = floats(torque, share, speed, joint_angle)
     xp = namespace(load)

@@ -41,10 +41,7 @@ def life_figures(found: Life) -> tuple[Figure, ...]:
 def load_figure(found: Life) -> Figure:
     """Return the life of every joint over its loads, and that of the first to fail by each method.
 
-    Parameters
-    ----------
-    found : Life
-        Of a drive whose life is limited.
+    found: of a drive whose life is limited.
     """
     lives = found.loaded(REACH) / HOUR
     curves = tuple(
@@ -117,10 +114,7 @@ def _methods(found: Life) -> Panel:
 def parts_figure(found: Life) -> Figure:
     """Return time and damage of the parts of a duty cycle, in the joint that fails first.
 
-    Parameters
-    ----------
-    found : Life
-        Of a duty cycle with several parts.
+    found: of a duty cycle with several parts.
     """
     damage = 100.0 * found.damage[:, found.governing - 1]
     time = 100.0 * found.share
@@ -173,13 +167,7 @@ def parts_figure(found: Life) -> Figure:
 
 
 def history_figure(found: Life) -> Figure:
-    """Return the time that a measured torque spends at each level, and what it does there.
-
-    Parameters
-    ----------
-    found : Life
-        Of a measured torque.
-    """
+    """Return the time that a measured torque spends at each level, and what it does there."""
     levels = found.history
     assert levels is not None
     spent = levels.share > 0.0

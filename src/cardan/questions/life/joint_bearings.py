@@ -24,31 +24,15 @@ class Missing:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JointBearings:
-    """Bearings of the joints of a drive; nan where the drive does not say.
+    """Bearings of the joints of a drive; nan where the drive does not say."""
 
-    Attributes
-    ----------
-    span : array (n,) [m]
-        d, between the middles of opposite bearings.
-    capacity, static_capacity : arrays (n,) [N]
-        C and C_0 of one bearing.
-    rating : array (n,) [N·m]
-        Torque that the maker names.
-    convention : tuple of str (n,)
-        What it means; empty where there is none.
-    critical_swing : array (n,) [rad]
-        Bend below which needles do not reach their neighbours' tracks.
-    assumed : tuple of str
-        Paths of capacities computed from the needles.
-    """
-
-    span: Array
-    capacity: Array
-    static_capacity: Array
-    rating: Array
-    convention: tuple[str, ...]
-    critical_swing: Array
-    assumed: tuple[str, ...] = ()
+    span: Array  # (n,) [m]: d, between the middles of opposite bearings
+    capacity: Array  # capacity, static_capacity (n,) [N]: C and C_0 of one bearing
+    static_capacity: Array  # (n,) [N]
+    rating: Array  # (n,) [N·m]: torque that the maker names
+    convention: tuple[str, ...]  # tuple of str (n,): what it means; empty where there is none
+    critical_swing: Array  # (n,) [rad]: bend below which needles do not reach their neighbours' tracks
+    assumed: tuple[str, ...] = ()  # paths of capacities computed from the needles
 
     @property
     def rated(self) -> Array:
@@ -59,16 +43,8 @@ class JointBearings:
 def joint_bearings(drive: Drive) -> tuple[JointBearings, tuple[Missing, ...]]:
     """Return the bearings of every joint, and the keys that are missing to rate them by ISO 281.
 
-    Parameters
-    ----------
-    drive : Drive
-
-    Notes
-    -----
     A capacity that is not given follows from the needles by ISO 281 and ISO 76, a full row of one length.
 
-    Examples
-    --------
     >>> from cardan.drive.cross import Cross
     >>> from cardan.drive.joint_parts import Needles
     >>> from cardan.drive.joints import Hooke

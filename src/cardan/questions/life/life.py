@@ -204,15 +204,7 @@ def _worst(rows: Sequence[_Row], method: str) -> list[_Row]:
 def duty_parts(duty: Duty) -> tuple[tuple[LoadCase, ...], Duty, Levels | None, Cycles | None]:
     """Return the parts of a duty cycle, the duty they are of, and the levels and cycles of a measured torque.
 
-    Parameters
-    ----------
-    duty : Duty
-        Its load cases and parts count before its measured torque, and this before its steady torque; peaks do not.
-
-    Raises
-    ------
-    InputError
-        A speed or a torque misses.
+    duty: its load cases and parts count before its measured torque, and this before its steady torque; peaks do not.
     """
     every = load_cases(duty)
     if duty.blocks:

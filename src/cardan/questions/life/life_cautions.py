@@ -30,9 +30,7 @@ HEAVY = 0.5
 def clamped(joint_angle: ArrayLike) -> Array:
     """Tell whether book and makers count a joint angle as 3°, array (...) of bool.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
+    joint_angle (...) [rad].
     """
     (alpha,) = floats(joint_angle)
     return alpha < LEAST_JOINT_ANGLE * (1.0 - ROUNDING)
@@ -41,11 +39,7 @@ def clamped(joint_angle: ArrayLike) -> Array:
 def extrapolated(speed_angle: ArrayLike, life: ArrayLike) -> Array:
     """Tell whether speed times bend or life lie outside the tables of the book, array (...) of bool.
 
-    Parameters
-    ----------
-    speed_angle : array (...) [rad²/s]
-        With the joint angle that the book counts.
-    life : array (...) [s]
+    speed_angle (...) [rad²/s]: with the joint angle that the book counts; life (...) [s].
     """
     return ~(within(speed_angle, SPEED_ANGLE_RANGE) & within(life, LIFE_RANGE))
 

@@ -23,21 +23,11 @@ METHODS = ("iso", "simple", "maker", "book")
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Caution:
-    """Something to mind.
+    """Something to mind."""
 
-    Attributes
-    ----------
-    code : str
-        ``small_oscillation``, ``angle_clamped_3deg``, ``extrapolated``, ``no_swing`` or ``heavy_load``.
-    joint : int
-        Number of the joint; 0 where it is the duty.
-    message : Text
-        In one sentence.
-    """
-
-    code: str
-    joint: int
-    message: Text
+    code: str  # ``small_oscillation``, ``angle_clamped_3deg``, ``extrapolated``, ``no_swing`` or ``heavy_load``
+    joint: int  # number of the joint; 0 where it is the duty
+    message: Text  # in one sentence
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -103,19 +103,8 @@ class Levels:
 def turning_points(values: ArrayLike) -> Array:
     """Return the places of the peaks and troughs of a history, its first and last value included.
 
-    Parameters
-    ----------
-    values : array (t,)
-        The history; on a level stretch the first place counts.
-
-    Returns
-    -------
-    array of int (k,)
-
-    Examples
-    --------
-    >>> turning_points([0.0, 1.0, 1.0, 3.0, 2.0, 2.0, 5.0])
-    array([0, 3, 4, 6])
+    values (t,): the history; on a level stretch the first place counts.
+    Returns (k,) of int.
     """
     series = np.asarray(values, dtype=float)
     kept = np.flatnonzero(np.concatenate(([True], np.diff(series) != 0.0)))

@@ -58,14 +58,7 @@ def lacking(drive: Drive) -> Lacking:
 def answer(drive: Drive, result: Losses, over: LossMap | None = None) -> Answer:
     """Return what there is to say of the power loss of a drive.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-    result : Losses
-        At the speed and torque of its duty.
-    over : LossMap, optional
-        Over other speeds and torques, shown instead of the parts.
+    result: at the speed and torque of its duty; over: over other speeds and torques, shown instead of the parts.
     """
     locked = bool(result.locked)
     trace = _trace(result)

@@ -16,33 +16,19 @@ from cardan.texts import _
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ChainFriction:
-    """What the journals take over a turn at constant torque; leading axes are those of the drives.
+    """What the journals take over a turn at constant torque; leading axes are those of the drives."""
 
-    Attributes
-    ----------
-    efficiency : array (...)
-        Useful work over work put in, over a turn; nan where the drive locks.
-    first_order : array (...)
-        Product of the joints' own efficiencies, friction not acting on itself.
-    driving_loss, driven_loss : arrays (..., n)
-        Mean power lost in the journals in the driving and in the driven yoke of each joint, over the power of the
-        constant torque at the mean speed.
-    residual : array (...)
-        What the power balance misses, over the power of the constant torque: power in, out and lost are integrated
-        apart.
-    locked : array of bool (..., n)
-        Joints that friction holds.
-    status : array of int (...)
-        `cardan.formulas.friction.Turning`.
-    """
-
-    efficiency: Array
-    first_order: Array
+    efficiency: Array  # (...): useful work over work put in, over a turn; nan where the drive locks
+    first_order: Array  # (...): product of the joints' own efficiencies, friction not acting on itself
+    # driving_loss, driven_loss (..., n): mean power lost in the journals in the driving and in the driven yoke of each
+    # joint, over the power of the constant torque at the mean speed
     driving_loss: Array
-    driven_loss: Array
+    driven_loss: Array  # (..., n)
+    # (...): what the power balance misses, over the power of the constant torque: power in, out and lost are integrated
+    # apart
     residual: Array
-    locked: Array
-    status: Array
+    locked: Array  # (..., n) of bool: joints that friction holds
+    status: Array  # (...) of int: `cardan.formulas.friction.Turning`
 
     @property
     def joint_loss(self) -> Array:
@@ -52,37 +38,19 @@ class ChainFriction:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Stance:
-    """How every joint stands and turns at some input angles.
+    """How every joint stands and turns at some input angles."""
 
-    Attributes
-    ----------
-    driving, driven : arrays (..., n, p)
-        tan of the angle of the cross's normal from the driving and from the driven shaft, not negative.
-    ratio : array (..., n+1, p)
-        ω_i/ω_1.
-    """
-
+    # driving, driven (..., n, p): tan of the angle of the cross's normal from the driving and from the driven shaft,
+    # not negative
     driving: Array
-    driven: Array
-    ratio: Array
+    driven: Array  # (..., n, p)
+    ratio: Array  # (..., n+1, p): ω_i/ω_1
 
 
 def stance(chain: Chain, angle: Array) -> Stance:
     """Return how the joints of drives stand at input angles of their own.
 
-    Parameters
-    ----------
-    chain : Chain (...)
-        Kinematics of the drives.
-    angle : array (..., p) [rad]
-        Input angles φ_1, other ones for each drive.
-
-    Returns
-    -------
-    Stance
-
-    Notes
-    -----
+    chain (...): kinematics of the drives; angle (..., p) [rad]: input angles φ_1, other ones for each drive.
     A joint stretches the vector (cos θ, sin θ) to (√cos α cos θ, sin θ/√cos α), whose direction is θ' and whose squared
     length is the inverse speed ratio; between joints the vector turns by μ. The same product as that of Möbius pairs,
     in real numbers.
@@ -105,15 +73,8 @@ def stance(chain: Chain, angle: Array) -> Stance:
 def kinks(chain: Chain) -> Array:
     """Return the input angles at which a cross stops in a yoke and its friction turns about.
 
-    Parameters
-    ----------
-    chain : Chain (...)
-        Kinematics of the drives.
-
-    Returns
-    -------
-    array (..., 2n) [rad]
-        In (-π, π], each good modulo π: where some θ_i is a multiple of π/2.
+    chain (...): kinematics of the drives.
+    Returns (..., 2n) [rad]: in (-π, π], each good modulo π: where some θ_i is a multiple of π/2.
     """
     xp = namespace(chain.joint_angle)
     mu = chain.turn_before

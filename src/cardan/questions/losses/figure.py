@@ -36,37 +36,18 @@ LARGE = 1e4
 
 
 def power(value: float, digits: int = 4) -> Quantity:
-    """Return a power, large ones in kilowatts.
-
-    Examples
-    --------
-    >>> from cardan.answers.reader import USUAL
-    >>> power(694.96, 3).told(USUAL), power(302288.0).told(USUAL)
-    ('695 W', '302.3 kW')
-    """
+    """Return a power, large ones in kilowatts."""
     return Quantity(value, "power", digits, unit="kW" if abs(value) >= LARGE else "")
 
 
 @dataclass(frozen=True, kw_only=True)
 class LossyPart:
-    """A part that loses power.
+    """A part that loses power."""
 
-    Attributes
-    ----------
-    named : str
-        What it is called: ``joint 2 (centre)``.
-    loss : float [W]
-        Its mean over the turns.
-    role : str
-        Its colour, see `palette`.
-    counted : bool
-        Whether the drive file says enough to count it.
-    """
-
-    named: str
-    loss: float
-    role: str
-    counted: bool
+    named: str  # what it is called: ``joint 2 (centre)``
+    loss: float  # [W]: its mean over the turns
+    role: str  # its colour, see `palette`
+    counted: bool  # whether the drive file says enough to count it
 
 
 def losses_figures(found: Losses, drive: Drive | None = None) -> tuple[Figure, ...]:
@@ -77,12 +58,8 @@ def losses_figures(found: Losses, drive: Drive | None = None) -> tuple[Figure, .
 def loss_parts(found: Losses, drive: Drive | None = None) -> list[LossyPart]:
     """Return every part that may lose power: joints, supports, splines.
 
-    Parameters
-    ----------
-    found : Losses
-        Of one drive.
-    drive : Drive, optional
-        For the names of its parts and for its splines; those that lose something when it is not given.
+    found: of one drive.
+    drive: for the names of its parts and for its splines; those that lose something when it is not given.
     """
     return list(_parts(found, drive))
 
@@ -118,12 +95,7 @@ def _short(name: str) -> str:
 def loss_figure(found: Losses, drive: Drive | None = None) -> Figure:
     """Return the power loss of every part, the largest first, and that of the joints over a turn.
 
-    Parameters
-    ----------
-    found : Losses
-        Of one drive.
-    drive : Drive, optional
-        For the names of its parts.
+    found: of one drive; drive: for the names of its parts.
     """
     losing = sorted((one for one in loss_parts(found, drive) if one.loss > 0.0), key=lambda one: -one.loss)
     parts = [(_short(one.named), one.loss, one.role) for one in losing]
@@ -202,10 +174,7 @@ def map_figures(found: LossMap) -> tuple[Figure, ...]:
 def map_figure(found: LossMap) -> Figure:
     """Return efficiency and power loss over the torque, a curve for each of some speeds.
 
-    Parameters
-    ----------
-    found : LossMap
-        Over speed and torque.
+    found: over speed and torque.
     """
     torque = np.asarray(found.torque)
     share, loss = 100.0 * np.asarray(found.efficiency), np.asarray(found.heat)

@@ -47,51 +47,24 @@ class Holding(Protocol):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Model:
-    """What the powers of a drive depend on; speed and torque with any leading axes, the rest of one drive.
+    """What the powers of a drive depend on; speed and torque with any leading axes, the rest of one drive."""
 
-    Attributes
-    ----------
-    chain : Chain
-        Kinematics.
-    drag : array (n,)
-        κ of each joint; zero where it is not known.
-    inertia, resisting : arrays (n+1,) [kg m², N·m]
-        J_i and L_i.
-    speed, torque : arrays (...) [rad/s, N·m]
-        ω_1 and the mean of the torque.
-    acceleration : float [rad/s²]
-        ε_1.
-    torque_at : str
-        ``output`` or ``input``.
-    harmonics : tuple of Harmonic
-        Swinging parts of the torque, for a mean of ``torque_scale``.
-    torque_scale : float [N·m]
-        Torque to which the harmonics belong; zero when they do not grow with it.
-    rub : array (k,) [m]
-        μ_b d_b/2 of each support.
-    on : array of int (k,)
-        Shaft of each support, counted from 0.
-    holding : function or None
-        From input angles (..., p) to how the supports answer there; None when none of them rubs.
-    grip, slide : arrays (n+1,) [1/m, m/s]
-        2 μ/D and the mean sliding speed of the spline of each shaft.
-    """
-
-    chain: Chain
-    drag: Array
-    inertia: Array
-    resisting: Array
-    speed: Array
-    torque: Array
-    acceleration: float = 0.0
-    torque_at: str = "output"
-    harmonics: tuple[Harmonic, ...] = ()
-    torque_scale: float = 0.0
-    rub: Array
-    on: Array
+    chain: Chain  # kinematics
+    drag: Array  # (n,): κ of each joint; zero where it is not known
+    inertia: Array  # inertia, resisting (n+1,) [kg m², N·m]: J_i and L_i
+    resisting: Array  # (n+1,) [N·m]
+    speed: Array  # speed, torque (...) [rad/s, N·m]: ω_1 and the mean of the torque
+    torque: Array  # (...) [N·m]
+    acceleration: float = 0.0  # [rad/s²]: ε_1
+    torque_at: str = "output"  # ``output`` or ``input``
+    harmonics: tuple[Harmonic, ...] = ()  # swinging parts of the torque, for a mean of ``torque_scale``
+    torque_scale: float = 0.0  # [N·m]: torque to which the harmonics belong; zero when they do not grow with it
+    rub: Array  # (k,) [m]: μ_b d_b/2 of each support
+    on: Array  # (k,) of int: shaft of each support, counted from 0
+    # from input angles (..., p) to how the supports answer there; None when none of them rubs
     holding: Callable[[Array], Holding] | None = None
-    grip: Array
-    slide: Array
+    grip: Array  # grip, slide (n+1,) [1/m, m/s]: 2 μ/D and the mean sliding speed of the spline of each shaft
+    slide: Array  # (n+1,) [m/s]
 
     @property
     def turns(self) -> int:
@@ -102,34 +75,19 @@ class Model:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Powers:
-    """Powers [W]; over positions with a last axis (p,), as means without it.
+    """Powers [W]; over positions with a last axis (p,), as means without it."""
 
-    Attributes
-    ----------
-    input, output : array (...)
-        Enters the input shaft, leaves the output shaft; negative where it goes the other way.
-    input_torque, output_torque : arrays (...) [N·m]
-        Torques at the two ends.
-    driving, driven : arrays (..., n)
-        Rubbed away in the journals of the driving and of the driven yokes.
-    supports : array (..., k)
-        Rubbed away in the supports.
-    splines : array (..., n+1)
-        Rubbed away in the splines; it comes from what moves the drive, not from its turning.
-    resisting, storing : arrays (..., n+1)
-        Taken by resisting torques, and by inertia.
-    """
-
+    # input, output (...): enters the input shaft, leaves the output shaft; negative where it goes the other way
     input: Array
-    output: Array
-    input_torque: Array
-    output_torque: Array
-    driving: Array
-    driven: Array
-    supports: Array
-    splines: Array
-    resisting: Array
-    storing: Array
+    output: Array  # (...)
+    input_torque: Array  # input_torque, output_torque (...) [N·m]: torques at the two ends
+    output_torque: Array  # (...) [N·m]
+    driving: Array  # driving, driven (..., n): rubbed away in the journals of the driving and of the driven yokes
+    driven: Array  # (..., n)
+    supports: Array  # (..., k): rubbed away in the supports
+    splines: Array  # (..., n+1): rubbed away in the splines; it comes from what moves the drive, not from its turning
+    resisting: Array  # resisting, storing (..., n+1): taken by resisting torques, and by inertia
+    storing: Array  # (..., n+1)
 
 
 ENDS = ("input", "output", "input_torque", "output_torque")
@@ -150,8 +108,6 @@ def moving(model: Model, angle: Array) -> Motion:
 def flowing(model: Model, moved: Motion) -> tuple[TorqueFlow, Array]:
     """Return the torques of all cases at their positions, and the friction torque of the supports (..., k, p) [N·m].
 
-    Notes
-    -----
     The forces on the supports come from the torques and these from the friction in the supports: begun without it, the
     round is gone until it rests; each round gains the digits of one coefficient of friction.
     """
@@ -212,8 +168,6 @@ def powers(model: Model, angle: Array) -> Powers:
 def mean_powers(model: Model) -> Powers:
     """Return the means of the powers over the turns after which everything repeats.
 
-    Notes
-    -----
     Integrated between the angles at which a cross stops in a yoke or a torque turns about; there friction jumps.
     """
     period = np.pi if not model.harmonics else 2.0 * np.pi * model.turns

@@ -23,49 +23,24 @@ from .support_friction import response, trouble
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Uncounted:
-    """A loss that could not be counted.
+    """A loss that could not be counted."""
 
-    Attributes
-    ----------
-    field : str
-        Path of the key to add.
-    message : str
-        What is left out and why, in one sentence.
-    part : str
-        Which kind of part it is the loss of: ``joints``, ``supports`` or ``shafts``.
-    number : int, optional
-        Number of that part, from 1; None where it is all of them.
-    missing : bool
-        Whether nothing but the key is missing.
-    """
-
-    field: str
-    message: str
+    field: str  # path of the key to add
+    message: str  # what is left out and why, in one sentence
+    # which kind of part it is the loss of: ``joints``, ``supports`` or ``shafts``
     part: Literal["joints", "supports", "shafts"]
-    number: int | None = None
-    missing: bool = True
+    number: int | None = None  # number of that part, from 1; None where it is all of them
+    missing: bool = True  # whether nothing but the key is missing
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Parts:
-    """What of a drive is counted.
+    """What of a drive is counted."""
 
-    Attributes
-    ----------
-    train : Train
-        Its machine half; without supports where they cannot be balanced.
-    rub : array (k,) [m]
-        μ_b d_b/2 of each support.
-    grip : array (n+1,) [1/m]
-        Thrust over torque of the spline of each shaft.
-    slide : array (n+1,) [m/s]
-        Its mean sliding speed.
-    """
-
-    train: Train
-    rub: Array
-    grip: Array
-    slide: Array
+    train: Train  # its machine half; without supports where they cannot be balanced
+    rub: Array  # (k,) [m]: μ_b d_b/2 of each support
+    grip: Array  # (n+1,) [1/m]: thrust over torque of the spline of each shaft
+    slide: Array  # (n+1,) [m/s]: its mean sliding speed
 
 
 def counted(drive: Drive, duty: Duty) -> tuple[Parts, tuple[Uncounted, ...]]:

@@ -30,25 +30,14 @@ FEW = 48
 
 @dataclass(frozen=True, kw_only=True)
 class LossesAt:
-    """What a drive turns to heat in one condition.
+    """What a drive turns to heat in one condition."""
 
-    Attributes
-    ----------
-    name : str
-        What to call it; empty as drawn at the only torque.
-    share : float or None
-        Share of the time.
-    speed, torque : float [rad/s, N·m]
-    efficiency : float
-    heat : float [W]
-    """
-
-    name: str
-    share: float | None
-    speed: float
-    torque: float
+    name: str  # what to call it; empty as drawn at the only torque
+    share: float | None  # share of the time
+    speed: float  # [rad/s]
+    torque: float  # [N·m]
     efficiency: float
-    heat: float
+    heat: float  # [W]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

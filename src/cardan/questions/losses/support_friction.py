@@ -17,10 +17,7 @@ from cardan.texts import _
 def trouble(train: Train) -> str:
     """Return why the forces on the supports are not determinate, in one sentence; empty where they are.
 
-    Parameters
-    ----------
-    train : Train
-        One drive.
+    train: one drive.
     """
     held = _held(train, np.zeros(1))[1]
     more = held.unknowns - held.equations
@@ -34,20 +31,12 @@ def trouble(train: Train) -> str:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Response:
-    """Forces on the supports per couple of each cross, at some positions.
+    """Forces on the supports per couple of each cross, at some positions."""
 
-    Attributes
-    ----------
-    weight : array (..., p, k, 3) [N]
-        What weights put on the supports.
-    pull : array (..., p, n, k, 3) [1/m]
-        Forces per couple T_i of the crosses.
-    rub : array (..., p, n, k, 3) [1/m]
-        Forces per \\|T_i\\| by the friction of the journals, for an input that turns the positive way.
-    """
-
-    weight: Array
-    pull: Array
+    weight: Array  # (..., p, k, 3) [N]: what weights put on the supports
+    pull: Array  # (..., p, n, k, 3) [1/m]: forces per couple T_i of the crosses
+    # (..., p, n, k, 3) [1/m]: forces per |T_i| by the friction of the journals, for an input that turns the positive
+    # way
     rub: Array
 
     def load(self, couple: Array, sense: Array) -> Array:
@@ -66,22 +55,8 @@ class Response:
 def response(train: Train, drag: Array, angle: Array) -> Response:
     """Return the forces on the supports per couple of each cross.
 
-    Parameters
-    ----------
-    train : Train
-        One drive, its supports determinate.
-    drag : array (n,)
-        κ of each joint.
-    angle : array (..., p) [rad]
-        Input angles.
-
-    Returns
-    -------
-    Response
-
-    Notes
-    -----
-    The couple T n ∓ κ\\|T\\| u ± κ\\|T\\| v of every cross bends its two shafts; what its part across them needs, and
+    train: one drive, its supports determinate; drag (n,): κ of each joint; angle (..., p) [rad]: input angles.
+    The couple T n ∓ κ|T| u ± κ|T| v of every cross bends its two shafts; what its part across them needs, and
     the weights, is in balance with the forces in the joints and supports. That balance is linear, so each part is
     solved for once. Thrust of splines is left out: at rest lengthwise they need not push.
     """

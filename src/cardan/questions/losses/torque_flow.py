@@ -11,25 +11,16 @@ from cardan.questions.motion.motion import Motion
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TorqueFlow:
-    """Torques and powers of a drive over some positions; leading axes are those of the cases.
+    """Torques and powers of a drive over some positions; leading axes are those of the cases."""
 
-    Attributes
-    ----------
-    entering : array (..., n+1, p) [N·m]
-        τ_i, torque that enters each shaft at its beginning.
-    leaving : array (..., n+1, p) [N·m]
-        Torque that leaves it at its end; that of the output shaft is what the load gets.
-    couple : array (..., n, p) [N·m]
-        T_i, couple of each cross about its own normal.
-    driving_loss, driven_loss : arrays (..., n, p)
-        Power rubbed away in the journals of the driving and of the driven yoke, per input speed [N·m].
-    """
-
-    entering: Array
+    entering: Array  # (..., n+1, p) [N·m]: τ_i, torque that enters each shaft at its beginning
+    # (..., n+1, p) [N·m]: torque that leaves it at its end; that of the output shaft is what the load gets
     leaving: Array
-    couple: Array
+    couple: Array  # (..., n, p) [N·m]: T_i, couple of each cross about its own normal
+    # driving_loss, driven_loss (..., n, p): power rubbed away in the journals of the driving and of the driven yoke,
+    # per input speed [N·m]
     driving_loss: Array
-    driven_loss: Array
+    driven_loss: Array  # (..., n, p)
 
 
 def torque_flow(
@@ -43,38 +34,16 @@ def torque_flow(
 ) -> TorqueFlow:
     """Return the torque that passes each joint and shaft, friction of the journals acting on itself.
 
-    Parameters
-    ----------
-    moved : Motion
-        Motion of the drive at positions (p,), of one drive (n, p) or of many (..., n, p).
-    drag : array (..., n)
-        κ_i = μ d_c/d of each joint, κ tan α < 1.
-    torque : array (..., p) [N·m]
-        Torque of the load at the output, positive when it resists positive turning, or driving torque at the input.
-    drawn : array (..., n+1, p) [N·m], optional
-        What each shaft takes for itself: inertia, resisting torques, friction of its bearings.
-    sense : array (...)
-        1 or -1: sign of the input speed.
-    torque_at : str
-        Where ``torque`` is given, ``output`` or ``input``.
+    moved: motion of the drive at positions (p,), of one drive (n, p) or of many (..., n, p).
+    drag (..., n): κ_i = μ d_c/d of each joint, κ tan α < 1.
+    torque (..., p) [N·m]: torque of the load at the output, positive when it resists positive turning, or driving
+    torque at the input.
+    drawn (..., n+1, p) [N·m]: what each shaft takes for itself: inertia, resisting torques, friction of its bearings.
+    sense (...): 1 or -1: sign of the input speed; torque_at: where ``torque`` is given, ``output`` or ``input``.
 
-    Returns
-    -------
-    TorqueFlow
-
-    Notes
-    -----
-    The cross gives its driven yoke the couple K = T n - κ\\|T\\| sgn(p) u + κ\\|T\\| sgn(q̇) v, whose parts about
+    The cross gives its driven yoke the couple K = T n - κ|T| sgn(p) u + κ|T| sgn(q̇) v, whose parts about
     the two shafts are T cos θ_1 (1 ± κ tan θ_1) and T cos θ_2 (1 ∓ κ tan θ_2), upper signs where power flows
     forwards; from the end where the torque is given to the other, joint by joint.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from cardan import Drive, motion
-    >>> single = motion(Drive.from_angles([0.5]), [0.0, np.pi / 2])
-    >>> torque_flow(single, np.asarray([0.02]), np.asarray([100.0, 100.0])).entering[0]
-    array([115.20816286,  88.71710727])
     """
     xp = namespace(moved.joint_angle, drag, torque)
     lean_driving, lean_driven = swings(

@@ -38,18 +38,10 @@ SPECIAL = 8
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Turned:
-    """What a turn of the input shows.
+    """What a turn of the input shows."""
 
-    Attributes
-    ----------
-    positions : MobilityTurn
-        Mobility at every position.
-    closure : FiniteMobility, optional
-        How the loops close, of a mechanism that does not turn.
-    """
-
-    positions: MobilityTurn
-    closure: FiniteMobility | None = None
+    positions: MobilityTurn  # mobility at every position
+    closure: FiniteMobility | None = None  # how the loops close, of a mechanism that does not turn
 
 
 def lacking(drive: Drive) -> Lacking:
@@ -76,20 +68,7 @@ def otherwise(drive: Drive) -> str:
 
 
 def turned(thing: Drive | Mechanism, progress: Callable[[float], object] | None = None) -> Turned:
-    """Return what a turn of the input shows.
-
-    Parameters
-    ----------
-    thing : Drive or Mechanism
-        What turns.
-    progress : function, optional
-        Told the share done.
-
-    Raises
-    ------
-    InputError
-        A mechanism without input link.
-    """
+    """Return what a turn of the input shows."""
     if not isinstance(thing, Mechanism):
         return Turned(positions=mobility_over_turn(thing, progress=progress))
     if not thing.input_link:
@@ -107,14 +86,7 @@ def turned(thing: Drive | Mechanism, progress: Callable[[float], object] | None 
 def answer(thing: Drive | Mechanism, result: Mobility, around: Turned | None = None) -> Answer:
     """Return what there is to say of the mobility of a drive or of any mechanism.
 
-    Parameters
-    ----------
-    thing : Drive or Mechanism
-        What is looked at.
-    result : Mobility
-        In the position given.
-    around : Turned, optional
-        Over a turn of the input.
+    around: over a turn of the input.
     """
     mechanism = result.mechanism
     given = mechanism.input_link

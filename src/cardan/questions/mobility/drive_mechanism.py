@@ -36,37 +36,12 @@ FRAME = "frame"
 def mechanism_of(drive: Drive, angle: float = 0.0) -> Mechanism:
     """Return a drive as a mechanism.
 
-    Parameters
-    ----------
-    drive : Drive
-        With its supports.
-    angle : float [rad]
-        Input angle φ_1 from the start position.
-
-    Returns
-    -------
-    Mechanism
-        Links: the frame, the shafts (two parts where a spline slides), the crosses. Joints: pins, splines, supports.
-
-    Raises
-    ------
-    InputError
-        No supports, or a shaft between two joints whose length is not given.
-
-    Notes
-    -----
+    drive: with its supports; angle [rad]: input angle φ_1 from the start position.
+    Returns Mechanism: links: the frame, the shafts (two parts where a spline slides), the crosses. Joints: pins,
+    splines, supports.
     A radial support is a sphere in a cylinder (SG), with an axial hold a sphere (S), with a hold against tilting a
     cylinder or hinge (C, R). A cross has hinges, or cylinders along journals that slide. Joints of other kinds stand as
     pairs that turn about two axes of the bisecting plane, unless they slide as well or hold nothing but the torque.
-
-    Examples
-    --------
-    >>> from dataclasses import replace
-    >>> stiff = dict(radial=True, axial=True, tilt=True)
-    >>> held = (Support(shaft=1, position=-0.3, **stiff), Support(shaft=2, position=0.3, **stiff))
-    >>> whole = mechanism_of(replace(Drive.from_angles([0.3]), supports=held))
-    >>> whole.links
-    ('shaft 1', 'cross 1', 'shaft 2')
     """
     check(_problems(drive))
     place = geometry(drive)
@@ -99,8 +74,6 @@ def support_name(drive: Drive, index: int) -> str:
 def marks(drive: Drive, place: Geometry, angle: float) -> tuple[Array, Array]:
     """Return the directions of the driving and the driven mark of every joint, arrays (n, 3).
 
-    Notes
-    -----
     u_1 = rot(a_1, φ_1+ψ_1)(N_1 × a_1); a cross holds v = unit(a_{i+1} × u), any other joint carries its mark around the
     normal of its plane by the joint angle; u_{i+1} = rot(a_{i+1}, -γ) v.
     """

@@ -52,12 +52,7 @@ class _Places:
 
 
 def graph_figure(found: Mobility) -> Figure:
-    """Return links and joints as a graph, with arrows for what errors of the parts can load.
-
-    Parameters
-    ----------
-    found : Mobility
-    """
+    """Return links and joints as a graph, with arrows for what errors of the parts can load."""
     mechanism = found.mechanism
     places = _places(mechanism)
     series: list[Series] = [*_frame(places)]

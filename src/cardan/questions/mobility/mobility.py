@@ -25,37 +25,21 @@ TAKES_PART = 1e-7
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JointHold:
-    """What a joint holds, and what of it is one too many.
+    """What a joint holds, and what of it is one too many."""
 
-    Attributes
-    ----------
-    id : str
-        Name of the joint.
-    links : (str, str)
-        What it joins.
-    type : str
-        Its kind.
-    axes : array (3, 3)
-        Its own axes: along it, and two across.
-    turning, sliding : tuple of "free", "needed" or "strained"
-        About and along each of its axes: free already; held, and needed; held, while other joints hold the same, so
-        that parts that are off strain it.
-    force, couple : arrays (m, 3) [N, N·m]
-        The m independent loads that errors of the parts can put on it: force of the first link on the second and couple
-        about its point, in its own axes, up to a factor.
-    misfit : float [m]
-        How much of what it is off the mechanism cannot take up.
-    """
-
-    id: str
-    links: tuple[str, str]
-    type: str
-    axes: Array
+    id: str  # name of the joint
+    links: tuple[str, str]  # what it joins
+    type: str  # its kind
+    axes: Array  # (3, 3): its own axes: along it, and two across
+    # turning, sliding: about and along each of its axes: free already; held, and needed; held, while other joints hold
+    # the same, so that parts that are off strain it
     turning: tuple[Hold, Hold, Hold]
     sliding: tuple[Hold, Hold, Hold]
+    # force, couple (m, 3) [N, N·m]: the m independent loads that errors of the parts can put on it: force of the first
+    # link on the second and couple about its point, in its own axes, up to a factor
     force: Array
-    couple: Array
-    misfit: float
+    couple: Array  # (m, 3) [N·m]
+    misfit: float  # [m]: how much of what it is off the mechanism cannot take up
 
     @property
     def strained(self) -> bool:

@@ -55,31 +55,15 @@ MOST = 5
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Change:
-    """Another kind of pair in the place of a joint.
+    """Another kind of pair in the place of a joint."""
 
-    Attributes
-    ----------
-    joint : str
-        Name of the joint.
-    links : (str, str)
-        What it joins.
-    bearing : bool
-        Whether one of them is the frame.
-    before, after : str
-        Kinds of pair; ``after`` is empty where the bearing is left out.
-    gain : "slide", "align", "align_slide", "turn" or "drop"
-        What it adds.
-    freedoms : int
-        How many freedoms that are.
-    """
-
-    joint: str
-    links: tuple[str, str]
-    bearing: bool
-    before: str
+    joint: str  # name of the joint
+    links: tuple[str, str]  # what it joins
+    bearing: bool  # whether one of them is the frame
+    before: str  # before, after: kinds of pair; ``after`` is empty where the bearing is left out
     after: str
-    gain: Gain
-    freedoms: int
+    gain: Gain  # what it adds
+    freedoms: int  # how many freedoms that are
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -180,11 +164,7 @@ def repaired(mechanism: Mechanism, repair: Repair) -> Mechanism:
 def advice(change: Change, mechanism: Mechanism) -> str:
     """Return a change as a sentence.
 
-    Parameters
-    ----------
-    change : Change
-    mechanism : Mechanism
-        Its frame is not told.
+    mechanism: its frame is not told.
     """
     if change.bearing:
         link = next(link for link in change.links if link != mechanism.frame)
@@ -211,8 +191,6 @@ def advice(change: Change, mechanism: Mechanism) -> str:
 def strain(hold: JointHold) -> str:
     """Return what errors of the parts can load a joint with, in words; empty where nothing.
 
-    Examples
-    --------
     >>> from .mobility import mobility
     >>> upper = Pair(id="upper", type="R", links=("wall", "door"), point=(0.0, 0.0, 2.0), axis=(0.0, 0.0, 1.0))
     >>> lower = Pair(id="lower", type="R", links=("wall", "door"), point=(0.0, 0.0, 0.2), axis=(0.0, 0.0, 1.0))

@@ -22,29 +22,17 @@ RULE_ANGLE, RULE_DIFFERENCE = 6.0 * deg, 1.5 * deg
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class AngleLimits:
-    """Angular accelerations of a drive of two joints, arrays (...).
+    """Angular accelerations of a drive of two joints, arrays (...)."""
 
-    Attributes
-    ----------
-    residual : array (...) [rad]
-        Angle of the one joint that would be as uneven.
-    torsional : array (...) [rad/s²]
-        Of the output, for small angles.
-    torsional_exact : array (...) [rad/s²]
-        The same without approximation.
-    inertia_drive, inertia_coast : array (...) [rad/s²]
-        Of the middle shaft, the input or the output turning evenly, for small angles.
-    least, most : array (...) [rad]
-        Range of the second angle that keeps the limit; nan where none does.
-    """
-
-    residual: Array
-    torsional: Array
-    torsional_exact: Array
+    residual: Array  # (...) [rad]: angle of the one joint that would be as uneven
+    torsional: Array  # (...) [rad/s²]: of the output, for small angles
+    torsional_exact: Array  # (...) [rad/s²]: the same without approximation
+    # inertia_drive, inertia_coast (...) [rad/s²]: of the middle shaft, the input or the output turning evenly, for
+    # small angles
     inertia_drive: Array
-    inertia_coast: Array
-    least: Array
-    most: Array
+    inertia_coast: Array  # (...) [rad/s²]
+    least: Array  # least, most (...) [rad]: range of the second angle that keeps the limit; nan where none does
+    most: Array  # (...) [rad]
 
 
 def angle_limits(
@@ -57,27 +45,11 @@ def angle_limits(
 ) -> AngleLimits:
     """Return the angular accelerations of two joints, and which second angle keeps the torsional limit.
 
-    Parameters
-    ----------
-    speed : array (...) [rad/s]
-        ω of the input.
-    first, second : array (...) [rad]
-        θ_1 and θ_2.
-    phased : bool
-        Whether the yokes of the middle shaft are set so that the joints cancel; else a quarter turn wrong.
-    torsional : array (...) [rad/s²]
-        Limit a of the output's acceleration.
-
-    Notes
-    -----
+    speed (...) [rad/s]: ω of the input; first, second (...) [rad]: θ_1 and θ_2.
+    phased: whether the yokes of the middle shaft are set so that the joints cancel; else a quarter turn wrong.
+    torsional (...) [rad/s²]: limit a of the output's acceleration.
     Small angles: ω²|θ_2² ∓ θ_1²|, ω²θ_1², ω²θ_2². Exact: that of the equivalent joint, cos α = cos θ_2/cos θ_1 or its
     inverse, cos θ_1 cos θ_2 when not phased.
-
-    Examples
-    --------
-    >>> one = angle_limits(3000 * math.pi / 30, math.radians(4.0), math.radians(5.4))
-    >>> round(float(one.torsional), 2), round(float(one.torsional_exact), 2), round(math.degrees(one.most), 3)
-    (395.65, 396.56, 5.413)
     """
     speed, first, second, limit = floats(speed, first, second, torsional)
     xp = namespace(speed)
@@ -111,17 +83,9 @@ def angle_limits(
 def compound_angle(top: ArrayLike, side: ArrayLike) -> tuple[Array, Array]:
     """Return the angle between two shafts from its top and side view, exact and by the shop's formula [rad].
 
-    Parameters
-    ----------
-    top, side : array (...) [rad]
-        T and S.
-
-    Notes
-    -----
+    top, side (...) [rad]: T and S.
     tan θ = √(tan²T + tan²S); in the shop θ ≈ √(T² + S²).
 
-    Examples
-    --------
     >>> [round(math.degrees(one), 4) for one in compound_angle(math.radians(20.0), math.radians(25.0))]
     [30.6059, 32.0156]
     """
@@ -133,8 +97,6 @@ def compound_angle(top: ArrayLike, side: ArrayLike) -> tuple[Array, Array]:
 def broken_rules(first: float, second: float) -> tuple[str, ...]:
     """Return which parts of the 6°/1.5° rule two angles break: "angle", "difference".
 
-    Examples
-    --------
     >>> broken_rules(math.radians(4.0), math.radians(5.6))
     ('difference',)
     """

@@ -67,15 +67,8 @@ def answer(drive: Drive, result: Turning) -> Answer:
 def sentence(drive: Drive, each: Evenness) -> Say:
     """Return in one sentence how uniformly a drive turns.
 
-    Parameters
-    ----------
-    drive : Drive
-        Of joints of any kinds.
-    each : EquivalentJoint or Swing
-        As of `cardan.questions.motion.swing.each_shaft`.
+    drive: of joints of any kinds; each: as of `cardan.questions.motion.swing.each_shaft`.
 
-    Examples
-    --------
     >>> from cardan.answers.reader import USUAL
     >>> from cardan.questions.motion.swing import each_shaft
     >>> drive = Drive.from_angles([12 * deg, 20 * deg])

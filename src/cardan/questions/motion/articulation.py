@@ -36,25 +36,14 @@ SHARP = 1e-7
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Worst:
-    """The worst instant in one respect.
+    """The worst instant in one respect."""
 
-    Attributes
-    ----------
-    what : str
-        ``joint_angle`` [rad], ``speed_fluctuation``, ``moving_speed_fluctuation``, ``speed_error``, ``acceleration``
-        [rad/s²], ``length_max`` [m], ``length_min`` [m].
-    number : int
-        Number of the joint (``joint_angle``) or shaft.
-    time : float [s]
-        When.
-    value : float
-        How much, in SI.
-    """
-
+    # ``joint_angle`` [rad], ``speed_fluctuation``, ``moving_speed_fluctuation``, ``speed_error``, ``acceleration``
+    # [rad/s²], ``length_max`` [m], ``length_min`` [m]
     what: str
-    number: int
-    time: float
-    value: float
+    number: int  # number of the joint (``joint_angle``) or shaft
+    time: float  # [s]: when
+    value: float  # how much, in SI
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

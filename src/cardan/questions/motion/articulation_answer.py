@@ -268,18 +268,8 @@ def _keys(drive: Drive, found: Articulation) -> Iterator[KeyFigure]:
 def spline_key(drive: Drive, shaft: int, field: str, left: float, *, failed: bool, note: Text = "") -> KeyFigure:
     """Return what is left of a spline as a key figure.
 
-    Parameters
-    ----------
-    drive : Drive
-    shaft : int
-        Its number.
-    field : {"engaged", "gap"}
-        Whether engaged length or remaining travel is left.
-    left : float [m]
-    failed : bool
-        Whether that is too little.
-    note : Text
-        When it is so.
+    field: whether engaged length or remaining travel is left; left [m]; failed: whether that is too little.
+    note: when it is so.
     """
     limit = drive.limits.spline_overlap if field == "engaged" else None
     titles = {"engaged": _("shortest engaged length of the spline"), "gap": _("least remaining travel of the spline")}

@@ -14,24 +14,12 @@ from cardan.maths.arrays import Array
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Closure:
-    """Whether the sides of the phase polygon can close, in numbers.
+    """Whether the sides of the phase polygon can close, in numbers."""
 
-    Attributes
-    ----------
-    length : array (n,)
-        L_i = -ln cos α_i, hyperbolic length of each joint's side.
-    longest : int
-        Number of the joint with the longest side.
-    others : float
-        Sum of the other sides.
-    joint_angle_allowed : float [rad]
-        Largest joint angle of that joint that the others can cancel.
-    """
-
-    length: Array
-    longest: int
-    others: float
-    joint_angle_allowed: float
+    length: Array  # (n,): L_i = -ln cos α_i, hyperbolic length of each joint's side
+    longest: int  # number of the joint with the longest side
+    others: float  # sum of the other sides
+    joint_angle_allowed: float  # [rad]: largest joint angle of that joint that the others can cancel
 
     @property
     def closes(self) -> bool:
@@ -42,26 +30,9 @@ class Closure:
 def closure(drive: Drive) -> Closure:
     """Return whether free yokes can close the phase polygon of a drive, and what the longest side may be.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive; held yokes are not looked at.
-
-    Returns
-    -------
-    Closure
-
-    Notes
-    -----
+    drive: the drive; held yokes are not looked at.
     Synchronous, exactly, if and only if L_max ≤ Σ of the others, cos α_max ≥ Π cos α of the others. Book (86) is its
     limit for small angles.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> found = closure(Drive.from_angles([10 * deg, 30 * deg, 20 * deg]))
-    >>> found.closes, found.longest, round(found.joint_angle_allowed / deg, 2)
-    (False, 2, 22.27)
     """
     length = -np.log(np.cos(np.asarray(turning_chain(drive).joint_angle)))
     longest = int(np.argmax(length))

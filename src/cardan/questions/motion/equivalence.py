@@ -172,21 +172,9 @@ def _extreme(joint_angle: Array) -> tuple[Array, Array, Array]:
 def after_each_joint(drive: Drive | Drives | Chain) -> EquivalentJoint:
     """Return the equivalent joints of the first 1 … n joints: what each shaft from 2 on does.
 
-    Parameters
-    ----------
-    drive : Drive or Drives (...)
-        One drive, or many as arrays.
-
-    Returns
-    -------
-    EquivalentJoint
-        bend, speed fluctuation, max_angle_error, max_acceleration … : arrays (..., n), for shafts 2 … n+1.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> after_each_joint(Drive.from_angles([12 * deg, 20 * deg])).joint_angle / deg
-    array([12.       , 16.1192533])
+    drive (...): one drive, or many as arrays.
+    Returns EquivalentJoint: bend, speed fluctuation, max_angle_error, max_acceleration … : arrays (..., n), for shafts
+    2 … n+1.
     """
     whole = equivalent_joint(drive)
     products = kinematics(drive).products()

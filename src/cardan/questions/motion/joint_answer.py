@@ -49,20 +49,11 @@ class Named:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Beside:
-    """Joints beside each other, all at one joint angle.
-
-    Attributes
-    ----------
-    named : tuple of Named
-    turns : tuple of JointTurn
-        How each turns.
-    speed : float or None [rad/s]
-        Constant speed of the driving shafts.
-    """
+    """Joints beside each other, all at one joint angle."""
 
     named: tuple[Named, ...]
     turns: tuple[JointTurn, ...]
-    speed: float | None = None
+    speed: float | None = None  # [rad/s]: constant speed of the driving shafts
 
     @cached_property
     def joint_angles(self) -> tuple[JointAngles, ...]:
@@ -83,19 +74,8 @@ class Beside:
 def ask(named: Sequence[Named], joint_angle: float, *, speed: float | None = None) -> Beside:
     """Return joints beside each other.
 
-    Parameters
-    ----------
-    named : sequence of Named
-        At least one.
-    joint_angle : float [rad]
-        Joint angle of all.
-    speed : float, optional [rad/s]
-        Constant speed of the driving shafts.
-
-    Raises
-    ------
-    InputError
-        As of `cardan.questions.motion.joint_law.joint_turn`.
+    named: at least one; joint_angle [rad]: joint angle of all; speed [rad/s]: constant speed of the driving shafts.
+    Raises InputError: as of `cardan.questions.motion.joint_law.joint_turn`.
     """
     turns = tuple(joint_turn(one.joint, joint_angle) for one in named)
     return Beside(named=tuple(named), turns=turns, speed=speed)

@@ -16,32 +16,10 @@ from cardan.texts import _
 def followed(drive: Drive, angle: Array) -> dict[str, Any]:
     """Return how every shaft turns, for joints of any kinds.
 
-    Parameters
-    ----------
-    drive : Drive
-    angle : array (p,) [rad]
-        Input angle φ_1 from the start position.
-
-    Returns
-    -------
-    dict
-        Fields of `cardan.questions.motion.motion.Motion`.
-
-    Raises
-    ------
-    InputError
-        A joint with its sizes does not turn at its bend.
-
-    Notes
-    -----
+    angle (p,) [rad]: input angle φ_1 from the start position.
+    Returns: fields of `cardan.questions.motion.motion.Motion`.
     θ_1 = φ_1 + ψ_1, θ_{i+1} = T_i(θ_i) + q_i - γ - β with q = π/2 for joints with a cross, else 0; the ratio and its
     slope by the chain rule.
-
-    Examples
-    --------
-    >>> found = followed(Drive.from_angles([0.2, 0.2]), np.asarray([0.0, 1.0]))
-    >>> print(found["shaft_ratio"][-1].round(12))
-    [1. 1.]
     """
     whole = given_chain(drive)
     phi = np.asarray(angle, dtype=float)

@@ -203,17 +203,7 @@ def _law(joint: Joint, joint_angle: float, angle: Array) -> tuple[Array, Array, 
 def types_of(kind: str, known: Catalogue | None = None) -> tuple[JointType, ...]:
     """Return the types of the catalogue that turn by the law of a kind.
 
-    Parameters
-    ----------
-    kind : str
-        A name of `JOINTS`.
-    known : Catalogue, optional
-        The shipped one when not given.
-
-    Examples
-    --------
-    >>> [row.id for row in types_of("weiss")]
-    ['weiss_curved', 'weiss_straight']
+    kind: a name of `JOINTS`; known: the shipped one when not given.
     """
     rows = (known or catalogue()).rows(JointType)
     names = JOINTS[kind].types if kind in JOINTS else ()

@@ -16,34 +16,14 @@ from .joint_inside import joint_inside
 
 
 def kind_name(joint: Joint) -> str:
-    """Return the kind of a joint in words.
-
-    Examples
-    --------
-    >>> from cardan.drive.joints import Hooke
-    >>> kind_name(Hooke())
-    'Hooke'
-    """
+    """Return the kind of a joint in words."""
     return joint.in_words()
 
 
 def steep(joint: Joint, number: int, joint_angle: float) -> Say | None:
     """Return what to say of a joint at a greater joint angle than one of its kind reaches, None where it is not.
 
-    Parameters
-    ----------
-    joint : Joint
-    number : int
-        Its number.
-    joint_angle : float [rad]
-        Its joint angle.
-
-    Examples
-    --------
-    >>> from cardan.answers.reader import USUAL
-    >>> from cardan.drive.joints import Hooke, Tripod
-    >>> steep(Hooke(), 1, 0.5), steep(Tripod(), 2, 0.5).told(USUAL)
-    (None, 'joint 2 has a joint angle of 28.6°; above 26° no real joint of its kind, tripod, works.')
+    joint_angle [rad].
     """
     if joint_angle <= joint.steepest * (1.0 + 1e-12):
         return None

@@ -22,70 +22,33 @@ STIFF = 1e-6
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Flag:
-    """A limit passed, with when and where.
+    """A limit passed, with when and where."""
 
-    Attributes
-    ----------
-    field : str
-        Path of what is short, ``shafts[1].spline.engaged``.
-    message : Text
-        What happens, in one sentence.
-    time : float [s]
-        Instant of the worst value.
-    value : float [m]
-        The worst value.
-    limit : float [m]
-        What it should not fall below (or reach).
-    spans : tuple of (float, float) [s]
-        From when until when the limit is passed.
-    """
-
-    field: str
-    message: Text
-    time: float
-    value: float
-    limit: float
-    spans: tuple[tuple[float, float], ...]
+    field: str  # path of what is short, ``shafts[1].spline.engaged``
+    message: Text  # what happens, in one sentence
+    time: float  # [s]: instant of the worst value
+    value: float  # [m]: the worst value
+    limit: float  # [m]: what it should not fall below (or reach)
+    spans: tuple[tuple[float, float], ...]  # [s]: from when until when the limit is passed
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class LengthCompensation:
-    """What the sliding of one shaft amounts to over a movement.
-
-    Attributes
-    ----------
-    shaft : int
-        Number of the shaft.
-    drawn : float [m]
-        Length in the drawn position, in which engaged length and gap of the spline are given.
-    length_min, length_max : float [m]
-        Shortest and longest.
-    time_min, time_max : float [s]
-        When it is.
-    max_rate, max_acceleration : float [m/s, m/s²]
-        Largest sliding speed and acceleration, as magnitudes.
-    slip_path : float [m]
-        Total way slid, back and forth.
-    engaged_min : float or None [m]
-        Shortest engaged length of the spline; None when the drive does not say the drawn one.
-    gap_min : float or None [m]
-        Least way left to bottoming; None when the drive does not say the drawn one.
-    flags : tuple of Flag
-        Limits passed.
-    """
+    """What the sliding of one shaft amounts to over a movement."""
 
     shaft: int
-    drawn: float
-    length_min: float
-    length_max: float
-    time_min: float
-    time_max: float
-    max_rate: float
-    max_acceleration: float
-    slip_path: float
+    drawn: float  # [m]: length in the drawn position, in which engaged length and gap of the spline are given
+    length_min: float  # length_min, length_max [m]: shortest and longest
+    length_max: float  # [m]
+    time_min: float  # time_min, time_max [s]: when it is
+    time_max: float  # [s]
+    max_rate: float  # max_rate, max_acceleration [m/s, m/s²]: largest sliding speed and acceleration, as magnitudes
+    max_acceleration: float  # [m/s²]
+    slip_path: float  # [m]: total way slid, back and forth
+    # [m]: shortest engaged length of the spline; None when the drive does not say the drawn one
     engaged_min: float | None
-    gap_min: float | None
-    flags: tuple[Flag, ...]
+    gap_min: float | None  # [m]: least way left to bottoming; None when the drive does not say the drawn one
+    flags: tuple[Flag, ...]  # limits passed
 
     @property
     def stroke(self) -> float:
@@ -111,45 +74,20 @@ def length_compensation(
 ) -> LengthCompensation:
     """Return stroke, sliding speed, slip path, engaged length and gap of one shaft over a movement.
 
-    Parameters
-    ----------
-    times : array (t,) [s]
-        Instants, rising.
-    length, rate, acceleration : arrays (t,) [m, m/s, m/s²]
-        L, its first and second time derivative.
-    spline : Spline, optional
-        Engaged length and gap in the drawn position.
-    limits : Limits, optional
-        Smallest engaged length allowed, ``spline_overlap``; more than zero when not given.
-    drawn : float, optional [m]
-        Length L_0 in the drawn position; that of the first instant by default.
-    shaft : int
-        Number of the shaft, for the flags.
+    times (t,) [s]: instants, rising.
+    length, rate, acceleration (t,) [m, m/s, m/s²]: L, its first and second time derivative.
+    spline: engaged length and gap in the drawn position.
+    limits: smallest engaged length allowed, ``spline_overlap``; more than zero when not given.
+    drawn [m]: length L_0 in the drawn position; that of the first instant by default.
+    shaft: number of the shaft, for the flags.
+    Raises InputError: times that do not rise, arrays of different lengths.
 
-    Returns
-    -------
-    LengthCompensation
-
-    Raises
-    ------
-    InputError
-        Times that do not rise, arrays of different lengths.
-
-    Notes
-    -----
     engaged = engaged_0 - (L - L_0), gap = gap_0 + (L - L_0). Between the instants the length follows the quintic
-    through values, rates and accelerations: the extremes lie where the rate vanishes, and the slip path ∫\\|L̇\\|dt
+    through values, rates and accelerations: the extremes lie where the rate vanishes, and the slip path ∫|L̇|dt
     is the sum of the ways between them, not a sum over instants. Sliding does not change how the shafts turn.
 
     The lengths follow from the centres, which the movement gives. Where several neighbouring shafts slide and the
     centre between them is held by nothing, no movement can say where it is, and neither can this function.
-
-    Examples
-    --------
-    >>> t = np.linspace(0.0, 2.0 * np.pi, 61)
-    >>> found = length_compensation(t, 1.0 + 0.02 * np.sin(t), 0.02 * np.cos(t), -0.02 * np.sin(t))
-    >>> round(found.stroke, 6), round(found.slip_path, 6), round(found.max_rate, 6)
-    (0.04, 0.08, 0.02)
     """
     series = _series(times, length, rate, acceleration)
     base = float(series[1][0]) if drawn is None else drawn

@@ -21,22 +21,14 @@ from cardan.maths.kernel import frames
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Shafts:
-    """Directions and lengths of the shafts between moving points, with their time derivatives.
+    """Directions and lengths of the shafts between moving points, with their time derivatives."""
 
-    Attributes
-    ----------
-    axis, axis_rate, axis_acceleration : arrays (..., n+1, 3) [-, 1/s, 1/s²]
-        a_i, ȧ_i, ä_i.
-    length, length_rate, length_acceleration : arrays (..., n+1) [m, m/s, m/s²]
-        L_i, L̇_i, L̈_i.
-    """
-
-    axis: Array
-    axis_rate: Array
-    axis_acceleration: Array
-    length: Array
-    length_rate: Array
-    length_acceleration: Array
+    axis: Array  # axis, axis_rate, axis_acceleration (..., n+1, 3) [-, 1/s, 1/s²]: a_i, ȧ_i, ä_i
+    axis_rate: Array  # (..., n+1, 3) [1/s]
+    axis_acceleration: Array  # (..., n+1, 3) [1/s²]
+    length: Array  # length, length_rate, length_acceleration (..., n+1) [m, m/s, m/s²]: L_i, L̇_i, L̈_i
+    length_rate: Array  # (..., n+1) [m/s]
+    length_acceleration: Array  # (..., n+1) [m/s²]
 
     @property
     def joint_angle(self) -> Array:
@@ -46,48 +38,20 @@ class Shafts:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Spins:
-    """Exact motion of every shaft of a drive whose axes move; leading axes are those of the instants.
+    """Exact motion of every shaft of a drive whose axes move; leading axes are those of the instants."""
 
-    Attributes
-    ----------
-    spin : array (..., n+1) [rad/s]
-        ω_i, angular velocity of shaft i about its own axis.
-    spin_acceleration : array (..., n+1) [rad/s²]
-        ε_i = dω_i/dt.
-    frozen_ratio : array (..., n+1)
-        ω_i/ω_1 if the centres stood still where they are.
-    driving_arm : array (..., n, 3)
-        u_i, cross arm in the driving yoke of joint i.
-    driven_arm : array (..., n, 3)
-        v_{i+1}, cross arm in the driven yoke.
-    """
-
-    spin: Array
-    spin_acceleration: Array
-    frozen_ratio: Array
-    driving_arm: Array
-    driven_arm: Array
+    spin: Array  # (..., n+1) [rad/s]: ω_i, angular velocity of shaft i about its own axis
+    spin_acceleration: Array  # (..., n+1) [rad/s²]: ε_i = dω_i/dt
+    frozen_ratio: Array  # (..., n+1): ω_i/ω_1 if the centres stood still where they are
+    driving_arm: Array  # (..., n, 3): u_i, cross arm in the driving yoke of joint i
+    driven_arm: Array  # (..., n, 3): v_{i+1}, cross arm in the driven yoke
 
 
 def moving_shafts(points: Jet) -> Shafts:
     """Return directions and lengths of the shafts between moving points.
 
-    Parameters
-    ----------
-    points : Jet (..., n+2, 3) [m, m/s, m/s²]
-        Positions, velocities and accelerations of B_0 … B_{n+1}.
-
-    Notes
-    -----
-    With Δ = B_i - B_{i-1} = L a: L̇ = a·Δ̇, ȧ = (Δ̇ - L̇ a)/L, L̈ = a·Δ̈ + L \\|ȧ\\|², ä = (Δ̈ - L̈ a - 2 L̇ ȧ)/L.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> line = np.asarray([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]])
-    >>> shafts = moving_shafts((line, np.asarray([[0.0, 0.0, 0.0], [3.0, 1.0, 0.0]]), 0.0 * line))
-    >>> shafts.length_rate, shafts.length_acceleration
-    (array([3.]), array([0.5]))
+    points (..., n+2, 3) [m, m/s, m/s²]: positions, velocities and accelerations of B_0 … B_{n+1}.
+    With Δ = B_i - B_{i-1} = L a: L̇ = a·Δ̇, ȧ = (Δ̇ - L̇ a)/L, L̈ = a·Δ̈ + L |ȧ|², ä = (Δ̈ - L̈ a - 2 L̇ ȧ)/L.
     """
     shaft, rate, acceleration = (part[..., 1:, :] - part[..., :-1, :] for part in points)
     length = frames.norm(shaft)
@@ -117,25 +81,12 @@ def moving_axes(
 ) -> Spins:
     """Return the exact spin of every shaft of a chain of Hooke joints, or even ones, whose axes move.
 
-    Parameters
-    ----------
-    axes : Jet (..., n+1, 3)
-        Directions a_i of the shafts and their rates [1/s] and accelerations [1/s²].
-    first_arm : array (..., 3)
-        u_1, direction of the cross arm in the driving yoke of joint 1, at right angles to a_1.
-    yoke_angle : array (..., n-1) [rad]
-        γ_2 … γ_n, from the driving to the driven yoke of a shaft.
-    speed, acceleration : float or array (...) [rad/s, rad/s²]
-        ω_1, ε_1 at these instants.
-    even : sequence of n bool
-        Which joints pass on the turn evenly; none of them when empty.
+    axes (..., n+1, 3): directions a_i of the shafts and their rates [1/s] and accelerations [1/s²].
+    first_arm (..., 3): u_1, direction of the cross arm in the driving yoke of joint 1, at right angles to a_1.
+    yoke_angle (..., n-1) [rad]: γ_2 … γ_n, from the driving to the driven yoke of a shaft.
+    speed, acceleration (...) [rad/s, rad/s²]: ω_1, ε_1 at these instants.
+    even: which joints pass on the turn evenly; none of them when empty.
 
-    Returns
-    -------
-    Spins
-
-    Notes
-    -----
     The cross is rigid: the arms u_i and v_{i+1} stay at right angles, so with n = u_i × v_{i+1} the difference
     Ω_{i+1} - Ω_i has no part along n, which gives ω_{i+1}; its time derivative gives ε_{i+1}. Positions need u_1 and
     the axes at the instant alone, nothing is integrated; straight joints need no special case. Contains Book (97)-(99).
@@ -196,24 +147,12 @@ def _driven(arm: Array, before: Array, after: Array, *, even: bool) -> Array:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MovingMotion:
-    """Motion of a drive over given instants of a movement.
+    """Motion of a drive over given instants of a movement."""
 
-    Attributes
-    ----------
-    times : array (t,) [s]
-        Instants.
-    points : Jet (t, n+2, 3) [m, m/s, m/s²]
-        B_0 … B_{n+1}, their velocities and accelerations.
-    shafts : Shafts
-        Directions and lengths.
-    spins : Spins
-        Spin of every shaft and the cross arms.
-    """
-
-    times: Array
-    points: Jet
-    shafts: Shafts
-    spins: Spins
+    times: Array  # (t,) [s]: instants
+    points: Jet  # (t, n+2, 3) [m, m/s, m/s²]: B_0 … B_{n+1}, their velocities and accelerations
+    shafts: Shafts  # directions and lengths
+    spins: Spins  # spin of every shaft and the cross arms
 
     @property
     def axes(self) -> Jet:
@@ -235,45 +174,17 @@ def moving_centres(
 ) -> MovingMotion:
     """Return the exact motion of a drive through moving points.
 
-    Parameters
-    ----------
-    path : function
-        Times (t,) [s] -> Jet of the points (t, n+2, 3): positions [m], velocities, accelerations.
-    times : array (t,) [s]
-        Instants.
-    yoke_angle : array (n-1,) [rad]
-        γ_2 … γ_n.
-    speed, acceleration : float [rad/s, rad/s²]
-        Spin ω_1 of the input shaft at `start`, and its constant acceleration ε_1.
-    start_phase : float [rad]
-        ψ_1: angle of the driving yoke of joint 1 from the plane of that joint at `start`.
-    start : float [s]
-        Instant at which φ_1 = 0.
-    normal : array (3,), optional
-        Normal of the plane of joint 1 to use where that joint is straight at `start`.
-    even : sequence of n bool
-        Which joints pass on the turn evenly; none of them when empty.
+    path: times (t,) [s] -> Jet of the points (t, n+2, 3): positions [m], velocities, accelerations; times (t,) [s].
+    yoke_angle (n-1,) [rad]: γ_2 … γ_n.
+    speed, acceleration [rad/s, rad/s²]: spin ω_1 of the input shaft at `start`, and its constant acceleration ε_1.
+    start_phase [rad]: ψ_1: angle of the driving yoke of joint 1 from the plane of that joint at `start`.
+    start [s]: instant at which φ_1 = 0.
+    normal (3,): normal of the plane of joint 1 to use where that joint is straight at `start`.
+    even: which joints pass on the turn evenly; none of them when empty.
 
-    Returns
-    -------
-    MovingMotion
-
-    Notes
-    -----
     θ_1 = ψ_1 + φ_1 counts from N × a_1 with N = unit(a_1 × a_2) at `start`. If a_1 itself moves, that direction is
     carried along without twisting, so that ω_1 is the spin; a machine body that carries the input shaft and itself
     turns with Ω_b adds Ω_b·a_1 to the speed measured against the body.
-
-    Examples
-    --------
-    A joint whose output shaft swings, at rest in the mean position (no joint angle): the rate alone makes no difference
-    there.
-
-    >>> import numpy as np
-    >>> points = [[-1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
-    >>> path = harmonic_points(points, [[0.0] * 3, [0.0] * 3, [0.0, 0.1, 0.0]], frequency=50.0)
-    >>> moving_centres(path, [0.0], yoke_angle=[], speed=100.0).spins.spin
-    array([[100., 100.]])
     """
     at = np.atleast_1d(np.asarray(times, dtype=float))
     points = path(at)
@@ -322,23 +233,7 @@ def _first_arm(
 def harmonic_points(points: ArrayLike, amplitude: ArrayLike, *, frequency: float, phase: ArrayLike = 0.0) -> Path:
     """Return the path of points that each swing along a line: P_k(t) = P_k + A_k sin(W t + phase_k).
 
-    Parameters
-    ----------
-    points : array (k, 3) [m]
-        Middle positions.
-    amplitude : array (k, 3) [m]
-        Amplitudes.
-    frequency : float [rad/s]
-        W.
-    phase : float or array (k,) [rad]
-        Phase of every point.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> path = harmonic_points([[0.0, 0.0, 0.0]], [[0.0, 0.0, 0.1]], frequency=10.0)
-    >>> path(np.asarray([0.0]))[1]
-    array([[[0., 0., 1.]]])
+    points (k, 3) [m]: middle positions; amplitude (k, 3) [m]; frequency [rad/s]: W; phase (k,) [rad].
     """
     rest = np.asarray(points, dtype=float)
     size = np.asarray(amplitude, dtype=float)

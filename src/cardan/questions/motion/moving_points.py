@@ -38,30 +38,10 @@ SPAN = 20
 def moving_points(points: ArrayLike, movements: Sequence[Movement], times: ArrayLike) -> Jet:
     """Return positions, velocities and accelerations of the points of a drive, exactly.
 
-    Parameters
-    ----------
-    points : array (n+2, 3) [m]
-        B_0 … B_{n+1} as drawn: "input", "joints[0]" …, "output".
-    movements : sequence of Movement
-        Applied one after the other, each to where the ones before left the points.
-    times : array (t,) [s]
-        Instants.
-
-    Returns
-    -------
-    Jet (t, n+2, 3) [m, m/s, m/s²]
-
-    Raises
-    ------
-    InputError
-        An instant outside the span of a table.
-
-    Examples
-    --------
-    >>> from cardan.drive.movement import Harmonic
-    >>> bounce = Harmonic(moves=("output",), amplitude=(0.0, 0.0, 0.02), frequency=10.0)
-    >>> moving_points([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [bounce], [0.0])[1][0, 2]
-    array([0. , 0. , 0.2])
+    points (n+2, 3) [m]: B_0 … B_{n+1} as drawn: "input", "joints[0]" …, "output".
+    movements: applied one after the other, each to where the ones before left the points; times (t,) [s].
+    Returns (t, n+2, 3) [m, m/s, m/s²].
+    Raises InputError: an instant outside the span of a table.
     """
     at = np.atleast_1d(np.asarray(times, dtype=float))
     rest = np.asarray(points, dtype=float)
@@ -79,8 +59,6 @@ def moving_points(points: ArrayLike, movements: Sequence[Movement], times: Array
 def point_names(joints: int) -> list[str]:
     """Return the names of the points that can move.
 
-    Examples
-    --------
     >>> point_names(2)
     ['input', 'joints[0]', 'joints[1]', 'output']
     """
@@ -192,32 +170,11 @@ def start_time(movements: Sequence[Movement]) -> float:
 def default_times(movements: Sequence[Movement], until: float | None = None) -> Array:
     """Return the instants at which a movement is looked at when none are given, array (t,) [s].
 
-    Parameters
-    ----------
-    movements : sequence of Movement
-        What moves.
-    until : float, optional [s]
-        End of a time span from zero, instead of the one that suits the movements.
-
-    Raises
-    ------
-    InputError
-        The span holds so many periods that following them takes more than `LIMIT` instants.
-
-    Notes
-    -----
+    until [s]: end of a time span from zero, instead of the one that suits the movements.
     The span that the tables share; else the longest duration of the random movements; else the common period of the
     swings. Swings without a common period within 1000 of their periods are followed over `SPAN` periods of the slowest.
     `STEPS` instants in the shortest swing, 20 in the shortest period of a random movement, 4 to a row of a table; at
     least `FEWEST`, at most `MOST` in all unless that leaves the shortest period less than `LEAST`.
-
-    Examples
-    --------
-    >>> from cardan.drive.movement import Harmonic
-    >>> swings = [Harmonic(moves=("output",), amplitude=(0, 0, 1), frequency=w) for w in (4.0, 6.0)]
-    >>> times = default_times(swings)
-    >>> times.size, float(times[-1])
-    (361, 3.1415926)
     """
     randoms = [m for m in movements if isinstance(m, kinds.Random)]
     tables = [m for m in movements if isinstance(m, kinds.Table)]
@@ -256,11 +213,6 @@ def common_period(periods: Sequence[float]) -> float:
     """Return the shortest time in which every period fits a whole number of times.
 
     `SPAN` times the longest one when there is none within a thousand periods.
-
-    Examples
-    --------
-    >>> common_period([0.2, 0.3])
-    0.6
     """
     shortest = min(periods)
     together = Fraction(1)

@@ -22,18 +22,9 @@ def is_rounding(drive: Drive, share: float, length: Array | None = None) -> bool
 
     Joint angles that coordinates give are never quite those meant, nor are those of joints that cancel each other; a
     joint angle that a file gives by itself is meant. What breaks a limit of the file is never put down to rounding.
+    share: its speed fluctuation δ at some setting of its yokes.
+    length (n,): sides of its phase polygon, where they are known.
 
-    Parameters
-    ----------
-    drive : Drive
-        What is described.
-    share : float
-        Its speed fluctuation δ at some setting of its yokes.
-    length : array (n,), optional
-        Sides of its phase polygon, where they are known.
-
-    Examples
-    --------
     >>> is_rounding(Drive.from_angles([0.2, 0.2 + 1e-6]), 1e-7), is_rounding(Drive.from_angles([1e-3]), 1e-7)
     (True, False)
     """
@@ -50,8 +41,6 @@ def is_rounding(drive: Drive, share: float, length: Array | None = None) -> bool
 def each_uniform(drive: Drive) -> bool:
     """Tell whether every joint of a drive turns uniformly by itself, straight or of constant velocity.
 
-    Examples
-    --------
     >>> each_uniform(Drive.from_angles([0.0])), each_uniform(Drive.from_angles([0.2, 0.2]))
     (True, False)
     """

@@ -27,34 +27,12 @@ def speed_range(
 ) -> tuple[Array, Array]:
     """Return the lowest and highest spin of every shaft over all yoke positions, at each instant, exactly.
 
-    Parameters
-    ----------
-    axes : Jet (..., n+1, 3)
-        Directions of the shafts and their rates [1/s]; accelerations do not matter.
-    yoke_angle : array (n-1,) [rad]
-        γ_2 … γ_n.
-    speed : float or array (...) [rad/s]
-        ω_1.
-    even : sequence of n bool
-        Which joints pass on the turn evenly; none of them when empty.
-
-    Returns
-    -------
-    low, high : arrays (..., n+1) [rad/s]
-
-    Notes
-    -----
+    axes (..., n+1, 3): directions of the shafts and their rates [1/s]; accelerations do not matter.
+    yoke_angle (n-1,) [rad]: γ_2 … γ_n; speed (...) [rad/s]: ω_1.
+    even: which joints pass on the turn evenly; none of them when empty.
+    Returns low, high (..., n+1) [rad/s].
     Three angles fix N = ω_i Q and Q; the extremes λ of N/Q are where N - λ Q touches zero:
     λ² - 2⟨N,Q⟩λ + ⟨N,N⟩ = 0 with ⟨x,y⟩ = x_0 y_0 - x_1 y_1 - x_2 y_2 and ⟨Q,Q⟩ = 1.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> joint_angle = np.deg2rad(20.0)
-    >>> a = np.asarray([[1.0, 0.0, 0.0], [np.cos(joint_angle), np.sin(joint_angle), 0.0]])
-    >>> low, high = speed_range((a, 0.0 * a, 0.0 * a), yoke_angle=[], speed=100.0)
-    >>> low, high
-    (array([100.        ,  93.96926208]), array([100.        , 106.41777725]))
     """
     xp = namespace(axes[0])
     found, theta = _around(axes, yoke_angle, speed, 0.0, 3, even)
@@ -75,33 +53,12 @@ def acceleration_range(
 ) -> tuple[Array, Array]:
     """Return the lowest and highest spin acceleration of every shaft over all yoke positions, at each instant.
 
-    Parameters
-    ----------
-    axes : Jet (..., n+1, 3)
-        Directions of the shafts, their rates [1/s] and accelerations [1/s²].
-    yoke_angle : array (n-1,) [rad]
-        γ_2 … γ_n.
-    speed, acceleration : float or array (...) [rad/s, rad/s²]
-        ω_1, ε_1.
-    even : sequence of n bool
-        Which joints pass on the turn evenly; none of them when empty.
-
-    Returns
-    -------
-    low, high : arrays (..., n+1) [rad/s²]
-
-    Notes
-    -----
+    axes (..., n+1, 3): directions of the shafts, their rates [1/s] and accelerations [1/s²].
+    yoke_angle (n-1,) [rad]: γ_2 … γ_n; speed, acceleration (...) [rad/s, rad/s²]: ω_1, ε_1.
+    even: which joints pass on the turn evenly; none of them when empty.
+    Returns low, high (..., n+1) [rad/s²].
     P = ε_i Q² has orders 0, 2 and 4 of θ: five angles fix it. The extremes of P/Q², found among `SAMPLES` yoke
     positions, are sharpened by Newton's steps on P'Q - 2PQ' = 0, down to rounding.
-
-    Examples
-    --------
-    >>> joint_angle = np.deg2rad(20.0)
-    >>> a = np.asarray([[1.0, 0.0, 0.0], [np.cos(joint_angle), np.sin(joint_angle), 0.0]])
-    >>> low, high = acceleration_range((a, 0.0 * a, 0.0 * a), yoke_angle=[], speed=1.0)
-    >>> np.round(high, 7)
-    array([0.       , 0.1249656])
     """
     found, theta = _around(axes, yoke_angle, speed, acceleration, 5, even)
     order = np.asarray([0.0, 2.0, 2.0, 4.0, 4.0])[:, None]

@@ -32,18 +32,9 @@ LIMIT = 0.5 * np.pi * (1.0 - 1e-6)
 def mean_times(movements: Sequence[Movement], *, fewest: int = FEWEST) -> Array:
     """Return instants, array (t,) [s], whose plain mean is that over the time of some movements.
 
-    Parameters
-    ----------
-    movements : sequence of Movement
-    fewest : int
-        How many instants at least.
-
-    Notes
-    -----
+    fewest: how many instants at least.
     The middles of equal steps of the span that `default_times` follows: exact up to rounding for what swings smoothly.
 
-    Examples
-    --------
     >>> from cardan.drive.movement import Harmonic
     >>> swing = Harmonic(moves=("output",), amplitude=(0, 0, 1), frequency=np.pi)
     >>> times = mean_times([swing])
@@ -60,18 +51,8 @@ def mean_times(movements: Sequence[Movement], *, fewest: int = FEWEST) -> Array:
 def standing(drive: Drive, machine: Train, times: Array) -> list[Train]:
     """Return the machine half of a drive as it stands at instants of its movements, masses as drawn.
 
-    Parameters
-    ----------
-    drive : Drive
-        With movements.
-    machine : Train
-        Its machine half as drawn.
-    times : array (t,) [s]
-
-    Raises
-    ------
-    InputError
-        A joint bends 90 degrees or more at an instant.
+    times (t,) [s].
+    Raises InputError: a joint bends 90 degrees or more at an instant.
     """
     points = moving_points(geometry(drive).points, drive.movements, times)[0]
     place = geometry_from_points(points)
@@ -98,14 +79,8 @@ def standing(drive: Drive, machine: Train, times: Array) -> list[Train]:
 def still(drive: Drive, time: float) -> Drive:
     """Return the drive that stands as a moving one does at an instant.
 
-    Parameters
-    ----------
-    drive : Drive
-        With movements.
-    time : float [s]
+    drive: with movements; time [s].
 
-    Examples
-    --------
     >>> from cardan.drive.movement import Harmonic
     >>> rise = Harmonic(moves=("output",), amplitude=(0, 0, 1), frequency=np.pi)
     >>> moving = replace(Drive.from_points([(0, 0, 0), (1, 0, 0), (2, 0, 0)]), movements=(rise,))
@@ -126,13 +101,7 @@ def still(drive: Drive, time: float) -> Drive:
 def steepest(drive: Drive) -> tuple[float, ...]:
     """Return the instants [s] at which the joints of a moving drive bend most, one a joint, each once.
 
-    Parameters
-    ----------
-    drive : Drive
-        With movements.
-
-    Notes
-    -----
+    drive: with movements.
     Of the instants of `default_times`, those at which the checks look; none at which nothing turns.
     """
     times = default_times(drive.movements)

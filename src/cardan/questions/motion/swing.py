@@ -21,31 +21,15 @@ PLACES = 720
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Swing:
-    """Extremes of shafts 2 … n+1 over a turn, under the names of `EquivalentJoint`, and what they swing in.
+    """Extremes of shafts 2 … n+1 over a turn, under the names of `EquivalentJoint`, and what they swing in."""
 
-    Attributes
-    ----------
-    speed_fluctuation : array (n)
-        δ = i_max - i_min.
-    ratio_min, ratio_max : arrays (n)
-        Least and largest speed ratio.
-    max_angle_error : array (n) [rad]
-        Half of what the shaft runs ahead and back.
-    max_acceleration : array (n)
-        Largest \\|ε\\|/ω_1² at uniform input.
-    amplitude : array (n, orders) [rad]
-        Amplitudes of the angle error once, twice … a turn.
-    coast_acceleration : array (n-1)
-        Largest \\|ε\\|/ω² of shafts 2 … n at uniform output, whose speed is ω.
-    """
-
-    speed_fluctuation: Array
-    ratio_min: Array
-    ratio_max: Array
-    max_angle_error: Array
-    max_acceleration: Array
-    amplitude: Array
-    coast_acceleration: Array
+    speed_fluctuation: Array  # (n): δ = i_max - i_min
+    ratio_min: Array  # ratio_min, ratio_max (n): least and largest speed ratio
+    ratio_max: Array  # (n)
+    max_angle_error: Array  # (n) [rad]: half of what the shaft runs ahead and back
+    max_acceleration: Array  # (n): largest |ε|/ω_1² at uniform input
+    amplitude: Array  # (n, orders) [rad]: amplitudes of the angle error once, twice … a turn
+    coast_acceleration: Array  # (n-1): largest |ε|/ω² of shafts 2 … n at uniform output, whose speed is ω
 
     @property
     def shaft_speed_fluctuation(self) -> Array:
@@ -73,23 +57,7 @@ Evenness: TypeAlias = EquivalentJoint | Swing
 def swing(drive: Drive) -> Swing:
     """Return how uneven every shaft of a drive is, seen over one turn.
 
-    Parameters
-    ----------
-    drive : Drive
-        With joints of any kinds.
-
-    Returns
-    -------
-    Swing
-
-    Examples
-    --------
-    It agrees with the closed form where there is one:
-
-    >>> from cardan.units import deg
-    >>> found = swing(Drive.from_angles([20 * deg]))
-    >>> print(f"{found.speed_fluctuation[0]:.6f} {found.joint_angle[0] / deg:.4f}", [one for one, _ in found.orders(2)])
-    0.124485 20.0000 [2, 4]
+    drive: with joints of any kinds.
     """
     angle = np.arange(PLACES) * (2.0 * np.pi / PLACES)
     found = motion(drive, angle)
@@ -112,19 +80,11 @@ def swing(drive: Drive) -> Swing:
 def backward(ratio: Array, slope: Array, output_ratio: Array, output_slope: Array) -> Array:
     """Return the accelerations over ω² of shafts where the output turns uniformly at ω, arrays (..., p).
 
-    Parameters
-    ----------
-    ratio, slope : arrays (..., p) [1, 1/rad]
-        Speed ratio of the shafts at uniform input and its derivative by the input angle φ_1.
-    output_ratio, output_slope : arrays (p) [1, 1/rad]
-        Those of the output.
-
-    Notes
-    -----
+    ratio, slope (..., p) [1, 1/rad]: speed ratio of the shafts at uniform input and its derivative by the input angle
+    φ_1.
+    output_ratio, output_slope (p) [1, 1/rad].
     With u = dφ/dφ_1 of a shaft and v that of the output, d²φ/dφ_out² = (u' v - u v')/v³.
 
-    Examples
-    --------
     A shaft that turns as the output does is not accelerated:
 
     >>> backward(np.asarray([1.2]), np.asarray([0.3]), np.asarray([1.2]), np.asarray([0.3]))
@@ -137,14 +97,7 @@ def backward(ratio: Array, slope: Array, output_ratio: Array, output_slope: Arra
 def each_shaft(drive: Drive) -> Evenness:
     """Return how even every shaft of a drive turns: in closed form where the kinds of its joints have one.
 
-    Parameters
-    ----------
-    drive : Drive
-
-    Returns
-    -------
-    EquivalentJoint or Swing
-        joint_angle, speed_fluctuation, ratio_min, ratio_max, max_angle_error, max_acceleration : arrays (n), for shafts
-        2 … n+1.
+    Returns EquivalentJoint or Swing: joint_angle, speed_fluctuation, ratio_min, ratio_max, max_angle_error,
+    max_acceleration (n), for shafts 2 … n+1.
     """
     return swing(drive) if unmapped(drive.joints) else after_each_joint(drive)

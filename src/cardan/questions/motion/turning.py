@@ -13,20 +13,11 @@ from .swing import Evenness, each_shaft
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Turning:
-    """What is known of the motion of one drive.
+    """What is known of the motion of one drive."""
 
-    Attributes
-    ----------
-    motion : Motion
-        Every shaft at the input angles asked for.
-    each : EquivalentJoint or Swing
-        Extremes of shafts 2 … n+1 over a turn at uniform input.
-    listed : Motion or None
-        The same at the few positions that people read one by one, where somebody asked for them.
-    """
-
-    motion: Motion
-    each: Evenness
+    motion: Motion  # every shaft at the input angles asked for
+    each: Evenness  # extremes of shafts 2 … n+1 over a turn at uniform input
+    # the same at the few positions that people read one by one, where somebody asked for them
     listed: Motion | None = None
 
     @property
@@ -44,26 +35,10 @@ def turning(
 ) -> Turning:
     """Return how a drive turns, and how uniformly.
 
-    Parameters
-    ----------
-    drive : Drive
-        Of joints of any kinds.
-    angle : array (p,) [rad], optional
-        Input angles from the start position; one turn in steps of a degree by default.
-    speed : float, optional [rad/s]
-        Input speed; that of the duty by default.
-    listed : array (q,) [rad], optional
-        Input angles that people want to read one by one.
-
-    Returns
-    -------
-    Turning
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> print(f"{turning(Drive.from_angles([20 * deg])).fluctuation:.6f}")
-    0.124485
+    drive: of joints of any kinds.
+    angle (p,) [rad]: input angles from the start position; one turn in steps of a degree by default.
+    speed [rad/s]: input speed; that of the duty by default.
+    listed (q,) [rad]: input angles that people want to read one by one.
     """
     return Turning(
         motion=motion(drive, angle, speed=speed),

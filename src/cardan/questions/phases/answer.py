@@ -65,16 +65,9 @@ def lacking(drive: Drive) -> Lacking:
 def answer(drive: Drive, result: Phasing, *, fixed: Mapping[int, float] | None = None, nearest: bool = False) -> Answer:
     """Return what there is to say of the phasing of the yokes of a drive.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive as it stands in the file.
-    result : Phasing
-        What its yoke angles can do.
-    fixed : mapping of int to float, optional
-        What was held beside the file: shaft number -> yoke angle [rad].
-    nearest : bool
-        Whether the goal was the least change of the present yokes.
+    drive: the drive as it stands in the file; result: what its yoke angles can do.
+    fixed: what was held beside the file: shaft number -> yoke angle [rad].
+    nearest: whether the goal was the least change of the present yokes.
     """
     shown = (result.as_built, *result.settings, *result.spline_settings[:PITCHED], *result.pose_settings)
     several = len(drive.joints) > 1
@@ -408,19 +401,9 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
 def excess(found: Phasing, joints: int, joint_angle: float, *, plain: bool = True) -> Text:
     """Return in one sentence which joint keeps a drive from being uniform, and at what joint angle it would not.
 
-    Parameters
-    ----------
-    found : Phasing
-        What the yokes can do; a single joint fluctuates more than the others can undo.
-    joints : int
-        Number of joints.
-    joint_angle : float [rad]
-        Angle of that joint.
-    plain : bool
-        Whether it is a Hooke joint; of another kind no angle is named.
-
-    Notes
-    -----
+    found: what the yokes can do; a single joint fluctuates more than the others can undo.
+    joint_angle [rad].
+    plain: whether it is a Hooke joint; of another kind no angle is named.
     The side L = -ln cos α of that joint is asinh(δ/2) too long.
     """
     left = Quantity(found.speed_fluctuation_min, "share", 3)
@@ -457,12 +440,8 @@ def excess(found: Phasing, joints: int, joint_angle: float, *, plain: bool = Tru
 def letters(found: Phasing, *, nearest: bool = False) -> str:
     """Return what the letters of the settings stand for, "" where there is no choice.
 
-    Parameters
-    ----------
-    found : Phasing
-        Settings, best first.
-    nearest : bool
-        Whether the goal was the least change of the present yokes instead of the most uniform intermediate shafts.
+    found: settings, best first.
+    nearest: whether the goal was the least change of the present yokes instead of the most uniform intermediate shafts.
     """
     if not found.feasible or len(found.settings) < 2:
         return ""
@@ -484,15 +463,9 @@ def letters(found: Phasing, *, nearest: bool = False) -> str:
 def noiseless(slope: Iterable[float], largest: float) -> list[float]:
     """Return slopes of the speed fluctuation with 0 for those that are nothing but rounding.
 
-    Parameters
-    ----------
-    slope : iterable of float
-        At a minimum the slope is 0 only to the rounding of the yoke angles.
-    largest : float
-        Largest fluctuation that turning the yokes can make; no slope is much greater.
+    slope: at a minimum the slope is 0 only to the rounding of the yoke angles.
+    largest: largest fluctuation that turning the yokes can make; no slope is much greater.
 
-    Examples
-    --------
     >>> noiseless([0.01, 8e-9], 0.2)
     [0.01, 0.0]
     """
@@ -589,16 +562,7 @@ def setting_facts(one: YokeSetting) -> dict[str, Any]:
 def with_applied(said: Answer, setting: YokeSetting, file: str, values: Mapping[str, Any]) -> Answer:
     """Return an answer with a word on the setting that was written into a file, and with what to do next.
 
-    Parameters
-    ----------
-    said : Answer
-        What was found.
-    setting : YokeSetting
-        The setting that was written.
-    file : str
-        Into which file.
-    values : mapping of str to value
-        What changed in it, by paths with units.
+    values: what changed in it, by paths with units.
     """
     text = _("{path}: setting {label} written, speed fluctuation δ = {share}.")
     done = say(text, path=file, label=setting.label, share=Quantity(setting.speed_fluctuation, "share"))

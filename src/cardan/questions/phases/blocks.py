@@ -22,27 +22,13 @@ STRETCHED = 1e-6
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Blocks:
-    """Sides of the polygon that the free yokes can bend.
+    """Sides of the polygon that the free yokes can bend."""
 
-    Attributes
-    ----------
-    sides : list of Pair
-        One joint, or several with the held yokes between them.
-    free : tuple of int
-        Index 0 … n-2 of the yoke angle between one side and the next.
-    joints : tuple of tuple of int
-        Joints of each side, counted from 0.
-    between : array (n-1,) [rad]
-        π/2 - β of each shaft, so that γ = between - μ.
-    yoke_angle : array (n-1,) [rad]
-        Held angles, and present ones where free.
-    """
-
-    sides: list[Pair]
-    free: tuple[int, ...]
-    joints: tuple[tuple[int, ...], ...]
-    between: Array
-    yoke_angle: Array
+    sides: list[Pair]  # one joint, or several with the held yokes between them
+    free: tuple[int, ...]  # index 0 … n-2 of the yoke angle between one side and the next
+    joints: tuple[tuple[int, ...], ...]  # joints of each side, counted from 0
+    between: Array  # (n-1,) [rad]: π/2 - β of each shaft, so that γ = between - μ
+    yoke_angle: Array  # (n-1,) [rad]: held angles, and present ones where free
 
     @property
     def lengths(self) -> list[float]:
@@ -123,14 +109,7 @@ def _lean(so_far: Pair, side: Pair) -> float:
 def blocks(chain: Chain, yoke_angle: Array, free: Sequence[int]) -> Blocks:
     """Return the polygon of a drive whose yokes other than ``free`` are held.
 
-    Parameters
-    ----------
-    chain : Chain
-        The drive.
-    yoke_angle : array (n-1,) [rad]
-        Held and present yoke angles.
-    free : sequence of int
-        Indices 0 … n-2 of the free ones, ascending.
+    yoke_angle (n-1,) [rad]: held and present yoke angles; free: indices 0 … n-2 of the free ones, ascending.
     """
     between = 0.5 * np.pi - chain.plane_twist
     sides: list[Pair] = []

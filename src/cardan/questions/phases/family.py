@@ -32,16 +32,8 @@ MOST_SEARCHED = 40
 def best_member(figure: Blocks, choice: Choice, goal: Goal, known: Array) -> Array:
     """Return the yoke angles (n-1,) [rad] of the synchronous setting that is best by a goal.
 
-    Parameters
-    ----------
-    figure : Blocks
-        Polygon of the free yokes; it can be closed.
-    choice : Choice
-        What the goal looks at.
-    goal : Goal
-        What to make small.
-    known : array (s, n-1) [rad]
-        Members worth starting from.
+    figure: polygon of the free yokes; it can be closed.
+    known (s, n-1) [rad]: members worth starting from.
     """
     beside = onto_closure(figure, choice, figure.yoke_angle)
     closed = beside[None] if _leftover(choice, beside) < SHUT else known[:0]

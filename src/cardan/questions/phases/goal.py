@@ -14,21 +14,11 @@ from .setting import with_yokes, wrapped
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Choice:
-    """What a goal may look at.
+    """What a goal may look at."""
 
-    Attributes
-    ----------
-    chain : Chain
-        The drive.
-    as_built : array (n-1,) [rad]
-        Present yoke angles.
-    weight : array (n-1,)
-        Weights of shafts 2 … n.
-    """
-
-    chain: Chain
-    as_built: Array
-    weight: Array
+    chain: Chain  # the drive
+    as_built: Array  # (n-1,) [rad]: present yoke angles
+    weight: Array  # (n-1,): weights of shafts 2 … n
 
 
 @dataclass(frozen=True, kw_only=True)

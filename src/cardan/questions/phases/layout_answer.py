@@ -25,16 +25,9 @@ __all__ = ["answer", "values"]
 def answer(drive: Drive, result: Layout, *, fixed: Mapping[int, float] | None = None, nearest: bool = False) -> Answer:
     """Return what there is to say of a layout; see `cardan.questions.phases.answer.answer`.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive as it stands in the file.
-    result : Layout
-        The same with its joints moved.
-    fixed : mapping of int to float, optional
-        What was held beside the file: shaft number -> yoke angle [rad].
-    nearest : bool
-        Whether the goal was the least change of the present yokes.
+    drive: the drive as it stands in the file; result: the same with its joints moved.
+    fixed: what was held beside the file: shaft number -> yoke angle [rad].
+    nearest: whether the goal was the least change of the present yokes.
     """
     settings = result.phasing.settings
     return Answer(

@@ -32,31 +32,15 @@ OPTIONS: Any = {"maxiter": 60, "ftol": 1e-10}
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Search:
-    """What is given and what may change.
+    """What is given and what may change."""
 
-    Attributes
-    ----------
-    points : array (n+2, 3) [m]
-        The drive as described.
-    low, high : array (n, 3) [m]
-        Corners of the joints' boxes.
-    shortest : array (n+1,) [m]
-        Least length of each shaft.
-    yoke_angle : array (n-1,) [rad]
-        Held yoke angles; the others do not matter.
-    free : tuple of int
-        Indices 0 … n-2 of the yokes that may be turned.
-    weights : array (n,) or None
-        Of the joints' bends; None minimises the largest.
-    """
-
-    points: Array
-    low: Array
-    high: Array
-    shortest: Array
-    yoke_angle: Array
-    free: tuple[int, ...]
-    weights: Array | None
+    points: Array  # (n+2, 3) [m]: the drive as described
+    low: Array  # low, high (n, 3) [m]: corners of the joints' boxes
+    high: Array  # (n, 3) [m]
+    shortest: Array  # (n+1,) [m]: least length of each shaft
+    yoke_angle: Array  # (n-1,) [rad]: held yoke angles; the others do not matter
+    free: tuple[int, ...]  # indices 0 … n-2 of the yokes that may be turned
+    weights: Array | None  # (n,): of the joints' bends; None minimises the largest
 
     @cached_property
     def loose(self) -> Array:

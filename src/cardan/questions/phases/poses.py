@@ -69,27 +69,11 @@ def best_for_poses(
 ) -> tuple[Array, Array, bool]:
     """Return the settings with the least worst and with the least mean speed_fluctuation over the poses.
 
-    Parameters
-    ----------
-    poses : Chain (p, n)
-        The drive in its poses.
-    share : array (p,)
-        Shares of time, summing to one.
-    yoke_angle : array (n-1,) [rad]
-        Held and present yoke angles.
-    free : sequence of int
-        Indices of the free ones.
-    known : array (s, n-1) [rad]
-        Settings worth starting from, such as those that are synchronous in one pose.
-    progress : function, optional
-        Called with the share done; answering "stop" ends the search with the best so far.
-
-    Returns
-    -------
-    worst, mean : array (n-1,) [rad]
-        Yoke angles for the least worst and the least mean speed_fluctuation.
-    complete : bool
-        False when stopped.
+    poses (p, n): the drive in its poses; share (p,): shares of time, summing to one.
+    yoke_angle (n-1,) [rad]: held and present yoke angles; free: indices of the free ones.
+    known (s, n-1) [rad]: settings worth starting from, such as those that are synchronous in one pose.
+    Returns worst, mean (n-1,) [rad]: yoke angles for the least worst and the least mean speed_fluctuation; complete:
+    False when stopped.
     """
     if not free:
         return yoke_angle, yoke_angle, True
@@ -116,23 +100,12 @@ def best_for_poses(
 def best_on_teeth(poses: Chain, share: Array, yoke_angle: Array, teeth: Mapping[int, int], found: Array) -> Array:
     """Return the settings that splines allow with the least worst and the least mean speed_fluctuation over the poses.
 
-    Parameters
-    ----------
-    poses : Chain (p, n)
-        The drive in its poses.
-    share : array (p,)
-        Shares of time, summing to one.
-    yoke_angle : array (n-1,) [rad]
-        Present yoke angles, from which the teeth count.
-    teeth : mapping of int to int
-        Index 0 … n-2 of a yoke angle -> teeth of the spline there.
-    found : array (2, n-1) [rad]
-        The best without teeth, whose other yoke angles are kept.
-
-    Returns
-    -------
-    array (2, n-1) [rad]
-        Of all settings where there are at most `EVERY`, else of those a tooth beside the best without teeth.
+    poses (p, n): the drive in its poses; share (p,): shares of time, summing to one.
+    yoke_angle (n-1,) [rad]: present yoke angles, from which the teeth count.
+    teeth: index 0 … n-2 of a yoke angle -> teeth of the spline there.
+    found (2, n-1) [rad]: the best without teeth, whose other yoke angles are kept.
+    Returns (2, n-1) [rad]: of all settings where there are at most `EVERY`, else of those a tooth beside the best
+    without teeth.
     """
     every = math.prod(steps(z) for z in teeth.values()) <= EVERY
     rows = []

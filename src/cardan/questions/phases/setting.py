@@ -64,15 +64,8 @@ STEP = 1e-9
 def values_of(setting: YokeSetting, drive: Drive) -> dict[str, float]:
     """Return what a setting changes in the file of a drive, by paths with their unit.
 
-    Parameters
-    ----------
-    setting : YokeSetting
-        Of this drive.
-    drive : Drive
-        As it stands in the file.
+    drive: as it stands in the file.
 
-    Examples
-    --------
     >>> from cardan.questions.phases.phases import phases
     >>> drive = Drive.from_angles([0.2, 0.2], yoke_angles=[0.3])
     >>> values_of(phases(drive).settings[0], drive)
@@ -88,8 +81,6 @@ def values_of(setting: YokeSetting, drive: Drive) -> dict[str, float]:
 def wrapped(angle: Array) -> Array:
     """Return a yoke angle modulo π in (-π/2, π/2].
 
-    Examples
-    --------
     >>> print(wrapped(np.asarray([-1.5707963267948966, 3.0])))
     [ 1.57079633 -0.14159265]
     """
@@ -113,15 +104,7 @@ def with_yokes(chain: Chain, yoke_angle: Array) -> Chain:
 def turned(chain: Chain) -> tuple[Pair, Array, Array]:
     """Return the pair (a, b) of the drive and its derivatives by the yoke angles.
 
-    Returns
-    -------
-    (a, b) : Pair (...)
-        The whole drive.
-    da, db : complex arrays (..., n-1) [1/rad]
-        Derivatives by γ_2 … γ_n.
-
-    Notes
-    -----
+    Returns (a, b) (...): the whole drive; da, db (..., n-1) [1/rad], complex: derivatives by γ_2 … γ_n.
     G = S_j R(μ_j) P_{j-1} with the products S_j of joints j … n and P_{j-1} of joints 1 … j-1; dR/dμ = diag(i, -i) R
     and dμ_j/dγ_j = -1.
     """
@@ -154,14 +137,9 @@ def sensitivity(chain: Chain) -> Array:
 
     Where δ > 0 this is the derivative dδ/dγ, zero at a minimum and negative where turning forward helps. Where the
     drive is synchronous δ has a corner: it grows equally to both sides, and this is that slope.
+    δ = 4 |a| |b|, exactly differentiated. At closure the slope is 4 |a| |db/dγ|, for small joint angles
+    8 |Σ_{k≥j} τ_k e^{2iΨ_k}|.
 
-    Notes
-    -----
-    δ = 4 \\|a\\| \\|b\\|, exactly differentiated. At closure the slope is 4 \\|a\\| \\|db/dγ\\|, for small joint angles
-    8 \\|Σ_{k≥j} τ_k e^{2iΨ_k}\\|.
-
-    Examples
-    --------
     >>> from cardan.drive.models.chain import chain
     >>> from cardan.drive.drive import Drive
     >>> sensitivity(chain(Drive.from_angles([20 * deg, 20 * deg]))) * deg
@@ -179,21 +157,9 @@ def sensitivity(chain: Chain) -> Array:
 def growth(chain: Chain, yoke_angle: Array, error: float = deg) -> Array:
     """Return by how much δ grows when one yoke stands off, to the worse side, array (..., n-1).
 
-    Parameters
-    ----------
-    chain : Chain
-        The drive.
-    yoke_angle : array (..., n-1) [rad]
-        Settings of its yokes.
-    error : float [rad]
-        How far each yoke stands off, one at a time.
-
-    Notes
-    -----
+    yoke_angle (..., n-1) [rad]: settings of its yokes; error [rad]: how far each yoke stands off, one at a time.
     max δ(γ ± error) - δ(γ), exact. At a smooth minimum the slope, see `sensitivity`, is 0 and this is not.
 
-    Examples
-    --------
     >>> from cardan.drive.models.chain import chain
     >>> from cardan.drive.drive import Drive
     >>> drive = chain(Drive.from_angles([20 * deg, 20.01 * deg]))
@@ -213,18 +179,7 @@ def settings(
 ) -> tuple[YokeSetting, ...]:
     """Evaluate sets of yoke angles by the exact model.
 
-    Parameters
-    ----------
-    chain : Chain
-        The drive.
-    yoke_angle : array (s, n-1) [rad]
-        The sets.
-    labels : sequence of str
-        Their names.
-    as_built : array (n-1,) [rad]
-        Present yoke angles.
-    poses : sequence of Chain
-        The drive in its poses.
+    yoke_angle (s, n-1) [rad]; as_built (n-1,) [rad]: present yoke angles; poses: the drive in its poses.
     """
     tidy = wrapped(yoke_angle)
     batch = with_yokes(chain, tidy)

@@ -36,13 +36,7 @@ TIE = 1e-12
 
 
 def steps(teeth: int) -> int:
-    """Return how many different yoke angles a spline of ``teeth`` teeth allows.
-
-    Examples
-    --------
-    >>> steps(16), steps(21)
-    (8, 21)
-    """
+    """Return how many different yoke angles a spline of ``teeth`` teeth allows."""
     return teeth // 2 if teeth % 2 == 0 else teeth
 
 
@@ -65,27 +59,12 @@ def best_pitched(
 ) -> Array:
     """Return the settings with the smallest speed fluctuation that splines allow, best first.
 
-    Parameters
-    ----------
-    chain : Chain
-        One drive.
-    yoke_angle : array (n-1,) [rad]
-        Present yoke angles, from which the teeth count.
-    teeth : mapping of int to int
-        Index 0 … n-2 of a yoke angle -> teeth of the spline there.
-    free : sequence of int
-        Indices of yoke angles that have no teeth but may be chosen at will; each gets its best angle.
-    count : int
-        How many settings to return, fewer if there are fewer.
-
-    Returns
-    -------
-    array (s, n-1) [rad]
-
-    Raises
-    ------
-    InputError
-        There are too many settings to look at.
+    chain: one drive; yoke_angle (n-1,) [rad]: present yoke angles, from which the teeth count.
+    teeth: index 0 … n-2 of a yoke angle -> teeth of the spline there.
+    free: indices of yoke angles that have no teeth but may be chosen at will; each gets its best angle.
+    count: how many settings to return, fewer if there are fewer.
+    Returns (s, n-1) [rad].
+    Raises InputError: there are too many settings to look at.
     """
     places = {k: yoke_angle[k] + np.arange(steps(z)) * (np.pi / steps(z)) for k, z in sorted(teeth.items())}
     if free:
@@ -156,10 +135,8 @@ def _rows(
 def _met(chain: Chain, yoke_angle: Array, places: Mapping[int, Array], run: _Run, count: int) -> Array:
     """Return the indices of the best settings by the nearest points of two halves.
 
-    Notes
-    -----
-    For the half (a, b) up to and with the turn in the middle and the half (p, q) behind it, \\|b_whole\\| =
-    \\|p\\| \\|a\\| \\|u - v\\| with the points u = b/a*, v = -q/p of the unit disk.
+    For the half (a, b) up to and with the turn in the middle and the half (p, q) behind it, |b_whole| =
+    |p| |a| |u - v| with the points u = b/a*, v = -q/p of the unit disk.
     """
     cut = min(
         range(1, len(run.pitched) + 1),

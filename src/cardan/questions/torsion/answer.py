@@ -26,18 +26,10 @@ TONES: tuple[Tone, ...] = ("failed", "warning", "good", "plain")
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Torsion:
-    """Torsional vibration of a drive.
+    """Torsional vibration of a drive."""
 
-    Attributes
-    ----------
-    modes : TorsionModes
-        Natural frequencies and what excites them.
-    running : TorsionResponse or None
-        Steady vibration at the speed of the duty; None where that gives none.
-    """
-
-    modes: TorsionModes
-    running: TorsionResponse | None
+    modes: TorsionModes  # natural frequencies and what excites them
+    running: TorsionResponse | None  # steady vibration at the speed of the duty; None where that gives none
 
 
 def ask(drive: Drive) -> Torsion:

@@ -18,13 +18,7 @@ SMALL = {"size": 9, "color": palette.colour("muted")}
 
 
 def axis_of(axis: Axis) -> dict[str, Any]:
-    """Return the properties of an axis of numbers, those of XlsxWriter.
-
-    Parameters
-    ----------
-    axis : Axis
-        That of the panel.
-    """
+    """Return the properties of an axis of numbers, those of XlsxWriter."""
     low, high = reach(axis)
     grid = {"visible": axis.grid, "line": {"color": palette.colour("grid"), "width": 0.75}}
     found = {
@@ -43,13 +37,7 @@ def axis_of(axis: Axis) -> dict[str, Any]:
 
 
 def named(axis: Axis) -> dict[str, Any]:
-    """Return the words at an axis; none where it has none.
-
-    Parameters
-    ----------
-    axis : Axis
-        That of the panel.
-    """
+    """Return the words at an axis; none where it has none."""
     return {"name": plain(axis.title), "name_font": {**SMALL, "bold": False}} if axis.title else {}
 
 
@@ -78,13 +66,6 @@ def _step(axis: Axis) -> float:
 def reach(axis: Axis) -> tuple[float, float]:
     """Return the range of an axis, from a value where a tick can stand: a chart counts them from there.
 
-    Parameters
-    ----------
-    axis : Axis
-        That of the panel.
-
-    Examples
-    --------
     >>> reach(Axis(low=-0.3, high=4.3, ticks=(0.0, 2.0, 4.0))), reach(Axis(low=4e-5, high=0.03, log=True))
     ((-2.0, 4.3), (1e-05, 0.1))
     """
@@ -105,12 +86,7 @@ def _plain(value: float) -> float:
 def at_share(axis: Axis, share: float) -> float:
     """Return the value that stands at a share of the length of an axis.
 
-    Parameters
-    ----------
-    axis : Axis
-        That of the panel.
-    share : float
-        From 0 at its beginning to 1 at its end.
+    share: from 0 at its beginning to 1 at its end.
     """
     low, high = reach(axis)
     return float(low * (high / low) ** share) if axis.log else low + share * (high - low)
@@ -119,12 +95,7 @@ def at_share(axis: Axis, share: float) -> float:
 def spread(panel: Panel, *, upright: bool) -> tuple[float, float]:
     """Return the least and the greatest value of what is drawn, along an axis.
 
-    Parameters
-    ----------
-    panel : Panel
-        With curves, rules and shapes.
-    upright : bool
-        Along the axis that points up.
+    panel: with curves, rules and shapes; upright: along the axis that points up.
     """
     found = [np.asarray(one.y if upright else one.x) for one in panel.series if isinstance(one, Curve | Shape)]
     rules = [np.asarray([one.value]) for one in panel.series if isinstance(one, Rule) and one.upright != upright]
@@ -136,15 +107,8 @@ def spread(panel: Panel, *, upright: bool) -> tuple[float, float]:
 def snug(axis: Axis, drawn: tuple[float, float]) -> Axis:
     """Return an axis without the margins beyond its ticks where nothing is drawn: a chart would begin a tick lower.
 
-    Parameters
-    ----------
-    axis : Axis
-        That of the panel.
-    drawn : (float, float)
-        The range of what is drawn along it.
+    drawn: the range of what is drawn along it.
 
-    Examples
-    --------
     >>> reach(snug(Axis(low=-0.3, high=4.3, ticks=(0.0, 2.0, 4.0)), (0.0, 4.2)))
     (0.0, 4.3)
     """
@@ -159,13 +123,6 @@ def snug(axis: Axis, drawn: tuple[float, float]) -> Axis:
 def plain(text: str) -> str:
     """Return words for a place of a chart that takes formulas too, so that they are none.
 
-    Parameters
-    ----------
-    text : str
-        The words.
-
-    Examples
-    --------
     >>> plain("=A1"), plain("Sheet!A1"), plain("runs")
     ('\u200b=A1', 'Sheet！A1', 'runs')
     """

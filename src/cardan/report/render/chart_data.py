@@ -33,18 +33,10 @@ DIGITS = 6
 
 @dataclass(frozen=True, kw_only=True)
 class Place:
-    """A column of numbers on a sheet.
+    """A column of numbers on a sheet."""
 
-    Parameters
-    ----------
-    sheet : str
-        Name of the sheet.
-    column, count : int
-        Where it is, and how many values it has.
-    """
-
-    sheet: str
-    column: int
+    sheet: str  # name of the sheet
+    column: int  # column, count: where it is, and how many values it has
     count: int
 
     @property
@@ -61,14 +53,7 @@ class Place:
 class ChartData:
     """Writes columns from left to right, those of a panel side by side.
 
-    Parameters
-    ----------
-    sheet : worksheet
-        An empty one.
-    looks : Looks
-        Formats of the workbook.
-    page : str
-        Name of the sheet that has the charts.
+    sheet: an empty one; looks: formats of the workbook; page: name of the sheet that has the charts.
     """
 
     def __init__(self, sheet: Any, looks: Looks, page: str) -> None:
@@ -113,14 +98,7 @@ class ChartData:
     def numbers(self, name: str, unit: str, values: Array | Sequence[float], *, told: str = "") -> Place:
         """Write a column of numbers, or find it where this panel has the same one already.
 
-        Parameters
-        ----------
-        name, unit : str
-            What they are.
-        values : array (n,)
-            The numbers.
-        told : str
-            What else tells them from others of that name.
+        values (n,); told: what else tells them from others of that name.
         """
         array = np.atleast_1d(np.asarray(values, dtype=float))
         key = (name, array.tobytes())
@@ -162,13 +140,8 @@ class ChartData:
 def digits(values: Sequence[Any]) -> str:
     """Return the number format of a column: as many digits as its largest number has, none that are always nought.
 
-    Parameters
-    ----------
-    values : sequence of float
-        All finite.
+    values: all finite.
 
-    Examples
-    --------
     >>> digits([0.0, 90.0]), digits([0.998765432, 1.0]), digits([2e-9, 1.5e-9])
     ('0', '0.00000', '0.0E+00')
     """

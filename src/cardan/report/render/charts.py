@@ -54,13 +54,7 @@ class Drawn:
 
 
 def split(figure: Figure) -> tuple[tuple[Row, ...], Figure | None]:
-    """Return the rows of a figure's panels that are charts, and the figure of the others, None where there is none.
-
-    Parameters
-    ----------
-    figure : Figure
-        The figure.
-    """
+    """Return the rows of a figure's panels that are charts, and the figure of the others, None where there is none."""
     kept = tuple(row for row in (_only(row, charts=True) for row in figure.rows) if row.panels)
     others = tuple(row for row in (_only(row, charts=False) for row in figure.rows) if row.panels)
     return kept, replace(figure, rows=others) if any(panel.series for row in others for panel in row.panels) else None
@@ -117,17 +111,8 @@ def charts(
 ) -> Iterator[list[Drawn]]:
     """Yield the charts of each row of panels.
 
-    Parameters
-    ----------
-    book : workbook
-    data : ChartData
-        Takes their numbers.
-    figure : Figure
-        Whose panels they are.
-    rows : sequence of Row
-        Those that `split` keeps.
-    room : (float, float)
-        Pixels of a row across, and at most from top to bottom.
+    data: takes their numbers; rows: those that `split` keeps.
+    room: pixels of a row across, and at most from top to bottom.
     """
     for row in rows:
         drawn = []

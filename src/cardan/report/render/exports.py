@@ -37,34 +37,17 @@ LONGEST = 80
 
 @dataclass(frozen=True, kw_only=True)
 class Exported:
-    """A file that is not written yet.
-
-    Parameters
-    ----------
-    content : bytes
-    media_type : str
-        As in `MEDIA`.
-    name : str
-        Its name, with its ending.
-    """
+    """A file that is not written yet."""
 
     content: bytes
-    media_type: str
-    name: str
+    media_type: str  # as in `MEDIA`
+    name: str  # its name, with its ending
 
 
 def kinds(thing: Thing) -> tuple[str, ...]:
     """Return the kinds of file that a thing can be exported as.
 
-    Parameters
-    ----------
-    thing : Content, Page, Table or Figure
-        A whole report, a page of it, a table or a figure.
-
-    Examples
-    --------
-    >>> kinds(Table(columns=(), rows=()))
-    ('xlsx', 'csv', 'json')
+    thing: a whole report, a page of it, a table or a figure.
     """
     if isinstance(thing, Content):
         return ("html", "pdf", "xlsx", "json")
@@ -114,21 +97,9 @@ def exported(thing: Thing, kind: str, *, title: str = "") -> Exported:
 def export(thing: Thing, path: Path | str, *, title: str = "") -> Path:
     """Write a page, a table, a figure or a whole report into a file, whole or not at all.
 
-    Parameters
-    ----------
-    thing : Content, Page, Table or Figure
-        What to export.
-    path : path
-        Its ending says how, see `exported`.
-    title : str
-        Name of the drive, above a page.
-
-    Raises
-    ------
-    InputError
-        There is no such kind of it, or the file cannot be written.
-    MissingExtraError
-        What writes it is not installed.
+    path: its ending says how, see `exported`; title: name of the drive, above a page.
+    Raises InputError: there is no such kind of it, or the file cannot be written.
+    Raises MissingExtraError: what writes it is not installed.
     """
     place = Path(path)
     write_bytes(place, exported(thing, place.suffix.lower().lstrip("."), title=title).content)

@@ -19,46 +19,22 @@ jinja2 = later("jinja2")
 
 
 def written(content: Content) -> bytes:
-    """Return a report as an HTML file.
-
-    Parameters
-    ----------
-    content : Content
-        What it says.
-    """
+    """Return a report as an HTML file."""
     return text(content).encode()
 
 
 def interactive(content: Content) -> bytes:
-    """Return a report as an HTML file with figures to point at, zoom and turn.
-
-    Parameters
-    ----------
-    content : Content
-        What it says.
-    """
+    """Return a report as an HTML file with figures to point at, zoom and turn."""
     return _page(content, fragment, drawing()).encode()
 
 
 def text(content: Content) -> str:
-    """Return a report as the text of an HTML page.
-
-    Parameters
-    ----------
-    content : Content
-        What it says.
-    """
+    """Return a report as the text of an HTML page."""
     return _page(content, inline_svg, "")
 
 
 def excerpt(part: Excerpt) -> bytes:
-    """Return a page of a report as an HTML file.
-
-    Parameters
-    ----------
-    part : Excerpt
-        The page.
-    """
+    """Return a page of a report as an HTML file."""
     return _page(part, inline_svg, "", "excerpt.html").encode()
 
 

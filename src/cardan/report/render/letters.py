@@ -36,8 +36,6 @@ WIDTHS: dict[str, float] = {
 def breadth(text: str) -> float:
     """Return how many digits are as wide as a text.
 
-    Examples
-    --------
     >>> breadth("100"), breadth("mm") > 3.0 > breadth("illi")
     (3.0, True)
     """
@@ -47,15 +45,8 @@ def breadth(text: str) -> float:
 def lines(text: str, digits: float) -> int:
     """Return how many lines words take in a column as wide as so many digits.
 
-    Parameters
-    ----------
-    text : str
-        The words, which break at blanks.
-    digits : float
-        Width of the column.
+    text: the words, which break at blanks; digits: width of the column.
 
-    Examples
-    --------
     >>> lines("greatest acceleration [rad/s²]", 12.0), lines("", 12.0), lines("x" * 25, 12.0)
     (3, 1, 2)
     """

@@ -17,10 +17,7 @@ CODE = "Consolas"
 class Looks:
     """Formats by their properties, those of XlsxWriter.
 
-    Parameters
-    ----------
-    book : workbook
-        Where they are made.
+    book: where they are made.
     """
 
     def __init__(self, book: Any) -> None:
@@ -30,14 +27,8 @@ class Looks:
     def __call__(self, *, color: str = "", tone: Tone = "plain", **properties: Any) -> Any:
         """Return the format with these properties.
 
-        Parameters
-        ----------
-        color : str
-            Role of the letters' colour, see `cardan.figures.palette`.
-        tone : str
-            How good what it shows is: paper and letters have its colour.
-        **properties
-            Properties of XlsxWriter.
+        color: role of the letters' colour, see `cardan.figures.palette`.
+        tone: how good what it shows is: paper and letters have its colour; **properties: properties of XlsxWriter.
         """
         wanted = {"valign": "top", **properties}
         if color:

@@ -58,17 +58,8 @@ HEAD: dict[str, Any] = {"bold": True, "text_wrap": True, "valign": "bottom", "bo
 class Paper:
     """Writes blocks below each other.
 
-    Parameters
-    ----------
-    book : workbook
-    sheet : worksheet
-        An empty one.
-    looks : Looks
-        Formats of the workbook.
-    tables : sequence of Table
-        All that will stand on it: they settle how wide its columns are.
-    data : ChartData, optional
-        Takes the numbers of its charts.
+    sheet: an empty one; looks: formats of the workbook.
+    tables: all that will stand on it: they settle how wide its columns are; data: takes the numbers of its charts.
     """
 
     def __init__(
@@ -137,12 +128,7 @@ class Paper:
     def line(self, text: str, **how: Any) -> None:
         """Write words across the page, as many lines high as they need.
 
-        Parameters
-        ----------
-        text : str
-            The words.
-        **how
-            Properties of their format.
+        **how: properties of their format.
         """
         form = self._looks(text_wrap=True, **how)
         high = self._high_of(text, self._letters, float(how.get("font_size", 11)))
@@ -153,12 +139,7 @@ class Paper:
     def entry(self, title: str, text: str, sheet: str) -> None:
         """Write a line of contents: the title leads to a sheet, words lie beside it.
 
-        Parameters
-        ----------
-        title, text : str
-            The words.
-        sheet : str
-            Name of the sheet.
+        sheet: name of the sheet.
         """
         leads_to(self._sheet, self.row, 0, title, sheet, self._looks(color="accent", underline=1, text_wrap=True))
         form = self._looks(text_wrap=True, indent=1)

@@ -37,8 +37,6 @@ def content_data(content: Content) -> dict[str, Any]:
 def page_data(page: Page) -> dict[str, Any]:
     """Return a page as dicts, lists, numbers and words.
 
-    Examples
-    --------
     >>> page_data(Page(name="motion", title="Motion", answer="It turns evenly.", blocks=[]))
     {'name': 'motion', 'title': 'Motion', 'answer': 'It turns evenly.', 'blocks': []}
     """
@@ -101,8 +99,6 @@ def figure_data(figure: Figure) -> dict[str, Any]:
 def csv_of(tables: Sequence[Table]) -> str:
     """Return tables as one CSV: each under its title, a free line between them, numbers in full precision.
 
-    Examples
-    --------
     >>> from cardan.report.block import Column, number, words
     >>> columns = (Column(heading="what", left=True), Column(heading="stroke", unit="mm"))
     >>> print(csv_of([Table(title="Splines", columns=columns, rows=[[words("=1+1"), number("1.23", 1.2345)]])]))

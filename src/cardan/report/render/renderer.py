@@ -16,23 +16,12 @@ from . import html, typeset, workbook
 
 @dataclass(frozen=True, kw_only=True)
 class Renderer:
-    """A form of the report.
+    """A form of the report."""
 
-    Parameters
-    ----------
-    written : function
-        From what a report says to the bytes of its file.
-    excerpt : function
-        The same of a single page.
-    interactive : function, optional
-        The same with figures to point at, zoom and turn.
-    library, extra : str
-        What has to be installed for it, and the extra of cardan that installs it; empty where nothing has.
-    """
-
-    written: Callable[[Content], bytes]
-    excerpt: Callable[[Excerpt], bytes]
-    interactive: Callable[[Content], bytes] | None = None
+    written: Callable[[Content], bytes]  # from what a report says to the bytes of its file
+    excerpt: Callable[[Excerpt], bytes]  # the same of a single page
+    interactive: Callable[[Content], bytes] | None = None  # the same with figures to point at, zoom and turn
+    # library, extra: what has to be installed for it, and the extra of cardan that installs it; empty where nothing has
     library: str = ""
     extra: str = ""
 
@@ -51,24 +40,9 @@ RENDERERS: dict[str, Renderer] = {
 def renderer_for(path: Path, *, interactive: bool = False, field: str = "path") -> Callable[[Content], bytes]:
     """Return what writes a report into a file, before any work is done.
 
-    Parameters
-    ----------
-    path : path
-        The file.
-    interactive : bool
-        With figures to point at, zoom and turn.
-    field : str
-        What the user gave the path as.
+    interactive: with figures to point at, zoom and turn; field: what the user gave the path as.
+    Raises MissingExtraError: what writes it is not installed.
 
-    Raises
-    ------
-    InputError
-        No report ends so, or none of that form has figures to point at.
-    MissingExtraError
-        What writes it is not installed.
-
-    Examples
-    --------
     >>> renderer_for(Path("report.odt"))
     Traceback (most recent call last):
         ...
@@ -87,19 +61,7 @@ def renderer_for(path: Path, *, interactive: bool = False, field: str = "path") 
 def form_of(path: Path, field: str = "path") -> Renderer:
     """Return the form of a report that a file has by its ending.
 
-    Parameters
-    ----------
-    path : path
-        The file.
-    field : str
-        What the user gave it as.
-
-    Raises
-    ------
-    InputError
-        No report ends so.
-    MissingExtraError
-        What writes it is not installed.
+    field: what the user gave it as.
     """
     renderer = RENDERERS.get(path.suffix.lower())
     if renderer is None:

@@ -35,24 +35,12 @@ UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufeff\ufffe\
 
 
 def written(content: Content) -> bytes:
-    """Return a report as a PDF file.
-
-    Parameters
-    ----------
-    content : Content
-        What it says.
-    """
+    """Return a report as a PDF file."""
     return _set(as_data(content))
 
 
 def excerpt(part: Excerpt) -> bytes:
-    """Return a page of a report as a PDF file.
-
-    Parameters
-    ----------
-    part : Excerpt
-        The page.
-    """
+    """Return a page of a report as a PDF file."""
     return _set(
         {
             "language": language(),
@@ -84,13 +72,7 @@ def _set(data: dict[str, Any]) -> bytes:
 
 
 def as_data(content: Content) -> dict[str, Any]:
-    """Return what a report says as data for the template.
-
-    Parameters
-    ----------
-    content : Content
-        What it says.
-    """
+    """Return what a report says as data for the template."""
     return {
         "language": language(),
         "words": _words(),

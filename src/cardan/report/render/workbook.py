@@ -26,13 +26,7 @@ HEADER = 90
 
 
 def written(content: Content) -> bytes:
-    """Return a report as a workbook.
-
-    Parameters
-    ----------
-    content : Content
-        What it says.
-    """
+    """Return a report as a workbook."""
     stream = io.BytesIO()
     book = opened(stream, title=content.title, made=datetime.date.fromisoformat(content.date))
     foot = f"cardan {content.version} · {content.date}"
@@ -46,13 +40,7 @@ def written(content: Content) -> bytes:
 
 
 def excerpt(part: Excerpt) -> bytes:
-    """Return a page of a report as a workbook.
-
-    Parameters
-    ----------
-    part : Excerpt
-        The page.
-    """
+    """Return a page of a report as a workbook."""
     stream = io.BytesIO()
     book = opened(stream, title=part.title or part.page.title, made=datetime.date.fromisoformat(part.date))
     sheets = Sheets(book, part.title, f"cardan {part.version} · {part.date}")
@@ -65,13 +53,7 @@ def excerpt(part: Excerpt) -> bytes:
 class Sheets:
     """The sheets of a workbook: pages first, files as they stand next, the numbers of charts last.
 
-    Parameters
-    ----------
-    book : workbook
-    title : str
-        Above every printed page.
-    foot : str
-        Below it.
+    title: above every printed page; foot: below it.
     """
 
     def __init__(self, book: Any, title: str, foot: str) -> None:

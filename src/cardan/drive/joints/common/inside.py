@@ -9,24 +9,12 @@ from cardan.texts import _
 
 @dataclass(frozen=True, kw_only=True)
 class Inside:
-    """One measure of what moves inside a joint.
+    """One measure of what moves inside a joint."""
 
-    Attributes
-    ----------
-    key : str
-        Short name, without unit.
-    meaning : str
-        One sentence.
-    value : float
-        In SI.
-    dimension : str or None
-        A key of `cardan.units.DIMENSIONS`; None for a pure number, or 1/m.
-    """
-
-    key: str
-    meaning: str
-    value: float
-    dimension: str | None = "angle"
+    key: str  # short name, without unit
+    meaning: str  # one sentence
+    value: float  # in SI
+    dimension: str | None = "angle"  # a key of `cardan.units.DIMENSIONS`; None for a pure number, or 1/m
 
 
 def missed(tilt: float) -> Inside:

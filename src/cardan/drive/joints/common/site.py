@@ -20,33 +20,15 @@ BACK = np.diag([-1.0, 1.0, -1.0])
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class JointSize:
-    """Sizes of a joint [m].
+    """Sizes of a joint [m]."""
 
-    Attributes
-    ----------
-    radius : float
-        From the joint centre to the middle of a bearing.
-    ear : float
-        Thickness of the ears of a yoke, along the journals.
-    journal : float
-        Diameter of the journals.
-    cap : float
-        Outer radius of a bearing cap.
-    lug : float
-        Outer radius of an ear.
-    cavity : float
-        From the joint centre to the bottom between the ears.
-    given : bool
-        Whether the file says how large the joint is.
-    """
-
-    radius: float
-    ear: float
-    journal: float
-    cap: float
-    lug: float
-    cavity: float
-    given: bool
+    radius: float  # from the joint centre to the middle of a bearing
+    ear: float  # thickness of the ears of a yoke, along the journals
+    journal: float  # diameter of the journals
+    cap: float  # outer radius of a bearing cap
+    lug: float  # outer radius of an ear
+    cavity: float  # from the joint centre to the bottom between the ears
+    given: bool  # whether the file says how large the joint is
 
     @property
     def base(self) -> float:
@@ -87,32 +69,15 @@ class Stage(Protocol):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Side:
-    """One side of a joint, where its shaft begins.
-
-    Attributes
-    ----------
-    driving : bool
-    number : int
-        Number of the shaft.
-    track : int
-        Track of its end; x runs along the power flow.
-    turn : array (3, 3) or None
-        Turns a body whose x runs away from the joint to the track.
-    reach : float [m]
-        From the joint centre to the end of the yoke's hub.
-    body : float [m]
-        Radius of the shaft there.
-    thickest : float [m]
-        Radius of the shaft where it is thickest.
-    """
+    """One side of a joint, where its shaft begins."""
 
     driving: bool
-    number: int
-    track: int
-    turn: Array | None
-    reach: float
-    body: float
-    thickest: float
+    number: int  # number of the shaft
+    track: int  # track of its end; x runs along the power flow
+    turn: Array | None  # (3, 3): turns a body whose x runs away from the joint to the track
+    reach: float  # [m]: from the joint centre to the end of the yoke's hub
+    body: float  # [m]: radius of the shaft there
+    thickest: float  # [m]: radius of the shaft where it is thickest
 
     @property
     def role(self) -> str:
@@ -127,37 +92,18 @@ class Side:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Site:
-    """A joint while its bodies are put together.
+    """A joint while its bodies are put together."""
 
-    Attributes
-    ----------
-    stage : Stage
-        What takes them.
-    number : int
-        Number of the joint, from 1.
-    name : str
-        What it is called, in words.
-    first : bool
-        Whether it is the first of several, whose wide side then belongs on the driving shaft.
-    stance : Stance
-        Where it stands over a turn, marks (p, 3).
-    size : JointSize
-    apart : float [m]
-        From the joint centre to the middle of either of two crosses that there is room for.
-    driving, driven : Side
-    gravity : (float, float, float) [m/s²]
-    """
-
-    stage: Stage
-    number: int
-    name: str
-    first: bool
-    stance: Stance
+    stage: Stage  # what takes them
+    number: int  # number of the joint, from 1
+    name: str  # what it is called, in words
+    first: bool  # whether it is the first of several, whose wide side then belongs on the driving shaft
+    stance: Stance  # where it stands over a turn, marks (p, 3)
     size: JointSize
-    apart: float
+    apart: float  # [m]: from the joint centre to the middle of either of two crosses that there is room for
     driving: Side
     driven: Side
-    gravity: tuple[float, float, float]
+    gravity: tuple[float, float, float]  # [m/s²]
 
     @property
     def path(self) -> str:

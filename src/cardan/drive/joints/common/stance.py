@@ -12,32 +12,18 @@ from cardan.maths.kernel import frames
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Stance:
-    """A joint in space, at one place of a turn or at many (...).
+    """A joint in space, at one place of a turn or at many (...)."""
 
-    Attributes
-    ----------
-    centre : array (3,) [m]
-        Where its shafts meet.
-    before, after : arrays (3,)
-        Directions of the driving and the driven shaft, both along the power flow.
-    normal : array (3,)
-        Normal of the plane of both.
-    joint_angle : float [rad]
-        Angle between them.
-    driving, driven : arrays (..., 3)
-        Directions of its marks: the arms of its cross in the driving and the driven yoke, where it has one.
-    length : float [m]
-        Length of the driven shaft.
-    """
-
-    centre: Array
-    before: Array
-    after: Array
-    normal: Array
-    joint_angle: float
+    centre: Array  # (3,) [m]: where its shafts meet
+    before: Array  # before, after (3,): directions of the driving and the driven shaft, both along the power flow
+    after: Array  # (3,)
+    normal: Array  # (3,): normal of the plane of both
+    joint_angle: float  # [rad]: angle between them
+    # driving, driven (..., 3): directions of its marks: the arms of its cross in the driving and the driven yoke, where
+    # it has one
     driving: Array
-    driven: Array
-    length: float
+    driven: Array  # (..., 3)
+    length: float  # [m]: length of the driven shaft
 
     @property
     def theta(self) -> Array:

@@ -113,27 +113,10 @@ def split(joint_angle: ArrayLike, share: ArrayLike) -> tuple[Array, Array]:
 def slide(joint_angle: ArrayLike, share: ArrayLike) -> Array:
     """Return where the ball stands on the shaft it slides on, x/l: |OO3| over the distance of the centres.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        Whole bend α in [0, π/2).
-    share : array (...)
-        Centring ratio λ in (0, 1).
-
-    Returns
-    -------
-    array (...)
-
-    Notes
-    -----
+    joint_angle (...) [rad]: whole bend α in [0, π/2); share (...): centring ratio λ in (0, 1).
+    Returns (...).
     x/l = sin α12/sin α, the positive root of Book (8), in the form in which a straight joint is no exception:
     √(1 - λ² sin² α) - λ cos α.
-
-    Examples
-    --------
-    >>> import math
-    >>> slide([0.0, math.pi / 6], 0.5)
-    array([0.5       , 0.53523313])
     """
     alpha, ratio = floats(joint_angle, share)
     xp = namespace(alpha, ratio)
@@ -169,29 +152,10 @@ def even_share(joint_angle: ArrayLike) -> Array:
 def pair(joint_angle: ArrayLike, share: ArrayLike) -> mobius.Pair:
     """Return the map of the circle of a double joint centred by a ball on the driving shaft, over its whole bend.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        Whole bend α in [0, π/2).
-    share : array (...)
-        Centring ratio λ in (0, 1).
-
-    Returns
-    -------
-    Pair of arrays (...)
-
-    Notes
-    -----
+    joint_angle (...) [rad]: whole bend α in [0, π/2); share (...): centring ratio λ in (0, 1).
+    Returns (...).
     tan φ3 = κ tan φ1 with κ = cos α23/cos α12, angles from the driving yoke in the plane of the axes: the first joint
     leads by 1/cos α12, the second takes cos α23 of it back. It turns as contact in a plane Δ off the middle would.
-
-    Examples
-    --------
-    At 30°, a ball in the middle leaves 1 % of irregularity:
-
-    >>> import math
-    >>> print(f"{mobius.speed_fluctuation(pair(math.pi / 6, 0.5)):.6f}")
-    0.009774
     """
     alpha, ratio = floats(joint_angle, share)
     return tilted_plane.pair(alpha, lag(alpha, ratio))
@@ -200,24 +164,9 @@ def pair(joint_angle: ArrayLike, share: ArrayLike) -> mobius.Pair:
 def deviation(angle: ArrayLike, joint_angle: ArrayLike, share: ArrayLike) -> Array:
     """Return how far the output of a double joint centred by a ball runs ahead of its input, φ3 - φ1.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        Input angle φ1, from the driving yoke in the plane of the axes.
-    joint_angle : array (...) [rad]
-        Whole bend α in [0, π/2).
-    share : array (...)
-        Centring ratio λ in (0, 1).
-
-    Returns
-    -------
-    array (...) [rad]
-
-    Examples
-    --------
-    >>> import math
-    >>> deviation([0.0, math.pi / 4], math.pi / 6, 0.5)
-    array([0.        , 0.00244354])
+    angle (...) [rad]: input angle φ1, from the driving yoke in the plane of the axes.
+    joint_angle (...) [rad]: whole bend α in [0, π/2); share (...): centring ratio λ in (0, 1).
+    Returns (...) [rad].
     """
     phi, alpha, ratio = floats(angle, joint_angle, share)
     return tilted_plane.deviation(phi, alpha, lag(alpha, ratio))
@@ -226,25 +175,10 @@ def deviation(angle: ArrayLike, joint_angle: ArrayLike, share: ArrayLike) -> Arr
 def gain(first: ArrayLike, second: ArrayLike, *, crossed: bool = False) -> Array:
     """Return the ratio κ between which and 1/κ two joints in one plane swing.
 
-    Parameters
-    ----------
-    first, second : arrays (...) [rad]
-        Bends α12 and α23, each in [0, π/2).
-    crossed : bool
-        Whether the inner yokes stand at right angles: what the joints do then adds up, instead of cancelling.
-
-    Returns
-    -------
-    array (...)
-
-    Notes
-    -----
+    first, second (...) [rad]: bends α12 and α23, each in [0, π/2).
+    crossed: whether the inner yokes stand at right angles: what the joints do then adds up, instead of cancelling.
+    Returns (...).
     κ = cos α23/cos α12, crossed 1/(cos α12 cos α23).
-
-    Examples
-    --------
-    >>> print(f"{gain(0.2, 0.3):.6f}")
-    0.974767
     """
     one, other = floats(first, second)
     xp = namespace(one, other)

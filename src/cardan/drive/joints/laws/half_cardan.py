@@ -19,29 +19,9 @@ from . import shared_turn
 def demands(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
     """Return how far ahead each pair of contacts alone would have the output run.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        Input angle φ1.
-    joint_angle : array (...) [rad]
-        Bend α in [0, π/2).
-    pairs : int
-        Pairs of opposite contacts N.
-
-    Returns
-    -------
-    array (..., N) [rad]
-
-    Notes
-    -----
+    angle (...) [rad]: input angle φ1; joint_angle (...) [rad]: bend α in [0, π/2); pairs: pairs of opposite contacts N.
+    Returns (..., N) [rad].
     The law of the Hooke joint at φ1 + kπ/N.
-
-    Examples
-    --------
-    A square bell at 5° and 45°: one pair of faces leads as far as the other lags.
-
-    >>> demands(math.pi / 4, math.radians(5.0), 2)
-    array([ 0.00190628, -0.00190628])
     """
     phi, alpha = floats(angle, joint_angle)
     xp = namespace(phi, alpha)
@@ -82,14 +62,7 @@ def deviation(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
 def ratio(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
     """Return the speed ratio where equal elastic pairs share the torque.
 
-    Notes
-    -----
     The derivative of `deviation` + φ1.
-
-    Examples
-    --------
-    >>> print(f"{ratio(0.0, math.radians(10.0), 1):.6f}")
-    1.015427
     """
     phi, alpha = floats(angle, joint_angle)
     return shared_turn.course(phi, _tau(alpha), pairs)[1]

@@ -14,17 +14,8 @@ from cardan.maths.kernel import mobius
 def deviation(angle: ArrayLike, joint_angle: ArrayLike) -> Array:
     """Return how far the output yoke runs ahead of the input, φ2 - φ1; the law of the Hooke joint, for any offset.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        Input angle φ1, of pin 1 from the plane of shaft 1 and OS.
-    joint_angle : array (...) [rad]
-        Bend α in [0, π/2).
-
-    Examples
-    --------
-    >>> print(f"{deviation(0.5, 0.4):.6f}")
-    0.035348
+    angle (...) [rad]: input angle φ1, of pin 1 from the plane of shaft 1 and OS.
+    joint_angle (...) [rad]: bend α in [0, π/2).
     """
     phi, alpha = floats(angle, joint_angle)
     return mobius.angle_error(mobius.hooke(alpha), unit_complex(2.0 * phi))
@@ -83,15 +74,7 @@ def tilt(angle: ArrayLike, joint_angle: ArrayLike, offset: ArrayLike, reach: Arr
 def span(angle: ArrayLike, joint_angle: ArrayLike, offset: ArrayLike, reach: ArrayLike, side: ArrayLike = 1.0) -> Array:
     """Return the length |QS| of the output shaft from pin 2 to its support; arguments as those of `tilt`.
 
-    Notes
-    -----
     √(L² + e² - 2 L e σ √(1 - sin² α cos² φ1)).
-
-    Examples
-    --------
-    >>> import math
-    >>> print(f"{span(math.pi / 2, 0.4, 0.02, 0.5):.6f}")
-    0.480000
     """
     phi, alpha, e, far, sign = floats(angle, joint_angle, offset, reach, side)
     across, along = _across(phi, alpha)
@@ -101,15 +84,7 @@ def span(angle: ArrayLike, joint_angle: ArrayLike, offset: ArrayLike, reach: Arr
 def wobble(joint_angle: ArrayLike, offset: ArrayLike, reach: ArrayLike) -> Array:
     """Return half the angle of the cone on which the output shaft wobbles, twice a turn, to first order in e/L.
 
-    Notes
-    -----
     e sin α/(2L): Q runs on a circle of diameter e sin α, once in half a turn of the input.
-
-    Examples
-    --------
-    >>> import math
-    >>> print(f"{wobble(math.radians(25), 0.02, 0.5):.6f}")
-    0.008452
     """
     alpha, e, far = floats(joint_angle, offset, reach)
     return 0.5 * e * namespace(alpha, e).sin(alpha) / far

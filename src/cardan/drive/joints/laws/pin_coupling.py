@@ -17,28 +17,16 @@ from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class PinContact:
-    """Where two pins touch, and what they pass on; not a number where they do not meet.
+    """Where two pins touch, and what they pass on; not a number where they do not meet."""
 
-    Attributes
-    ----------
-    deviation : array (...) [rad]
-        How far the output runs ahead of the input, φ2 - φ1, in (-π, π].
-    ratio : array (...)
-        Speed ratio dφ2/dφ1.
-    ratio_slope : array (...) [1/rad]
-        Its derivative by φ1.
-    first, second : array (...) [m]
-        Distances x and y of the contact along pin 1 and pin 2 from where they start on their axes.
-    force : array (...) [1/m]
-        Contact force without friction for each unit of input torque.
-    """
-
-    deviation: Array
-    ratio: Array
-    ratio_slope: Array
+    deviation: Array  # (...) [rad]: how far the output runs ahead of the input, φ2 - φ1, in (-π, π]
+    ratio: Array  # (...): speed ratio dφ2/dφ1
+    ratio_slope: Array  # (...) [1/rad]: its derivative by φ1
+    # first, second (...) [m]: distances x and y of the contact along pin 1 and pin 2 from where they start on their
+    # axes
     first: Array
-    second: Array
-    force: Array
+    second: Array  # (...) [m]
+    force: Array  # (...) [1/m]: contact force without friction for each unit of input torque
 
 
 def pin_contact(
@@ -119,8 +107,6 @@ def _passed_on(
 ) -> tuple[Array, Array, Array]:
     """Return speed ratio, its slope and the force at the angles of both pins.
 
-    Notes
-    -----
     F = p sin φ1 cos φ2 - q cos φ1 sin φ2 - r sin φ1 + s sin φ2, the triple product written out.
     """
     xp = namespace(phi, output, x, alpha, a, b, one, two)
@@ -145,8 +131,6 @@ def _passed_on(
 def wrapped(angle: ArrayLike) -> Array:
     """Return an angle within half a turn, in (-π, π].
 
-    Examples
-    --------
     >>> print(f"{wrapped(3.5 * math.pi) / math.pi:.1f}")
     -0.5
     """
@@ -182,16 +166,8 @@ def ratio(
 def slant_range(joint_angle: ArrayLike) -> tuple[Array, Array]:
     """Return between which slants pins turn all the way round [rad].
 
-    Notes
-    -----
     α/2 < θ < π/2 - α/2: at the lower end the pins fall in line once a turn, at the upper end they run parallel and
     touch nowhere; θ = 45° is furthest from both.
-
-    Examples
-    --------
-    >>> low, high = slant_range(math.radians(30.0))
-    >>> print(f"{math.degrees(low):.6f} {math.degrees(high):.6f}")
-    15.000000 75.000000
     """
     (alpha,) = floats(joint_angle)
     return 0.5 * alpha, 0.5 * math.pi - 0.5 * alpha
@@ -200,30 +176,11 @@ def slant_range(joint_angle: ArrayLike) -> tuple[Array, Array]:
 def stroke(joint_angle: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> tuple[Array, Array]:
     """Return between which distances along its pins the contact of a coupling with pins alike runs.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        Bend α.
-    distance : array (...) [m]
-        Distance a of the start of both pins from O.
-    slant : array (...) [rad]
-        Slant θ of both pins, within `slant_range`.
-
-    Returns
-    -------
-    array (...) [m], array (...) [m]
-        Least and greatest.
-
-    Notes
-    -----
+    joint_angle (...) [rad]: bend α; distance (...) [m]: distance a of the start of both pins from O.
+    slant (...) [rad]: slant θ of both pins, within `slant_range`.
+    Returns (...) [m], array (...) [m]: least and greatest.
     x = a/(cos θ + sin θ cos φ tan(α/2)): a cos(α/2)/cos(θ - α/2) on the inner side, a cos(α/2)/cos(θ + α/2) on the
     outer side of the bend.
-
-    Examples
-    --------
-    >>> least, most = stroke(math.radians(30.0), 0.05, math.radians(40.0))
-    >>> print(f"{least:.9f} {most:.9f}")
-    0.053289061 0.084202014
     """
     alpha, a, theta = floats(joint_angle, distance, slant)
     xp = namespace(alpha, a, theta)
@@ -235,29 +192,10 @@ def stroke(joint_angle: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> tup
 def along_alike(angle: ArrayLike, joint_angle: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> Array:
     """Return where the contact of pins alike stands along them, x = y; see `stroke`.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        Input angle φ1.
-    joint_angle : array (...) [rad]
-        Bend α.
-    distance : array (...) [m]
-        Distance a of the start of both pins from O.
-    slant : array (...) [rad]
-        Slant θ of both pins.
-
-    Returns
-    -------
-    array (...) [m]
-
-    Notes
-    -----
+    angle (...) [rad]: input angle φ1; joint_angle (...) [rad]: bend α.
+    distance (...) [m]: distance a of the start of both pins from O; slant (...) [rad]: slant θ of both pins.
+    Returns (...) [m].
     x = a/(cos θ + sin θ cos φ tan(α/2)): where a pin passes through the halving plane.
-
-    Examples
-    --------
-    >>> print(f"{along_alike(math.pi / 2, 0.5, 0.05, math.pi / 3):.6f}")
-    0.100000
     """
     phi, alpha, a, theta = floats(angle, joint_angle, distance, slant)
     xp = namespace(phi, alpha, a, theta)
@@ -267,33 +205,15 @@ def along_alike(angle: ArrayLike, joint_angle: ArrayLike, distance: ArrayLike, s
 def force_alike(angle: ArrayLike, joint_angle: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> Array:
     """Return the contact force without friction of pins alike for each unit of torque.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        Input angle φ1.
-    joint_angle : array (...) [rad]
-        Bend α.
-    distance : array (...) [m]
-        Distance a of the start of both pins from O.
-    slant : array (...) [rad]
-        Slant θ of both pins, within `slant_range`.
+    angle (...) [rad]: input angle φ1; joint_angle (...) [rad]: bend α.
+    distance (...) [m]: distance a of the start of both pins from O.
+    slant (...) [rad]: slant θ of both pins, within `slant_range`.
+    Returns (...) [1/m].
 
-    Returns
-    -------
-    array (...) [1/m]
-
-    Notes
-    -----
     |d1 × m| c/(a cos(α/2) sin θ (sin θ - cos θ cos φ tan(α/2))), c = cos θ + sin θ cos φ tan(α/2), with
     |d1 × m|² = sin² θ sin² φ + (cos θ sin(α/2) - sin θ cos φ cos(α/2))²: the pins are each other's image in the halving
     plane, so that d1 × d2 is twice (d1·m)(d1 × m), m its normal. In the plane of the shafts the force is one over the
     distance of the contact from the axis.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> print(f"{force_alike(math.pi, 30 * deg, 0.05, 40 * deg):.6f} {1 / (0.0842020143 * math.sin(40 * deg)):.6f}")
-    18.476088 18.476088
     """
     phi, alpha, a, theta = floats(angle, joint_angle, distance, slant)
     xp = namespace(phi, alpha, a, theta)
@@ -305,13 +225,7 @@ def force_alike(angle: ArrayLike, joint_angle: ArrayLike, distance: ArrayLike, s
 
 
 def eccentricity(joint_angle: ArrayLike, slant: ArrayLike) -> Array:
-    """Return the eccentricity of the ellipse on which the contact of pins alike runs, sin(α/2)/cos θ.
-
-    Examples
-    --------
-    >>> print(f"{eccentricity(math.radians(30.0), math.radians(40.0)):.9f}")
-    0.337864268
-    """
+    """Return the eccentricity of the ellipse on which the contact of pins alike runs, sin(α/2)/cos θ."""
     alpha, theta = floats(joint_angle, slant)
     xp = namespace(alpha, theta)
     return xp.sin(0.5 * alpha) / xp.cos(theta)
@@ -320,29 +234,11 @@ def eccentricity(joint_angle: ArrayLike, slant: ArrayLike) -> Array:
 def missed_plane(angle: ArrayLike, joint_angle: ArrayLike, offset: ArrayLike, radius: ArrayLike) -> Array:
     """Return by how much the output runs ahead where the contact misses the plane that halves the angle of the shafts.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        Input angle φ1.
-    joint_angle : array (...) [rad]
-        Bend α.
-    offset : array (...) [m]
-        Distance d of the contact from that plane, toward shaft 1.
-    radius : array (...) [m]
-        Distance r of the contact from the axis.
-
-    Returns
-    -------
-    array (...) [rad]
-
-    Notes
-    -----
+    angle (...) [rad]: input angle φ1; joint_angle (...) [rad]: bend α.
+    offset (...) [m]: distance d of the contact from that plane, toward shaft 1.
+    radius (...) [m]: distance r of the contact from the axis.
+    Returns (...) [rad].
     -2 (d/r) sin(α/2) sin φ1, to first order in d, for couplings of any profile.
-
-    Examples
-    --------
-    >>> print(f"{missed_plane(math.pi / 2, math.radians(20.0), 0.1e-3, 40e-3):.6f}")
-    -0.000868
     """
     phi, alpha, d, r = floats(angle, joint_angle, offset, radius)
     xp = namespace(phi, alpha, d, r)
@@ -352,30 +248,11 @@ def missed_plane(angle: ArrayLike, joint_angle: ArrayLike, offset: ArrayLike, ra
 def missed_by_pins(angle: ArrayLike, joint_angle: ArrayLike, change: ArrayLike, slant: ArrayLike) -> Array:
     """Return how far the contact of pins misses the halving plane where one starts too far out, the other too near.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        Input angle φ1.
-    joint_angle : array (...) [rad]
-        Bend α.
-    change : array (...) [m]
-        δ by which the distances differ from their mean, a = a0 + δ, b = a0 - δ.
-    slant : array (...) [rad]
-        Slant θ of both pins.
-
-    Returns
-    -------
-    array (...) [m]
-        Toward shaft 1, for `missed_plane`.
-
-    Notes
-    -----
+    angle (...) [rad]: input angle φ1; joint_angle (...) [rad]: bend α.
+    change (...) [m]: δ by which the distances differ from their mean, a = a0 + δ, b = a0 - δ.
+    slant (...) [rad]: slant θ of both pins.
+    Returns (...) [m]: toward shaft 1, for `missed_plane`.
     d = δ sin θ/(cos(α/2) sin θ - sin(α/2) cos φ cos θ), to first order in δ.
-
-    Examples
-    --------
-    >>> print(f"{missed_by_pins(0.0, 0.0, 0.2e-3, math.radians(45.0)):.6f}")
-    0.000200
     """
     phi, alpha, delta, theta = floats(angle, joint_angle, change, slant)
     xp = namespace(phi, alpha, delta, theta)

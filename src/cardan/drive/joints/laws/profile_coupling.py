@@ -52,60 +52,27 @@ class Circle:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ProfileContact:
-    """Where two profiles touch, and what they pass on; not a number where they do not meet.
+    """Where two profiles touch, and what they pass on; not a number where they do not meet."""
 
-    Attributes
-    ----------
-    deviation : array (...) [rad]
-        How far the output runs ahead of the input, φ2 - φ1, in (-π, π].
-    ratio : array (...)
-        Speed ratio dφ2/dφ1.
-    height1, radius1, height2, radius2 : array (...) [m]
-        Where the contact stands in the meridian plane of each shaft.
-    force : array (...) [1/m]
-        Contact force without friction for each unit of input torque.
-    """
-
-    deviation: Array
-    ratio: Array
+    deviation: Array  # (...) [rad]: how far the output runs ahead of the input, φ2 - φ1, in (-π, π]
+    ratio: Array  # (...): speed ratio dφ2/dφ1
+    # height1, radius1, height2, radius2 (...) [m]: where the contact stands in the meridian plane of each shaft
     height1: Array
-    radius1: Array
-    height2: Array
-    radius2: Array
-    force: Array
+    radius1: Array  # (...) [m]
+    height2: Array  # (...) [m]
+    radius2: Array  # (...) [m]
+    force: Array  # (...) [1/m]: contact force without friction for each unit of input torque
 
 
 def profile_contact(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> ProfileContact:
     """Return where two circular profiles touch.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        Input angle φ1, from the inner side of the bend.
-    joint_angle : array (...) [rad]
-        Bend α of the shafts in [0, π/2).
-    first, second : Circle
-        Profiles of shaft 1 and shaft 2.
-
-    Returns
-    -------
-    ProfileContact
-        arrays (...).
-
-    Notes
-    -----
+    angle (...) [rad]: input angle φ1, from the inner side of the bend.
+    joint_angle (...) [rad]: bend α of the shafts in [0, π/2); first, second: profiles of shaft 1 and shaft 2.
+    Returns ProfileContact: arrays (...).
     A = h e1 + r u1 on circle 1 is seen by shaft 2 at h2 = A·e2, r2 = |A - h2 e2|; the scalar equation
     (h2 - h02)² + (r2 - r02)² = R2² is solved along circle 1 to rounding. Of its solutions with r > 0 the one with φ2
     nearest to φ1 counts. The ratio is that of velocities along the common normal of both profiles.
-
-    Examples
-    --------
-    A Clemens coupling whose arms differ by 1 mm and more:
-
-    >>> one = Circle(axial=0.06, radial=0.01, radius=0.075)
-    >>> other = Circle(axial=0.062, radial=0.011, radius=0.074)
-    >>> print(f"{profile_contact(math.radians(130.0), math.radians(30.0), one, other).deviation:.9f}")
-    0.014374855
     """
     phi, alpha, one, two = _arrays(angle, joint_angle, first, second)
     return _at(_place(phi, alpha, one, two), phi, alpha, one, two)
@@ -188,8 +155,6 @@ def _better(place: Array, angle: Array, joint_angle: Array, first: Circle, secon
 def _grid(circle: Circle) -> Array:
     """Return ends of the pieces of a circle, array (..., CELLS + 1), closer together where it passes the joint centre.
 
-    Notes
-    -----
     Evenly spaced angles u about the direction to the centre go to 2 arctan(k tan(u/2)), k four times the least distance
     over the radius: a circle so large that it is nearly a pin is looked at where it is used.
     """
@@ -241,22 +206,11 @@ def ratio(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circl
 def course(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> tuple[Array, Array, Array]:
     """Return how a coupling with circular profiles turns, with two derivatives; see `profile_contact`.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        Input angle φ1, from the inner side of the bend.
-    joint_angle : array (...) [rad]
-        Bend α of the shafts in [0, π/2).
-    first, second : Circle
-        Profiles of shaft 1 and shaft 2.
+    angle (...) [rad]: input angle φ1, from the inner side of the bend.
+    joint_angle (...) [rad]: bend α of the shafts in [0, π/2); first, second: profiles of shaft 1 and shaft 2.
+    Returns deviation, ratio, slope (...) [rad, 1, 1/rad]: φ2 - φ1, dφ2/dφ1 and d²φ2/dφ1²; the last by a central
+    difference of the exact ratio.
 
-    Returns
-    -------
-    deviation, ratio, slope : arrays (...) [rad, 1, 1/rad]
-        φ2 - φ1, dφ2/dφ1 and d²φ2/dφ1²; the last by a central difference of the exact ratio.
-
-    Examples
-    --------
     >>> one = Circle(axial=0.06, radial=0.01, radius=0.075)
     >>> other = Circle(axial=0.062, radial=0.011, radius=0.074)
     >>> print([f"{part:.6f}" for part in course(math.radians(130.0), math.radians(30.0), one, other)])

@@ -14,30 +14,14 @@ from cardan.maths.arrays import Array, ArrayLike
 def vector_orders(tau: ArrayLike, order: ArrayLike) -> Array:
     """Return the coefficients E_n of e^(iθ') = Σ E_n e^(inθ).
 
-    Parameters
-    ----------
-    tau : array (...)
-        τ = tan²(α/2) in [0, 1).
-    order : array of int (N,)
-        n; even ones are nought.
-
-    Returns
-    -------
-    array (..., N)
-        Real; θ counts from the plane of the shafts. Their squares add up to 1.
-
-    Notes
-    -----
+    tau (...): τ = tan²(α/2) in [0, 1).
+    order (N,) of int: n; even ones are nought.
+    Returns (..., N): real; θ counts from the plane of the shafts. Their squares add up to 1.
     e^(iθ') = e^(iθ) (1 - τ/w)^(1/2) (1 - τw)^(-1/2), the product of two binomial series; with n = 1 + 2p
 
     E_n = (1/2)_p/p! τ^p F(-1/2, p + 1/2; p + 1; τ²) for p ≥ 0,
 
     E_n = (-1/2)_q/q! τ^q F(q - 1/2, 1/2; q + 1; τ²) for q = -p > 0.
-
-    Examples
-    --------
-    >>> vector_orders(0.1, [-1, 1, 2, 3])
-    array([-0.05006274,  0.99749529,  0.        ,  0.04981211])
     """
     t = np.asarray(tau, dtype=float)
     found = np.zeros((*t.shape, len(np.atleast_1d(order))))

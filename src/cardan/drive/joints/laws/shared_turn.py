@@ -9,27 +9,13 @@ from cardan.maths.kernel import mobius
 def course(angle: Array, tau: Array, places: int) -> tuple[Array, Array, Array]:
     """Return how far links at equal angles run ahead together, with two derivatives.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        θ of the first link, from the plane of the shafts.
-    tau : array (...)
-        τ of the map of a single link, tan θ' = (1 + τ)/(1 - τ) tan θ.
-    places : int
-        How many different places the links take within half a turn.
-
-    Returns
-    -------
-    angle_error, ratio, slope : arrays (...) [rad, 1, 1/rad]
-        T - θ, T' and T''.
-
-    Notes
-    -----
+    angle (...) [rad]: θ of the first link, from the plane of the shafts.
+    tau (...): τ of the map of a single link, tan θ' = (1 + τ)/(1 - τ) tan θ.
+    places: how many different places the links take within half a turn.
+    Returns angle_error, ratio, slope (...) [rad, 1, 1/rad]: T - θ, T' and T''.
     A link asks for Σ τ^k sin(2kθ)/k; of the mean over N places only the orders that N divides are left,
     -arg(1 - τ^N e^(2iNθ))/N: the lead of one joint with τ^N, N times as fast and N times smaller.
 
-    Examples
-    --------
     One place is a Hooke joint:
 
     >>> import numpy as np
@@ -48,8 +34,6 @@ def course(angle: Array, tau: Array, places: int) -> tuple[Array, Array, Array]:
 def places(links: int) -> int:
     """Return how many different places links at equal angles take within half a turn: two opposite ones take one.
 
-    Examples
-    --------
     >>> places(6), places(3)
     (3, 3)
     """

@@ -18,24 +18,10 @@ NOISE = 1e-15
 def course(angle: Array, angle_error: Callable[[Array], Array]) -> tuple[Array, Array, Array]:
     """Return a smooth law of period 2π with two derivatives.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        θ.
-    angle_error : function
-        T - θ at angles (p,).
-
-    Returns
-    -------
-    angle_error, ratio, slope : arrays (...) [rad, 1, 1/rad]
-        T - θ, T' and T''; nan where the law has none.
-
-    Notes
-    -----
+    angle (...) [rad]: θ; angle_error: T - θ at angles (p,).
+    Returns angle_error, ratio, slope (...) [rad, 1, 1/rad]: T - θ, T' and T''; nan where the law has none.
     Trigonometric interpolation: its error falls faster than any power of the number of samples.
 
-    Examples
-    --------
     >>> found = course(np.asarray(0.3), lambda x: 0.1 * np.sin(3.0 * x))
     >>> print([f"{float(one):.9f}" for one in found])
     ['0.078332691', '1.186482990', '-0.704994219']

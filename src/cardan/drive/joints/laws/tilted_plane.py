@@ -52,27 +52,9 @@ def tau(joint_angle: ArrayLike, tilt: ArrayLike) -> Array:
 def pair(joint_angle: ArrayLike, tilt: ArrayLike) -> mobius.Pair:
     """Return the map of the circle of one ball, its angle counted from the plane of the shafts.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    tilt : array (...) [rad]
-        η.
-
-    Returns
-    -------
-    Pair of arrays (...)
-        nan where the plane holds a shaft.
-
-    Notes
-    -----
+    joint_angle (...) [rad]: α in [0, π/2); tilt (...) [rad]: η.
+    Returns (...): nan where the plane holds a shaft.
     (cos(α/2) cos η, sin(α/2) sin η)/√(cos(α/2 + η) cos(α/2 - η)): the identity where either angle is 0.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> print(mobius.speed_fluctuation(pair(40 * deg, 0.5 * deg)))
-    0.01270540
     """
     alpha, eta = floats(joint_angle, tilt)
     xp = namespace(alpha, eta)
@@ -86,29 +68,9 @@ def pair(joint_angle: ArrayLike, tilt: ArrayLike) -> mobius.Pair:
 def deviation(angle: ArrayLike, joint_angle: ArrayLike, tilt: ArrayLike) -> Array:
     """Return how far shaft 2 runs ahead of shaft 1 with one ball, φ_2 - φ_1.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        φ_1, from the plane of the shafts.
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    tilt : array (...) [rad]
-        η.
-
-    Returns
-    -------
-    array (...) [rad]
-        nan where the plane holds a shaft.
-
-    Notes
-    -----
+    angle (...) [rad]: φ_1, from the plane of the shafts; joint_angle (...) [rad]: α in [0, π/2); tilt (...) [rad]: η.
+    Returns (...) [rad]: nan where the plane holds a shaft.
     arctan(τ sin 2φ_1/(1 - τ cos 2φ_1)), exact and right to the last digits for the smallest tilt.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> print(deviation(45 * deg, 40 * deg, [-0.5 * deg, 0.0, 0.5 * deg]))
-    [ 0.00317631  0.         -0.00317631]
     """
     phi, alpha, eta = floats(angle, joint_angle, tilt)
     xp = namespace(phi, alpha, eta)
@@ -149,21 +111,11 @@ def speed_fluctuation(joint_angle: ArrayLike, tilt: ArrayLike) -> Array:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class BallDemands:
-    """What the balls of a joint ask of shaft 2 at one angle of shaft 1, φ_2 - φ_1 of each ball.
+    """What the balls of a joint ask of shaft 2 at one angle of shaft 1, φ_2 - φ_1 of each ball."""
 
-    Attributes
-    ----------
-    mean : array (...) [rad]
-        What the output does, as all balls pull alike.
-    spread : array (...) [rad]
-        Largest less smallest; play or the give of the contacts takes it.
-    largest : array (...) [rad]
-        Largest in size.
-    """
-
-    mean: Array
-    spread: Array
-    largest: Array
+    mean: Array  # (...) [rad]: what the output does, as all balls pull alike
+    spread: Array  # (...) [rad]: largest less smallest; play or the give of the contacts takes it
+    largest: Array  # (...) [rad]: largest in size
 
 
 def ball_demands(angle: ArrayLike, joint_angle: ArrayLike, tilt: ArrayLike, count: int = 6) -> BallDemands:

@@ -15,20 +15,9 @@ from . import tilted_plane
 def tilt(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
     """Return by how much the angle at A exceeds half the bend.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α in [0, π/2), angle between the shafts.
-    first, second : arrays (...) [m]
-        OA, OB > 0.
+    joint_angle (...) [rad]: α in [0, π/2), angle between the shafts; first, second (...) [m]: OA, OB > 0.
+    Returns (...) [rad]: η = arctan[(OB - OA)/(OB + OA) tan(α/2)], by the law of tangents; exactly 0 for equal lengths.
 
-    Returns
-    -------
-    array (...) [rad]
-        η = arctan[(OB - OA)/(OB + OA) tan(α/2)], by the law of tangents; exactly 0 for equal lengths.
-
-    Examples
-    --------
     >>> from cardan.units import deg
     >>> print(tilt(30 * deg, 0.020, [0.020, 0.021]) / deg)
     [0.         0.37444242]
@@ -41,24 +30,9 @@ def tilt(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
 def joint_angles(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> tuple[Array, Array]:
     """Return the angles between the shafts and the line of the fork centres.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    first, second : arrays (...) [m]
-        OA, OB > 0.
-
-    Returns
-    -------
-    at_first, at_second : arrays (...) [rad]
-        α_1 = atan2(OB sin α, OA + OB cos α) and α_2 = α - α_1, each as half the joint angle and the tilt.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> one, two = joint_angles(30 * deg, 0.020, 0.021)
-    >>> print(one / deg, two / deg)
-    15.37444242 14.62555757
+    joint_angle (...) [rad]: α in [0, π/2); first, second (...) [m]: OA, OB > 0.
+    Returns at_first, at_second (...) [rad]: α_1 = atan2(OB sin α, OA + OB cos α) and α_2 = α - α_1, each as half the
+    joint angle and the tilt.
     """
     alpha, one, two = floats(joint_angle, first, second)
     eta = tilt(alpha, one, two)
@@ -68,23 +42,8 @@ def joint_angles(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) ->
 def pair(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> mobius.Pair:
     """Return the map of the circle, tan φ_2 = (cos α_2/cos α_1) tan φ_1.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    first, second : arrays (...) [m]
-        OA, OB > 0.
-
-    Returns
-    -------
-    Pair of arrays (...)
-        The identity where OA = OB.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> print(mobius.speed_fluctuation(pair(30 * deg, 0.020, [0.020, 0.021])))
-    [0.         0.00700458]
+    joint_angle (...) [rad]: α in [0, π/2); first, second (...) [m]: OA, OB > 0.
+    Returns (...): the identity where OA = OB.
     """
     alpha, one, two = floats(joint_angle, first, second)
     return tilted_plane.pair(alpha, -tilt(alpha, one, two))
@@ -93,24 +52,10 @@ def pair(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> mobius.
 def deviation(angle: ArrayLike, joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
     """Return how far shaft 2 runs ahead of shaft 1, φ_2 - φ_1.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        φ_1, from the plane of the shafts, of the axis about which the tongue's block swivels in its fork.
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    first, second : arrays (...) [m]
-        OA, OB > 0.
-
-    Returns
-    -------
-    array (...) [rad]
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> print(deviation([0.0, 45 * deg], 30 * deg, 0.020, 0.021))
-    [0.         0.00175114]
+    angle (...) [rad]: φ_1, from the plane of the shafts, of the axis about which the tongue's block swivels in its
+    fork.
+    joint_angle (...) [rad]: α in [0, π/2); first, second (...) [m]: OA, OB > 0.
+    Returns (...) [rad].
     """
     alpha, one, two = floats(joint_angle, first, second)
     return tilted_plane.deviation(angle, alpha, -tilt(alpha, one, two))

@@ -39,26 +39,9 @@ def orbit_radius(joint_angle: ArrayLike, radius: ArrayLike) -> Array:
 def spider_centre(angle: ArrayLike, joint_angle: ArrayLike, radius: ArrayLike) -> tuple[Array, Array]:
     """Return the centre of the spider in its plane, from the axis of the housing.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        φ of the housing: of its first track from the line of greatest slope of the spider's plane.
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    radius : array (...) [m]
-        R.
-
-    Returns
-    -------
-    x, y : arrays (...) [m]
-        Along the line of greatest slope and across it: -R_B cos 3φ, -R_B sin 3φ.
-
-    Examples
-    --------
-    >>> from cardan.units import deg, mm
-    >>> x, y = spider_centre(40 * deg, 20 * deg, 20 * mm)
-    >>> print(x / mm, y / mm)
-    0.32088886 -0.55579581
+    angle (...) [rad]: φ of the housing: of its first track from the line of greatest slope of the spider's plane.
+    joint_angle (...) [rad]: α in [0, π/2); radius (...) [m]: R.
+    Returns x, y (...) [m]: along the line of greatest slope and across it: -R_B cos 3φ, -R_B sin 3φ.
     """
     phi, alpha, size = floats(angle, joint_angle, radius)
     xp = namespace(phi, alpha, size)
@@ -69,25 +52,8 @@ def spider_centre(angle: ArrayLike, joint_angle: ArrayLike, radius: ArrayLike) -
 def roller_reach(angle: ArrayLike, joint_angle: ArrayLike, radius: ArrayLike) -> Array:
     """Return the distance of a roller from the centre of the spider, along its arm.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        φ of the roller's own track.
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    radius : array (...) [m]
-        R.
-
-    Returns
-    -------
-    array (...) [m]
-        R_A + 2 R_B cos 2φ: each roller slides 4 R_B on its arm, twice a turn.
-
-    Examples
-    --------
-    >>> from cardan.units import deg, mm
-    >>> print(roller_reach([0.0, 90 * deg], 20 * deg, 20 * mm) / mm)
-    [21.92533317 19.35822228]
+    angle (...) [rad]: φ of the roller's own track; joint_angle (...) [rad]: α in [0, π/2); radius (...) [m]: R.
+    Returns (...) [m]: R_A + 2 R_B cos 2φ: each roller slides 4 R_B on its arm, twice a turn.
     """
     phi, alpha, size = floats(angle, joint_angle, radius)
     xp = namespace(phi, alpha, size)
@@ -98,25 +64,8 @@ def roller_reach(angle: ArrayLike, joint_angle: ArrayLike, radius: ArrayLike) ->
 def track_travel(angle: ArrayLike, joint_angle: ArrayLike, radius: ArrayLike) -> Array:
     """Return how far along its track a roller stands from the middle.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        φ of the roller's own track.
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    radius : array (...) [m]
-        R.
-
-    Returns
-    -------
-    array (...) [m]
-        R tan α cos φ.
-
-    Examples
-    --------
-    >>> from cardan.units import deg, mm
-    >>> print(track_travel(0.0, 20 * deg, 20 * mm) / mm)
-    7.27940468
+    angle (...) [rad]: φ of the roller's own track; joint_angle (...) [rad]: α in [0, π/2); radius (...) [m]: R.
+    Returns (...) [m]: R tan α cos φ.
     """
     phi, alpha, size = floats(angle, joint_angle, radius)
     xp = namespace(phi, alpha, size)
@@ -126,23 +75,10 @@ def track_travel(angle: ArrayLike, joint_angle: ArrayLike, radius: ArrayLike) ->
 def shaft_tilt(joint_angle: ArrayLike, radius: ArrayLike, length: ArrayLike) -> Array:
     """Return by how much a shaft that ends in a fixed joint nutates as the spider orbits, for a long shaft.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    radius, length : arrays (...) [m]
-        R, and L from the spider to the other joint of its shaft.
-
-    Returns
-    -------
-    array (...) [rad]
-        R_B/L. The angle ψ = φ is exact for a shaft that keeps its direction; this tilt is what it leaves out.
-
-    Examples
-    --------
-    >>> from cardan.units import arcmin, deg, mm
-    >>> print(shaft_tilt(20 * deg, 20 * mm, 400 * mm) / arcmin)
-    5.51567325
+    joint_angle (...) [rad]: α in [0, π/2).
+    radius, length (...) [m]: R, and L from the spider to the other joint of its shaft.
+    Returns (...) [rad]: R_B/L. The angle ψ = φ is exact for a shaft that keeps its direction; this tilt is what it
+    leaves out.
     """
     alpha, size, far = floats(joint_angle, radius, length)
     return orbit_radius(alpha, size) / far

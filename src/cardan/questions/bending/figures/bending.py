@@ -30,15 +30,8 @@ def bending_figures(found: CriticalSpeeds) -> tuple[Figure, ...]:
 def mode_name(part: Part, name: str = "") -> str:
     """Return what a mode is called, in words.
 
-    Parameters
-    ----------
-    part : Part
-        What moves in it.
-    name : str
-        Name of that support or shaft.
+    name: name of that support or shaft.
 
-    Examples
-    --------
     >>> mode_name(Part(kind="support", number=1), "centre"), mode_name(Part(kind="shaft", number=3, waves=2))
     ('bounce mode on support 1 (centre)', 'second bending mode, shaft 3')
     """
@@ -57,10 +50,7 @@ def mode_name(part: Part, name: str = "") -> str:
 def speeds_figure(found: CriticalSpeeds) -> Figure:
     """Return the critical speeds beside the speeds of running.
 
-    Parameters
-    ----------
-    found : CriticalSpeeds
-        Of one drive.
+    found: of one drive.
     """
     count = min(len(found.actual), SHOWN)
     actual = np.asarray(found.actual[:count]) / rpm
@@ -141,10 +131,7 @@ def _tone(found: CriticalSpeeds, k: int) -> str:
 def shapes_figure(found: CriticalSpeeds) -> Figure:
     """Return the shapes in which the line whirls, with joints and supports.
 
-    Parameters
-    ----------
-    found : CriticalSpeeds
-        Of one drive.
+    found: of one drive.
     """
     count = min(len(found.speed), SHOWN)
     place = np.asarray(found.place) / mm
@@ -233,10 +220,7 @@ def speed_map_figures(found: CriticalSpeedMap) -> tuple[Figure, ...]:
 def speed_map_figure(found: CriticalSpeedMap) -> Figure:
     """Return critical speeds over the stiffness of a support or the length of a shaft.
 
-    Parameters
-    ----------
-    found : CriticalSpeedMap
-        Over one quantity.
+    found: over one quantity.
     """
     stiff = found.over == "stiffness"
     unit = 1e3 if stiff else mm

@@ -39,8 +39,6 @@ def rotor_figures(found: RotorResponse) -> tuple[Figure, ...]:
 def order_name(order: float) -> str:
     """Return the name of an order of whirling.
 
-    Examples
-    --------
     >>> order_name(2), order_name(-1)
     ('order 2', 'order 1 backward')
     """
@@ -51,10 +49,7 @@ def order_name(order: float) -> str:
 def response_figure(found: RotorResponse) -> Figure:
     """Return the amplitudes of the orders over the speed, with the speeds of running and where whirling grows.
 
-    Parameters
-    ----------
-    found : RotorResponse
-        Of one shaft.
+    found: of one shaft.
     """
     speed = found.steady.speed / rpm
     rows = {order: found.steady.order_amplitude(order) / MICRO for order in ORDERS}
@@ -129,10 +124,7 @@ def _way(z: Array, title: str, reach: float, *, role: str = "accent") -> Panel:
 def orbits_figure(found: RotorResponse) -> Figure:
     """Return the ways of the shaft's centre about its middle at a third, at half and near the critical speed.
 
-    Parameters
-    ----------
-    found : RotorResponse
-        Of one shaft.
+    found: of one shaft.
     """
     critical = found.rotor.critical
     wanted = [(1.0 / 3.0, _("a third of the critical speed")), (0.5, _("half")), (0.9, _("nine tenths"))]
@@ -158,15 +150,7 @@ def orbits_figure(found: RotorResponse) -> Figure:
 
 
 def run_figure(number: int, found: CrackedRun) -> Figure:
-    """Return the distance of the centre from its place over a change of speed, and its orders.
-
-    Parameters
-    ----------
-    number : int
-        Of the shaft.
-    found : CrackedRun
-        Its motion.
-    """
+    """Return the distance of the centre from its place over a change of speed, and its orders."""
     away = np.abs(found.deflection - found.static) / MICRO
     speed, order, size = found.orders()
     course = Panel(
@@ -201,17 +185,7 @@ def run_figure(number: int, found: CrackedRun) -> Figure:
 
 
 def joined_figure(numbers: tuple[int, int], found: CrackedShafts, *, turns: float = 4.0) -> Figure:
-    """Return the ways of two shafts beside a joint over the last turns.
-
-    Parameters
-    ----------
-    numbers : (int, int)
-        Of the shafts.
-    found : CrackedShafts
-        Their motion.
-    turns : float
-        How many are drawn.
-    """
+    """Return the ways of two shafts beside a joint over the last turns."""
     panels = []
     for k, number in enumerate(numbers):
         last = found.angle[:, k] > found.angle[-1, k] - 2.0 * math.pi * turns

@@ -39,13 +39,7 @@ def examination_figures(found: Examination) -> tuple[Figure, ...]:
 
 
 def examined_map(found: Examination) -> Figure:
-    """Return the order map with the critical speed of the drive, and the orders of the likeliest cause.
-
-    Parameters
-    ----------
-    found : Examination
-        Of a recording.
-    """
+    """Return the order map with the critical speed of the drive, and the orders of the likeliest cause."""
     critical = [found.critical] if isfinite(found.critical) else []
     lines = found.expected.orders if found.expected is not None else ()
     orders = sorted({line.order for line in lines} | {1.0, 2.0})
@@ -55,10 +49,7 @@ def examined_map(found: Examination) -> Figure:
 def causes_figure(findings: Sequence[Finding]) -> Figure:
     """Return the probability of the likeliest causes.
 
-    Parameters
-    ----------
-    findings : sequence of Finding
-        By falling score.
+    findings: by falling score.
     """
     shown = findings[:SHOWN]
     size = np.asarray([100.0 * one.score for one in shown])
@@ -95,13 +86,8 @@ def causes_figure(findings: Sequence[Finding]) -> Figure:
 def verdict(findings: Sequence[Finding]) -> Text:
     """Return in one sentence what a recording comes to, never surer than it is.
 
-    Parameters
-    ----------
-    findings : sequence of Finding
-        By falling score.
+    findings: by falling score.
 
-    Examples
-    --------
     >>> from cardan.answers.quantity import told
     >>> from cardan.answers.reader import USUAL
     >>> one = Finding(cause="F01", fault="unbalance", score=0.81, confidence=0.9)

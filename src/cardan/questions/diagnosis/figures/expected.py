@@ -28,10 +28,7 @@ def expected_figures(found: Expected) -> tuple[Figure, ...]:
 def expected_figure(found: Expected) -> Figure:
     """Return the orders of a fault over the speed at the torque of the duty, at the sensor where they are largest.
 
-    Parameters
-    ----------
-    found : Expected
-        Of a drive and a fault.
+    found: of a drive and a fault.
     """
     speed = np.linspace(*found.speed, POINTS)
     rows = []
@@ -80,11 +77,7 @@ def largest_order(found: Expected) -> tuple[float, str, float] | None:
     """Return the order across the shaft that is largest at top speed, its sensor and its amplitude [m/s²].
 
     None where there is none across it.
-
-    Parameters
-    ----------
-    found : Expected
-        Of a drive and a fault.
+    found: of a drive and a fault.
     """
     radial = [one for one in found.orders if one.direction == "radial"]
     if not radial:

@@ -47,10 +47,7 @@ def torsional_figures(found: TorsionalVibration) -> tuple[Figure, ...]:
 def rotation_figure(found: Rotation) -> Figure:
     """Return the speed over time, each value the mean of a turn.
 
-    Parameters
-    ----------
-    found : Rotation
-        Of one shaft.
+    found: of one shaft.
     """
     count = int(min(max(found.turns, 2.0), POINTS))
     angle = np.linspace(float(found.angle[0]), float(found.angle[-1]), count + 1)
@@ -83,10 +80,7 @@ def rotation_figure(found: Rotation) -> Figure:
 def orbit_figure(found: Orbit) -> Figure:
     """Return the orbit as measured, and the ellipse of each order.
 
-    Parameters
-    ----------
-    found : Orbit
-        Of two sensors.
+    found: of two sensors.
     """
     dimension, unit, size = unit_of(found.quantity)
     wide = max(float(np.max(np.abs(found.x))), float(np.max(np.abs(found.y))), 1e-300) / size
@@ -151,10 +145,7 @@ def _orbit_sentence(found: Orbit) -> Text:
 def torsional_figure(found: TorsionalVibration) -> Figure:
     """Return the twist over some turns, and its orders.
 
-    Parameters
-    ----------
-    found : TorsionalVibration
-        Of one wheel.
+    found: of one wheel.
     """
     shown = int(TURNS * found.teeth)
     angle = (found.angle[:shown] - found.angle[0]) / (2.0 * math.pi)

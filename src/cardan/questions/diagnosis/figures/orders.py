@@ -51,8 +51,6 @@ DIMENSIONS = {
 def unit_of(quantity: str) -> tuple[str, str, float]:
     """Return dimension, usual unit and its size in SI of what a channel measures.
 
-    Examples
-    --------
     >>> unit_of("velocity"), unit_of("pulses")
     (('speed', 'mm_s', 0.001), ('', '', 1.0))
     """
@@ -63,8 +61,6 @@ def unit_of(quantity: str) -> tuple[str, str, float]:
 def quantity_word(quantity: str) -> str:
     """Return the name of a quantity in the language spoken here.
 
-    Examples
-    --------
     >>> quantity_word("angular_speed")
     'speed'
     """
@@ -83,8 +79,6 @@ def quantity_word(quantity: str) -> str:
 def trusted(sentence: Text, confidence: float) -> Text:
     """Return a sentence with how little the picture can be relied on, as it is where it can.
 
-    Examples
-    --------
     >>> from cardan.answers.quantity import told
     >>> from cardan.answers.reader import USUAL
     >>> told(trusted("Order 2 is the highest.", 0.9), USUAL), told(trusted("Order 2 is the highest.", 0.25), USUAL)
@@ -99,8 +93,6 @@ def trusted(sentence: Text, confidence: float) -> Text:
 def order_text(order: float) -> str:
     """Return an order as people say it: whole where it is whole but for what a spectrum blurs.
 
-    Examples
-    --------
     >>> order_text(2.004), order_text(0.47)
     ('2', '0.47')
     """
@@ -125,10 +117,7 @@ def tracks_figures(found: TrackedOrders) -> tuple[Figure, ...]:
 def spectrum_figure(found: OrderSpectrum) -> Figure:
     """Return the amplitudes over the orders, the highest named, with the level of the noise.
 
-    Parameters
-    ----------
-    found : OrderSpectrum
-        Of one channel.
+    found: of one channel.
     """
     dimension, unit, size = unit_of(found.quantity)
     level, floor = found.amplitude / size, found.floor / size
@@ -263,10 +252,7 @@ def _crossing(critical: float, low: float, high: float, last: float) -> list[Ser
 def tracks_figure(found: TrackedOrders) -> Figure:
     """Return amplitude and phase of some orders over the speed.
 
-    Parameters
-    ----------
-    found : TrackedOrders
-        Of one channel.
+    found: of one channel.
     """
     dimension, unit, size = unit_of(found.quantity)
     run = _longest_run(found.speed)

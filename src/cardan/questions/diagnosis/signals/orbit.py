@@ -25,18 +25,11 @@ SMOOTH = 16.0
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Ellipse:
-    """The part of an orbit that an order makes.
+    """The part of an orbit that an order makes."""
 
-    Attributes
-    ----------
-    order : float
-        Turns of the point on it in a turn of the shaft.
-    forward, backward : complex
-        ``z = forward e^{i order θ} + backward e^{-i order θ}`` with z = x + i y: two circles, with the shaft and
-        against it. θ is the angle of the shaft.
-    """
-
-    order: float
+    order: float  # turns of the point on it in a turn of the shaft
+    # forward, backward: ``z = forward e^{i order θ} + backward e^{-i order θ}`` with z = x + i y: two circles, with the
+    # shaft and against it. θ is the angle of the shaft.
     forward: complex
     backward: complex
 

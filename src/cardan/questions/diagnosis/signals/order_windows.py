@@ -41,24 +41,12 @@ WINDOWS = {"hann": (0.5, 0.5), "flattop": (0.21557895, 0.41663158, 0.277263158, 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Turned:
-    """A channel at even angles of the shaft.
+    """A channel at even angles of the shaft."""
 
-    Attributes
-    ----------
-    values : array (n,)
-        In the unit of the channel.
-    angle : array (n,) [rad]
-        Of the shaft.
-    time : array (n,) [s]
-        When it stood there.
-    per_turn : int
-        Points in a turn.
-    """
-
-    values: Array
-    angle: Array
-    time: Array
-    per_turn: int
+    values: Array  # (n,): in the unit of the channel
+    angle: Array  # (n,) [rad]: of the shaft
+    time: Array  # (n,) [s]: when it stood there
+    per_turn: int  # points in a turn
 
 
 def turned(
@@ -70,29 +58,10 @@ def turned(
 ) -> Turned:
     """Return a channel at even angles of the shaft, filtered so that nothing folds onto the orders asked for.
 
-    Parameters
-    ----------
-    channel : Channel
-        At even steps of time.
-    rotation : Rotation
-        Of the shaft, over at least a part of the channel.
-    highest : float
-        Order up to which it is to be right.
-    progress : function, optional
-        Told the share done; when it answers "stop" what was read so far counts.
-
-    Returns
-    -------
-    Turned
-        Within 10⁻⁴ of the amplitude for orders up to the highest one, where the channel itself holds them.
-
-    Raises
-    ------
-    InputError
-        Channel and rotation share fewer than three turns, or it was stopped before so many were read.
-
-    Notes
-    -----
+    channel: at even steps of time; rotation: of the shaft, over at least a part of the channel.
+    highest: order up to which it is to be right.
+    progress: told the share done; when it answers "stop" what was read so far counts.
+    Returns Turned: within 10⁻⁴ of the amplitude for orders up to the highest one, where the channel itself holds them.
     Four points in the period of the highest order; each is read by a windowed sinc from the channel halved in rate as
     often as its own distance to the next one in time allows: see `cardan.maths.curves.resampling`.
     """

@@ -31,54 +31,23 @@ GRID = 0.35
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Pulses:
-    """Times of the pulses, counted as if none were missing.
+    """Times of the pulses, counted as if none were missing."""
 
-    Attributes
-    ----------
-    time : array (m,) [s]
-        Of the pulses that are there.
-    count : array (m,)
-        Number of each, from 0; missing ones leave a gap.
-    missing, extra : int
-        Pulses that did not come, and pulses left out because they came between two others.
-    level : float
-        Where the edges were timed, in the unit of the channel.
-    doubtful : float
-        Share of the turning that rests on pulses counted over a gap.
-    """
-
-    time: Array
-    count: Array
-    missing: int
+    time: Array  # (m,) [s]: of the pulses that are there
+    count: Array  # (m,): number of each, from 0; missing ones leave a gap
+    missing: int  # missing, extra: pulses that did not come, and pulses left out because they came between two others
     extra: int
-    level: float
-    doubtful: float
+    level: float  # where the edges were timed, in the unit of the channel
+    doubtful: float  # share of the turning that rests on pulses counted over a gap
 
 
 def edges(channel: Channel, *, level: float | None = None, hysteresis: float | None = None) -> tuple[Array, float]:
     """Return the times at which a channel rises through a level, and the level.
 
-    Parameters
-    ----------
-    channel : Channel
-        Pulses, or anything that goes up and down with the shaft.
-    level : float, optional
-        Midway between the two heights of the channel when not given, spikes left aside.
-    hysteresis : float, optional
-        Height about the level that has to be passed as a whole; 0.2 of the height of the pulses when not given.
-
-    Returns
-    -------
-    (array (m,) [s], float)
-        Interpolated between the two values about the level.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> time = np.arange(1000) / 1000
-    >>> turning = Channel(name="tacho", quantity="pulses", rate=1000.0, values=np.sin(2 * np.pi * 7 * time - 1))
-    >>> print(np.round(edges(turning)[0][:3] * 7 - 1 / (2 * np.pi), 4) + 0.0)
-    [0. 1. 2.]
+    channel: pulses, or anything that goes up and down with the shaft.
+    level: midway between the two heights of the channel when not given, spikes left aside.
+    hysteresis: height about the level that has to be passed as a whole; 0.2 of the height of the pulses when not given.
+    Returns (array (m,) [s], float): interpolated between the two values about the level.
     """
     values = channel.values
     low, high = np.quantile(values, [RARE, 1.0 - RARE])
@@ -100,37 +69,11 @@ def edges(channel: Channel, *, level: float | None = None, hysteresis: float | N
 def counted(channel: Channel, *, level: float | None = None, hysteresis: float | None = None) -> Pulses:
     """Return the pulses of a channel, without those that are none and counted over those that did not come.
 
-    Parameters
-    ----------
-    channel : Channel
-        Of pulses.
-    level, hysteresis : float, optional
-        As in `edges`.
-
-    Returns
-    -------
-    Pulses
-
-    Raises
-    ------
-    InputError
-        Fewer than four pulses.
-
-    Notes
-    -----
+    level, hysteresis: as in `edges`.
     The speed of a shaft changes little from pulse to pulse, so the time between two is compared with the median of
     the four before and the four after it. One below 0.6 of it ends in a pulse that is none: that one is left out whose
     loss makes the times more even. One of 1.6 and more holds pulses that did not come; as many as the speeds before and
     after make of it, if that is within 0.35 of a whole number. At both ends of the record nothing is counted over.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> time = np.arange(4000) / 1000
-    >>> rows = (np.cos(2 * np.pi * 10 * time) > 0.9) * (np.abs(time - 2.0) > 0.05) + (np.abs(time - 3.05) < 0.003)
-    >>> found = counted(Channel(name="tacho", quantity="pulses", rate=1000.0, values=rows))
-    >>> found.missing, found.extra, int(found.count[-1])
-    (1, 1, 39)
     """
     times, middle = edges(channel, level=level, hysteresis=hysteresis)
     if times.size < 4:

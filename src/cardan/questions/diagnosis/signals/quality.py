@@ -35,55 +35,22 @@ LOST = 0.5
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Sound:
-    """Values of a channel, made whole.
+    """Values of a channel, made whole."""
 
-    Attributes
-    ----------
-    values : array (n,)
-        All finite; gaps are bridged by straight lines.
-    trust : float
-        From 0 to 1.
-    cautions : tuple of str
-        What was doubtful.
-    """
-
-    values: Array
-    trust: float
-    cautions: tuple[str, ...]
+    values: Array  # (n,): all finite; gaps are bridged by straight lines
+    trust: float  # from 0 to 1
+    cautions: tuple[str, ...]  # what was doubtful
 
 
 def sound(name: str, values: Array, *, swings: bool = True, steady: bool = False) -> Sound | None:
     """Return the values of a channel with its gaps filled and what is doubtful in them, None where it holds nothing.
 
-    Parameters
-    ----------
-    name : str
-        Of the channel.
-    values : array (n,)
-        As read; nan where there is none.
-    swings : bool
-        Whether it is a vibration, which has no flat tops; pulses, speeds and angles may.
-    steady : bool
-        Whether it may stay at a value other than 0, as a speed does.
-
-    Returns
-    -------
-    Sound or None
-
-    Notes
-    -----
+    values (n,): as read; nan where there is none.
+    swings: whether it is a vibration, which has no flat tops; pulses, speeds and angles may.
+    steady: whether it may stay at a value other than 0, as a speed does.
     Clipped is a channel of which three times as many values lie at the very top, or bottom, as in the 0.2 % of its
     range beside it (1.5 steps of a coarse converter), in two or more flats: near its peak a vibration lingers, but not
     like that. Overflown is one that jumps by 90 % of its range, twice or more, and would be smooth without these jumps.
-
-    Examples
-    --------
-    >>> wave = np.sin(np.linspace(0, 100, 5000))
-    >>> sound("front", wave).cautions
-    ()
-    >>> found = sound("front", np.clip(wave, -0.9, 0.9))
-    >>> found.cautions[0], round(found.trust, 1)
-    ('front: clipped at its limits, 29 % of its values; peaks are cut and orders made up.', 0.2)
     """
     values = np.asarray(values, dtype=float)
     missing = ~(np.abs(values) <= LARGEST)
@@ -162,23 +129,9 @@ def _wrapped(values: Array) -> int:
 def evened(times: Array, rows: Array) -> tuple[float, float, Array, tuple[str, ...], float]:
     """Return rate, start, values at even steps, cautions and trust of values at times that may be uneven.
 
-    Parameters
-    ----------
-    times : array (n,) [s]
-        Rising, n at least 2.
-    rows : array (c, n)
-        Values of all channels; nan where there are none.
-
-    Returns
-    -------
-    (float [Hz], float [s], array (c, m), tuple of str, float)
-        Gaps in time are nan.
-
-    Examples
-    --------
-    >>> rate, start, rows, told, trust = evened(np.asarray([0.0, 0.1, 0.2, 0.5, 0.6]), np.arange(5.0)[None])
-    >>> print(round(rate, 6), rows[0], told[0])
-    10.0 [ 0.  1.  2. nan nan  3.  4.] the times have 1 gap, 33 % of the recording; it was bridged.
+    times (n,) [s]: rising, n at least 2.
+    rows (c, n): values of all channels; nan where there are none.
+    Returns (float [Hz], float [s], array (c, m), tuple of str, float): gaps in time are nan.
     """
     step = float(np.median(np.diff(times)))
     start, lasting = float(times[0]), float(times[-1] - times[0])

@@ -96,44 +96,18 @@ def ridge(
 ) -> Rotation:
     """Return how a shaft turned, from the strongest line of what shakes.
 
-    Parameters
-    ----------
-    channels : sequence of Channel
-        What shakes; those that share the rate of the first one are looked at together.
-    speed_range : (float, float) [rad/s], optional
-        Least and greatest speed of the shaft. The narrower, the surer.
-    order : float, optional
-        Order of the strongest line, where it is known.
-    progress : function, optional
-        Told the share done; when it answers "stop" lengths of the window not yet tried are left out, all but the first.
+    channels: what shakes; those that share the rate of the first one are looked at together.
+    speed_range [rad/s]: least and greatest speed of the shaft. The narrower, the surer.
+    order: order of the strongest line, where it is known.
+    progress: told the share done; when it answers "stop" lengths of the window not yet tried are left out, all but the
+    first.
+    Returns Rotation: with its confidence and with the factors by which it may be off; phases mean nothing.
 
-    Returns
-    -------
-    Rotation
-        With its confidence and with the factors by which it may be off; phases mean nothing.
-
-    Raises
-    ------
-    InputError
-        There is no channel to look at, or it is too short.
-
-    Notes
-    -----
     In a spectrogram every line is put over the median of its neighbours; the path with the greatest sum of logarithms,
     less a toll for every change, is the ridge (dynamic programming, as Viterbi's). Of several windows the one with the
     highest ridge counts. The angle then follows the phase of the vibration along the ridge. Which order the ridge is,
     is weighed by whether there is anything at its halves, thirds and quarters. A ridge whose power wavers from window
     to window is a resonance that noise excites, not a shaft, and is not believed.
-
-    Examples
-    --------
-    >>> rng = np.random.default_rng(1)
-    >>> time = np.arange(20000) / 2000
-    >>> angle = 2 * np.pi * (20 * time + time**2)
-    >>> values = np.cos(angle) + 0.3 * np.cos(2 * angle) + rng.normal(size=time.size)
-    >>> found = ridge([Channel(name="front", rate=2000.0, values=values)], speed_range=(100.0, 300.0))
-    >>> print(f"{found.speed_at(5.0) / (2 * np.pi):.1f} turns a second at 5 s, confidence {found.confidence:.1f}")
-    30.0 turns a second at 5 s, confidence 0.8
     """
     usable = [one for one in channels if one.quantity not in ("pulses", "angle") and np.ptp(one.values) > 0.0]
     if not usable:

@@ -12,20 +12,9 @@ Progress: TypeAlias = Callable[[float], object]
 class Watch:
     """Tells how far the parts of some work are together; it can be handed on as the progress of the part at work.
 
-    Parameters
-    ----------
-    progress : function or None
-        Who is told; he may answer "stop".
-    parts : int
-        How many parts there are, taken for equal.
+    progress: who is told; he may answer "stop".
+    parts: how many parts there are, taken for equal; stopped: whether the answer was "stop" once.
 
-    Attributes
-    ----------
-    stopped : bool
-        Whether the answer was "stop" once.
-
-    Examples
-    --------
     >>> told = []
     >>> watch = Watch(told.append, 4)
     >>> watch(0.5), watch.next(), watch(0.5), told

@@ -36,31 +36,18 @@ GLASS = 0.45
 
 @dataclass(frozen=True, kw_only=True)
 class Worst:
-    """The largest force on any support.
+    """The largest force on any support."""
 
-    Attributes
-    ----------
-    forces : Forces
-        Those of the way of sliding it belongs to.
-    support, when : int
-        Support and position, counted from 0.
-    size : float [N]
-        How large it is.
-    """
-
-    forces: Forces
-    support: int
+    forces: Forces  # those of the way of sliding it belongs to
+    support: int  # support, when: support and position, counted from 0
     when: int
-    size: float
+    size: float  # [N]: how large it is
 
 
 def worst(found: Forces) -> Worst:
     """Return the largest force on any support, of both ways of sliding; the first of those alike but for rounding.
 
-    Parameters
-    ----------
-    found : Forces
-        Of one drive with supports.
+    found: of one drive with supports.
     """
     size = np.stack([frames.norm(np.asarray(one.reaction)) for one in senses(found)])
     peaks = np.max(size, axis=-1)
@@ -72,12 +59,7 @@ def worst(found: Forces) -> Worst:
 def loads_figures(found: Forces, drive: Drive) -> tuple[Figure, ...]:
     """Return the drawings of a drive with the forces of its supports; none where they carry nothing.
 
-    Parameters
-    ----------
-    found : Forces
-        Of one drive with supports.
-    drive : Drive
-        The drive, standing still.
+    found: of one drive with supports; drive: the drive, standing still.
     """
     most = worst(found)
     if not most.size > 0.0:

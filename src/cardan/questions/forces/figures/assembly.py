@@ -31,12 +31,7 @@ def misalignment_figures(found: AssemblyForces, names: Sequence[str] = ()) -> tu
 def misalignment_figure(found: AssemblyForces, names: Sequence[str] = ()) -> Figure:
     """Return how misalignment loads supports and joints over the input angle.
 
-    Parameters
-    ----------
-    found : AssemblyForces
-        Of one drive.
-    names : sequence of str
-        Names of the supports, for the legend.
+    found: of one drive; names: names of the supports, for the legend.
     """
     angle = np.asarray(found.angle) / deg
     radial, axial = np.asarray(found.radial), np.asarray(found.axial)

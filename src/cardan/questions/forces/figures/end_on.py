@@ -23,39 +23,20 @@ WIDEST = 5
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Tip:
-    """A vector over a turn.
+    """A vector over a turn."""
 
-    Attributes
-    ----------
-    title : str
-        What stands above it.
-    dimension : str
-        What it is, as of `cardan.answers.quantity.Quantity`; in SI.
-    axis : array (p, 3)
-        Direction of its shaft.
-    paths : sequence of array (p, 3)
-        The vector; behind the first, thin ones beside it.
-    role, dash : str
-        How it is drawn.
-    """
-
-    title: str
-    dimension: str
-    axis: Array
-    paths: Sequence[Array]
-    role: str
+    title: str  # what stands above it
+    dimension: str  # what it is, as of `cardan.answers.quantity.Quantity`; in SI
+    axis: Array  # (p, 3): direction of its shaft
+    paths: Sequence[Array]  # sequence of array (p, 3): the vector; behind the first, thin ones beside it
+    role: str  # role, dash: how it is drawn
     dash: str = "solid"
 
 
 def end_on(tips: Sequence[Tip], reach: float) -> Iterator[Row]:
     """Yield rows of panels, each a vector seen along the power flow, a dot where it starts.
 
-    Parameters
-    ----------
-    tips : sequence of Tip
-        What to draw.
-    reach : float
-        The largest of the vectors, for the scale of all.
+    reach: the largest of the vectors, for the scale of all.
     """
     wide = len(tips) if 3 <= len(tips) <= WIDEST else 3 if len(tips) < 3 else 4
     panels = [_panel(tip, reach) for tip in tips]

@@ -34,12 +34,8 @@ LEAST = 1e-9
 def forces_figures(found: Forces, drive: Drive | None = None) -> tuple[Figure, ...]:
     """Return the figures of the forces of one drive, with drawings where the drive is given.
 
-    Parameters
-    ----------
-    found : Forces
-        Of one drive.
-    drive : Drive, optional
-        The drive, to draw the forces on; standing still.
+    found: of one drive.
+    drive: the drive, to draw the forces on; standing still.
     """
     if found.reaction is None:
         return (torques_figure(found),)
@@ -51,10 +47,7 @@ def forces_figures(found: Forces, drive: Drive | None = None) -> tuple[Figure, .
 def torques_figure(found: Forces) -> Figure:
     """Return the torque and the secondary couple of every shaft over the input angle, and the couples seen end on.
 
-    Parameters
-    ----------
-    found : Forces
-        Of one drive.
+    found: of one drive.
     """
     angle = np.asarray(found.angle) / deg
     torque, couple = np.asarray(found.shaft_torque), np.asarray(found.bending_couple)
@@ -149,12 +142,7 @@ def _couples(found: Forces) -> Iterator[Row]:
 def reactions_figure(found: Forces, names: Sequence[str] = ()) -> Figure:
     """Return what every support takes over the input angle, and the radial forces seen along the shafts.
 
-    Parameters
-    ----------
-    found : Forces
-        Of one drive with supports.
-    names : sequence of str
-        Names of the supports, for the legend.
+    found: of one drive with supports; names: names of the supports, for the legend.
     """
     angle = np.asarray(found.angle) / deg
     most = worst(found)

@@ -30,12 +30,7 @@ LEAST = 1e-9
 def moving_forces_figures(found: MovingForces, names: Sequence[str] = ()) -> tuple[Figure, ...]:
     """Return the figures of the forces over a movement.
 
-    Parameters
-    ----------
-    found : MovingForces
-        Of one drive.
-    names : sequence of str
-        Names of the supports, for the legend.
+    found: of one drive; names: names of the supports, for the legend.
     """
     held = (moving_reactions_figure(found, names),) if found.forces.reaction is not None else ()
     return (*held, moving_torques_figure(found))
@@ -44,12 +39,7 @@ def moving_forces_figures(found: MovingForces, names: Sequence[str] = ()) -> tup
 def moving_reactions_figure(found: MovingForces, names: Sequence[str] = ()) -> Figure:
     """Return the radial and axial force of every support over the movement.
 
-    Parameters
-    ----------
-    found : MovingForces
-        Of one drive with supports.
-    names : sequence of str
-        Names of the supports, for the legend.
+    found: of one drive with supports; names: names of the supports, for the legend.
     """
     forces = found.forces
     size = found.reaction_size
@@ -89,10 +79,7 @@ def moving_reactions_figure(found: MovingForces, names: Sequence[str] = ()) -> F
 def moving_torques_figure(found: MovingForces) -> Figure:
     """Return torque and secondary couple of every shaft over the movement.
 
-    Parameters
-    ----------
-    found : MovingForces
-        Of one drive.
+    found: of one drive.
     """
     torque, couple = np.asarray(found.forces.shaft_torque), np.asarray(found.forces.bending_couple)
     bent = found.extreme(couple)

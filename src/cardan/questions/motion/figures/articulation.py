@@ -25,10 +25,7 @@ def articulation_figures(found: Articulation) -> tuple[Figure, ...]:
 def joint_angles_figure(found: Articulation) -> Figure:
     """Return bends and unevenness over time.
 
-    Parameters
-    ----------
-    found : Articulation
-        A drive over the instants of a movement.
+    found: a drive over the instants of a movement.
     """
     times = np.asarray(found.times)
     joint_angle = np.asarray(found.joint_angle) / deg
@@ -116,10 +113,7 @@ def joint_angles_figure(found: Articulation) -> Figure:
 def sliding_figure(found: Articulation) -> Figure:
     """Return how far the shafts slide, over time.
 
-    Parameters
-    ----------
-    found : Articulation
-        A drive over the instants of a movement.
+    found: a drive over the instants of a movement.
     """
     times = np.asarray(found.times)
     ones = [one for one in found.splines if one.slides]

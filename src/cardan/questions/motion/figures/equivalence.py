@@ -31,10 +31,7 @@ def equivalence_figures(found: EquivalentJoint) -> tuple[Figure, ...]:
 def speed_fluctuation_figure(found: EquivalentJoint) -> Figure:
     """Return how uneven every shaft turns.
 
-    Parameters
-    ----------
-    found : EquivalentJoint
-        Of one drive.
+    found: of one drive.
     """
     share = 100.0 * np.ravel(np.asarray(found.shaft_speed_fluctuation))
     at = np.arange(2, len(share) + 2)
@@ -70,10 +67,7 @@ def speed_fluctuation_figure(found: EquivalentJoint) -> Figure:
 def orders_figure(found: EquivalentJoint) -> Figure:
     """Return the exact harmonics of the output's angle error.
 
-    Parameters
-    ----------
-    found : EquivalentJoint
-        Of one drive, or of every shaft of one drive: then the last is drawn.
+    found: of one drive, or of every shaft of one drive: then the last is drawn.
     """
     amplitude = np.asarray(found.harmonics(ORDERS)).reshape(-1, ORDERS)[-1] / deg
     orders = 2.0 * np.arange(1, ORDERS + 1)

@@ -29,14 +29,8 @@ def joint_figures(
 def joint_figure(turns: Sequence[JointTurn], joint_angles: Sequence[JointAngles], labels: Sequence[str] = ()) -> Figure:
     """Return error and ratio of joints over a turn, and their errors over the bend.
 
-    Parameters
-    ----------
-    turns : sequence of JointTurn
-        At least one; all at one bend.
-    joint_angles : sequence of JointAngles
-        Of the same joints.
-    labels : sequence of str
-        What they are called; their kinds when not given.
+    turns: at least one; all at one bend.
+    labels: what they are called; their kinds when not given.
     """
     names = tuple(labels) or tuple(one.joint.kind for one in turns)
     angle_errors = [np.asarray(one.angle_error) / deg for one in turns]

@@ -32,10 +32,7 @@ def motion_figures(found: Motion) -> tuple[Figure, ...]:
 def motion_figure(found: Motion) -> Figure:
     """Return speed ratio, angle error and acceleration of every shaft over the input angle.
 
-    Parameters
-    ----------
-    found : Motion
-        Motion of one drive.
+    found: motion of one drive.
     """
     angle = np.asarray(found.angle) / deg
     angle_error = np.asarray(found.angle_error) / deg

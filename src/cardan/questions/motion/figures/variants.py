@@ -29,20 +29,8 @@ LONG = 28
 def variants_figure(found: Sequence[Motion], names: Sequence[str]) -> Figure:
     """Return speed ratio and angle error of the output of several drives over the input angle.
 
-    Parameters
-    ----------
-    found : sequence of Motion
-        The motion of each; the n-th has the colour of the n-th shaft.
-    names : sequence of str
-        What they are called.
+    found: the motion of each; the n-th has the colour of the n-th shaft.
 
-    Raises
-    ------
-    InputError
-        There is none, or not a name for each.
-
-    Examples
-    --------
     >>> from cardan import Drive, motion
     >>> from cardan.units import deg
     >>> even, odd = Drive.from_angles([20 * deg, 20 * deg]), Drive.from_angles([20 * deg])

@@ -23,10 +23,7 @@ def layout_figures(found: Layout) -> tuple[Figure, ...]:
 def joint_angles_figure(found: Layout) -> Figure:
     """Return the joint angles before and after.
 
-    Parameters
-    ----------
-    found : Layout
-        A drive with its joints moved.
+    found: a drive with its joints moved.
     """
     before, after = np.asarray(found.joint_angle_before) / deg, np.asarray(found.joint_angle) / deg
     number = np.arange(1, len(after) + 1)

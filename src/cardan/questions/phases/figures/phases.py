@@ -41,10 +41,7 @@ def _compared(found: Phasing) -> list[YokeSetting]:
 def polygon_figure(found: Phasing) -> Figure:
     """Return the phase polygon as built and with the best yoke angles, in the Poincaré disk.
 
-    Parameters
-    ----------
-    found : Phasing
-        What the yoke angles can do.
+    found: what the yoke angles can do.
     """
     shown = [found.as_built, *found.settings[:1]]
     if len(found.settings) > 1 and len(found.as_built.vertex) > 3:
@@ -154,10 +151,7 @@ def _side(start: complex, end: complex) -> Array:
 def settings_figure(found: Phasing) -> Figure:
     """Return what is left by each setting of the yokes.
 
-    Parameters
-    ----------
-    found : Phasing
-        What the yoke angles can do.
+    found: what the yoke angles can do.
     """
     shown = _compared(found)
     share = 100.0 * np.asarray([one.speed_fluctuation for one in shown])
@@ -222,10 +216,7 @@ def settings_figure(found: Phasing) -> Figure:
 def sensitivity_figure(found: Phasing) -> Figure:
     """Return what one degree of error of each yoke costs at the best setting.
 
-    Parameters
-    ----------
-    found : Phasing
-        What the yoke angles can do.
+    found: what the yoke angles can do.
     """
     best = found.settings[0]
     cost = 100.0 * np.maximum(best.one_off, 0.0)

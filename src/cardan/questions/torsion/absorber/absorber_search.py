@@ -41,40 +41,20 @@ DIGITS = 5
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Setting:
-    """How an absorber is set.
+    """How an absorber is set."""
 
-    Attributes
-    ----------
-    inertia : float [kg·m²]
-        J_a; of pendulums all m (R + l)² together.
-    stiffness : float [N·m/rad]
-        c_a; of a pendulum J_a Ω² R/l at the middle of the band.
-    damping : float [N·m·s/rad]
-        b.
-    arm : float or None [m]
-        l of a pendulum.
-    peak : float [N·m]
-        Largest swing of a torque of the drive in the band, with it.
-    peak_speed : float [rad/s]
-        Where.
-    peak_element : int
-        In which element, from 0 in `Absorber.elements`.
-    """
-
-    inertia: float
-    stiffness: float
-    damping: float
-    arm: float | None = None
-    peak: float = float("nan")
-    peak_speed: float = float("nan")
-    peak_element: int = 0
+    inertia: float  # [kg·m²]: J_a; of pendulums all m (R + l)² together
+    stiffness: float  # [N·m/rad]: c_a; of a pendulum J_a Ω² R/l at the middle of the band
+    damping: float  # [N·m·s/rad]: b
+    arm: float | None = None  # [m]: l of a pendulum
+    peak: float = float("nan")  # [N·m]: largest swing of a torque of the drive in the band, with it
+    peak_speed: float = float("nan")  # [rad/s]: where
+    peak_element: int = 0  # in which element, from 0 in `Absorber.elements`
 
 
 def rounded(value: float) -> float:
     """Return a value with as many digits as can be made.
 
-    Examples
-    --------
     >>> rounded(65306.12244), rounded(0.0)
     (65306.0, 0.0)
     """
@@ -83,37 +63,17 @@ def rounded(value: float) -> float:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Task:
-    """A drive, what hangs on it, and the band it is judged in.
+    """A drive, what hangs on it, and the band it is judged in."""
 
-    Attributes
-    ----------
-    drive : Drive
-        Without.
-    host : Host
-        Where it hangs.
-    kind : str
-    closed_form : Setting
-    speed : array (S,) [rad/s]
-        Speeds of the search.
-    middle : float [rad/s]
-        Speed at which trains are taken.
-    elements : array of int
-        Elements that are judged, in the model.
-    radius : float [m]
-        Of pendulums.
-    count : int
-        Of pendulums.
-    """
-
-    drive: Drive
-    host: Host
+    drive: Drive  # without
+    host: Host  # where it hangs
     kind: str
     closed_form: Setting
-    speed: Array
-    middle: float
-    elements: Array
-    radius: float
-    count: int
+    speed: Array  # (S,) [rad/s]: speeds of the search
+    middle: float  # [rad/s]: speed at which trains are taken
+    elements: Array  # elements that are judged, in the model
+    radius: float  # [m]: of pendulums
+    count: int  # of pendulums
 
     @property
     def ranges(self) -> tuple[float, ...]:
@@ -154,11 +114,7 @@ class Task:
 class Settings:
     """A drive with an absorber of any setting, run at any speeds.
 
-    Parameters
-    ----------
-    task : Task
-    bare : float [N·m]
-        Largest swing without.
+    bare [N·m]: largest swing without.
     """
 
     def __init__(self, task: Task, bare: float) -> None:

@@ -43,14 +43,8 @@ def lacking(drive: Drive) -> Lacking:
 def answer(drive: Drive, result: Absorber, *, chosen: bool = False) -> Answer:
     """Return what there is to say of an absorber on a drive.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive without it.
-    result : Absorber
-        What was found.
-    chosen : bool
-        Whether the band of speeds was asked for: then it may lie where the drive does not run.
+    drive: the drive without it.
+    chosen: whether the band of speeds was asked for: then it may lie where the drive does not run.
     """
     away = None if chosen else _away(drive, result)
     tone: Tone = "good" if result.reduction < LITTLE and away is None else "warning"

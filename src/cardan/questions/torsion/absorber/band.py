@@ -54,20 +54,11 @@ GOLDEN = 0.6180339887498949
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Lines:
-    """Drives of one build, ready to be run at speeds.
-
-    Attributes
-    ----------
-    drives : tuple of D Drive
-    trains : tuple of D TorsionalTrain
-        At the middle of the band.
-    speed : float [rad/s]
-        That speed.
-    """
+    """Drives of one build, ready to be run at speeds."""
 
     drives: tuple[Drive, ...]
-    trains: tuple[TorsionalTrain, ...]
-    speed: float
+    trains: tuple[TorsionalTrain, ...]  # at the middle of the band
+    speed: float  # [rad/s]
 
     @property
     def elements(self) -> Array:
@@ -167,21 +158,10 @@ def band_speeds(
 ) -> Array:
     """Return speeds of a band for every drive, evenly spread and closer at its resonances, rising: array (D, S).
 
-    Parameters
-    ----------
-    low, high : float [rad/s]
-        Ends of the band; one speed where they are the same.
-    omega : array (D, m) [rad/s]
-        Natural frequencies.
-    at : sequence of float
-        Orders that excite.
-    count : int
-        Evenly spread speeds.
-    beside : sequence of float
-        Where to look beside a resonance, as shares of its speed.
+    low, high [rad/s]: ends of the band; one speed where they are the same.
+    omega (D, m) [rad/s]: natural frequencies; at: orders that excite; count: evenly spread speeds.
+    beside: where to look beside a resonance, as shares of its speed.
 
-    Examples
-    --------
     >>> band_speeds(50.0, 100.0, np.asarray([[140.0]]), [2.0], count=3, beside=(0.0, 0.1))
     array([[ 50.,  70.,  75.,  77., 100.]])
     """
@@ -203,15 +183,8 @@ def band_speeds(
 def about_peaks(speed: Array, peak: Array) -> Array:
     """Return speeds between the highest local peaks of a curve and their neighbours, array (k,) [rad/s].
 
-    Parameters
-    ----------
-    speed : array (S,) [rad/s]
-        Rising.
-    peak : array (S,)
-        Largest value at each.
+    speed (S,) [rad/s]: rising; peak (S,): largest value at each.
 
-    Examples
-    --------
     >>> about_peaks(np.asarray([1.0, 2.0, 3.0, 4.0]), np.asarray([0.0, 5.0, 3.0, 1.0])).round(2)
     array([1.2, 1.4, 1.6, 1.8, 2.2, 2.4, 2.6, 2.8])
     """
@@ -231,20 +204,8 @@ def growth(found: TorqueSwings, speed: Array, omega: Array, asked: Array) -> Arr
     """Return how fast disturbances grow in drives, the largest growth of any speed asked: array (D,) [per period].
 
     Looked at amid the zones of parametric resonance, and at the speed of the largest torque: not at every speed.
-
-    Parameters
-    ----------
-    found : TorqueSwings (D·S,)
-    speed : array (D, S) [rad/s]
-    omega : array (D, m) [rad/s]
-        Natural frequencies.
-    asked : array of bool (D,)
-        Which of the drives.
-
-    Returns
-    -------
-    array (D,)
-        ln of the largest multiplier; 0 where nothing grows, and for drives not asked.
+    found (D·S,), speed (D, S) [rad/s]; omega (D, m) [rad/s]: natural frequencies; asked (D,) of bool.
+    Returns: ln of the largest multiplier; 0 where nothing grows, and for drives not asked.
     """
     count, width = speed.shape
     zones = zone_speeds(omega)
@@ -311,13 +272,7 @@ def fine_speeds(band: tuple[float, float], runs: Sequence[Lines]) -> Array:
 def unstable_speeds(found: TorqueSwings, omega: Array, speed: Array) -> Array:
     """Return the speeds at which a disturbance grows: looked at evenly, and amid the zones of resonance.
 
-    Parameters
-    ----------
-    found : TorqueSwings (S,)
-    omega : array (1, m) [rad/s]
-        Natural frequencies.
-    speed : array (S,) [rad/s]
-        Rising.
+    found (S,); omega (1, m) [rad/s]: natural frequencies; speed (S,) [rad/s]: rising.
     """
     zones, low, high = zone_speeds(omega)[0], speed[0], speed[-1]
     wanted = np.append(np.linspace(low, high, SPREAD), zones[(zones > low) & (zones < high)])

@@ -41,8 +41,6 @@ def speed(value: float, digits: int = 3) -> Quantity:
 def band(speeds: Array) -> Say:
     """Return the speeds that were looked at, as a sentence has them.
 
-    Examples
-    --------
     >>> from cardan.answers.reader import USUAL
     >>> from cardan.units import rpm
     >>> band(np.asarray([300.0, 600.0]) * rpm).told(USUAL), band(np.asarray([300.0]) * rpm).told(USUAL)
@@ -56,11 +54,7 @@ def band(speeds: Array) -> Say:
 def curves(speeds: Array, named: Sequence[tuple[str, Array]]) -> list[Column]:
     """Return the columns of alternating torques over the speed, an element each.
 
-    Parameters
-    ----------
-    speeds : array (s,) [rad/s]
-    named : sequence of (str, array (s, E) [N·m])
-        In which state, and the torques there.
+    speeds (s,) [rad/s]; named, sequence of (str, array (s, E) [N·m]): in which state, and the torques there.
     """
     found = [Column(key="speed", values=speeds, dimension="angular_speed")]
     for word, table in named:
@@ -70,12 +64,7 @@ def curves(speeds: Array, named: Sequence[tuple[str, Array]]) -> list[Column]:
 
 
 def cautions(found: Any) -> Iterator[Remark]:
-    """Yield what an absorber and a design have to say alike: stability, lost motions, backlash, a stop, assumptions.
-
-    Parameters
-    ----------
-    found : Absorber or Calm
-    """
+    """Yield what an absorber and a design have to say alike: stability, lost motions, backlash, a stop, assumptions."""
     lost = int(np.sum(~np.isfinite(found.after).all(axis=-1)))
     if lost:
         text = _(

@@ -31,10 +31,7 @@ def absorber_figures(found: Absorber) -> tuple[Figure, ...]:
 def absorber_figure(found: Absorber) -> Figure:
     """Return the largest alternating torque over the speed without an absorber, by its closed form and at its best.
 
-    Parameters
-    ----------
-    found : Absorber
-        Of one drive.
+    found: of one drive.
     """
     speed = found.speed / rpm
     judged = list(found.judged)
@@ -91,12 +88,7 @@ def kinds() -> dict[str, str]:
 def unstable(speed: Array, curve: Array, at: Array) -> Iterator[Curve]:
     """Yield marks where the motion of a curve is unstable.
 
-    Parameters
-    ----------
-    speed, curve : array (s,)
-        The curve.
-    at : array (k,)
-        Speeds of unstable motions.
+    speed, curve (s,); at (k,): speeds of unstable motions.
     """
     if len(at):
         rows = [int(np.argmin(np.abs(speed - one))) for one in at]
@@ -106,18 +98,7 @@ def unstable(speed: Array, curve: Array, at: Array) -> Iterator[Curve]:
 def logarithmic(label: str, curves: Sequence[Array]) -> Axis:
     """Return the logarithmic axis of torques.
 
-    Parameters
-    ----------
-    label : str
-        What runs along it.
-    curves : sequence of arrays [N·m]
-        What it is to hold; what is more than three decades below the largest is cut off.
-
-    Examples
-    --------
-    >>> found = logarithmic("torque", [np.asarray([3.0, 400.0])])
-    >>> found.ticks
-    (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)
+    curves [N·m]: what it is to hold; what is more than three decades below the largest is cut off.
     """
     every = np.concatenate([np.asarray(one, dtype=float).ravel() for one in curves])
     every = every[np.isfinite(every)]

@@ -15,47 +15,20 @@ from cardan.units import nearest
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Host:
-    """A station of the torsional line of a drive.
+    """A station of the torsional line of a drive."""
 
-    Attributes
-    ----------
-    station : int
-        Its number in the model, from 0.
-    name : str
-    shaft : int
-        Number of its shaft, from 1.
-    table : int or None
-        The `[[stations]]` of the drive that can carry something there, from 0; None where a new one is needed.
-    place : Station
-        A station at that place with nothing on it: what a new table says.
-    """
-
-    station: int
+    station: int  # its number in the model, from 0
     name: str
-    shaft: int
+    shaft: int  # number of its shaft, from 1
+    # the `[[stations]]` of the drive that can carry something there, from 0; None where a new one is needed
     table: int | None
-    place: Station
+    place: Station  # a station at that place with nothing on it: what a new table says
 
 
 def hosts(drive: Drive, train: TorsionalTrain, *, pieces: int = 1) -> tuple[Host, ...]:
     """Return the stations on which something can hang, along the power flow.
 
-    Parameters
-    ----------
-    drive : Drive
-    train : TorsionalTrain
-        Its model.
-    pieces : int
-        Stretches of its bodies there.
-
-    Examples
-    --------
-    >>> from cardan.questions.torsion.model.torsional_train import torsional_train
-    >>> from cardan.drive.shaft import Shaft
-    >>> drive = replace(Drive.from_angles([0.2]), shafts=(Shaft(number=1, stiffness=900.0),),
-    ...     stations=(Station(shaft=2, name="pump", inertia=0.6),))
-    >>> [(one.name, one.table) for one in hosts(drive, torsional_train(drive, loaded=False))]
-    [('input end', None), ('joint 1, driving yoke', None), ('pump', 0)]
+    pieces: stretches of its bodies there.
     """
     found: list[Host] = []
     for shaft in drive.shafts:
@@ -91,13 +64,7 @@ def _place(drive: Drive, train: TorsionalTrain, shaft: int, line: ShaftLine, k: 
 
 
 def host_named(found: tuple[Host, ...], wanted: str | int) -> Host:
-    """Return the station of a name, or of a number from 1 along the power flow.
-
-    Raises
-    ------
-    InputError
-        There is none; the message names the nearest.
-    """
+    """Return the station of a name, or of a number from 1 along the power flow."""
     if isinstance(wanted, str) and wanted.isdigit():
         wanted = int(wanted)
     if isinstance(wanted, int):
@@ -116,13 +83,7 @@ def host_named(found: tuple[Host, ...], wanted: str | int) -> Host:
 
 
 def hung(drive: Drive, host: Host, thing: Absorber | Pendulum) -> tuple[Drive, int]:
-    """Return a drive with an absorber or pendulums on a station, and the number of its `[[stations]]` from 0.
-
-    Raises
-    ------
-    InputError
-        Another one hangs there already, and nothing says where a second station would be.
-    """
+    """Return a drive with an absorber or pendulums on a station, and the number of its `[[stations]]` from 0."""
     what = {"absorber": thing} if isinstance(thing, Absorber) else {"pendulum": thing}
     if host.table is not None:
         tables = list(drive.stations)

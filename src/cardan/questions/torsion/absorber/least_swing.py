@@ -35,13 +35,7 @@ class Stopped(Exception):
 
 
 class Watch:
-    """Tells how much of a work in several parts is done, and remembers the answer "stop".
-
-    Parameters
-    ----------
-    progress : function or None
-        Told the share done.
-    """
+    """Tells how much of a work in several parts is done, and remembers the answer "stop"."""
 
     def __init__(self, progress: Progress | None) -> None:
         self.progress, self.stopped = progress, False
@@ -59,17 +53,10 @@ class Watch:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Watched:
-    """How work is watched: told the share done, Stopped where the answer is "stop".
-
-    Attributes
-    ----------
-    progress : function
-    expected : float
-        Designs that the work takes, about.
-    """
+    """How work is watched: told the share done, Stopped where the answer is "stop"."""
 
     progress: Progress
-    expected: float
+    expected: float  # designs that the work takes, about
 
     def tell(self, asked: int) -> None:
         """Tell how many designs are done."""
@@ -80,15 +67,8 @@ class Watched:
 class LeastSwing:
     """Finds the place whose largest swing is smallest; keeps the best it has seen.
 
-    Parameters
-    ----------
-    swings : callable
-        `Swings`.
-    speed : array (S,) [rad/s]
-        Where the search begins to look.
-    closer : callable or None
-        `Closer`; None where these speeds are all that count.
-    watched : Watched
+    swings: `Swings`; speed (S,) [rad/s]: where the search begins to look.
+    closer: `Closer`; None where these speeds are all that count.
     """
 
     def __init__(self, swings: Swings, speed: Array, closer: Closer | None, watched: Watched) -> None:

@@ -56,12 +56,8 @@ def lacking(drive: Drive) -> Lacking:
 def ask(drive: Drive, *, progress: Progress | None = None) -> Calm | None:
     """Return the yoke angles with the least torsional vibration; None where no yoke may be turned.
 
-    Parameters
-    ----------
-    drive : Drive
-        With what `calm` needs; its yokes that are not fixed may turn.
-    progress : function, optional
-        Told the share done; when it answers "stop" the best so far is returned.
+    drive: with what `calm` needs; its yokes that are not fixed may turn.
+    progress: told the share done; when it answers "stop" the best so far is returned.
     """
     if all(shaft.yoke_fixed for shaft in drive.shafts[1:-1]):
         return None
@@ -200,10 +196,7 @@ def _as_built(old: NodeRule, new: NodeRule) -> list[Text]:
 def rule_reasons(rule: NodeRule) -> tuple[Text, ...]:
     """Return what the joints do to one mode: where each stands beside the node, and what their phases leave.
 
-    Parameters
-    ----------
-    rule : NodeRule
-        Of one mode.
+    rule: of one mode.
     """
     return tuple(_rule_reasons(rule))
 

@@ -42,34 +42,16 @@ WORST = 1e3
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Free:
-    """A quantity of the drive that may change.
+    """A quantity of the drive that may change."""
 
-    Attributes
-    ----------
-    path : str
-        As ``shafts[1].yoke_angle_deg``.
-    low, high : float
-        Its range, in the unit of the path.
-    step : float or None
-        Only every such step from the lowest value can be made.
-    built : float
-        Its value as built.
-    """
-
-    path: str
-    low: float
+    path: str  # as ``shafts[1].yoke_angle_deg``
+    low: float  # low, high: its range, in the unit of the path
     high: float
-    step: float | None
+    step: float | None  # only every such step from the lowest value can be made
     built: float
 
     def value(self, share: float) -> float:
-        """Return the value at a share of the range.
-
-        Examples
-        --------
-        >>> Free(path="shafts[1].yoke_angle_deg", low=-90.0, high=90.0, step=22.5, built=0.0).value(0.6)
-        22.5
-        """
+        """Return the value at a share of the range."""
         value = self.low + share * (self.high - self.low)
         if self.step is None:
             return value
@@ -89,13 +71,7 @@ class Free:
 
 
 def free_quantities(drive: Drive, free: Mapping[str, Sequence[float]] | None) -> tuple[Free, ...]:
-    """Return what may change: as given by paths, or the yoke angles that are not fixed.
-
-    Raises
-    ------
-    InputError
-        Paths that lead nowhere or to no number, ranges that are none; nothing that may change.
-    """
+    """Return what may change: as given by paths, or the yoke angles that are not fixed."""
     if free is None:
         found = tuple(_yokes(drive))
         if not found:
@@ -160,14 +136,8 @@ def _free(drive: Drive, path: str, given: Sequence[float]) -> Free:
 class Designs:
     """The drive with other values, over a band of speeds.
 
-    Parameters
-    ----------
-    drive : Drive
-        As built, with its duty.
-    free : tuple of v Free
-    band : (float, float) [rad/s]
-    elements : array of int or None
-        Elements that are judged; all of the line by default.
+    drive: as built, with its duty; band [rad/s].
+    elements: elements that are judged; all of the line by default.
     """
 
     def __init__(self, drive: Drive, free: tuple[Free, ...], band: tuple[float, float], elements: Array | None) -> None:

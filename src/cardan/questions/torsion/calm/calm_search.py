@@ -50,20 +50,11 @@ Method: TypeAlias = Evolution | Grid
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Peak:
-    """Largest swing of a torque in the band.
+    """Largest swing of a torque in the band."""
 
-    Attributes
-    ----------
-    torque : float [N·m]
-        Half of highest less lowest.
-    speed : float [rad/s]
-    element : int
-        From 0 in `Calm.elements`.
-    """
-
-    torque: float
-    speed: float
-    element: int
+    torque: float  # [N·m]: half of highest less lowest
+    speed: float  # [rad/s]
+    element: int  # from 0 in `Calm.elements`
 
 
 def method_problems(method: Method, free: tuple[Free, ...]) -> list[Problem]:

@@ -27,10 +27,7 @@ def calm_figures(found: Calm) -> tuple[Figure, ...]:
 def calm_figure(found: Calm) -> Figure:
     """Return the largest alternating torque over the speed as built and at best, and how the joints excite the mode.
 
-    Parameters
-    ----------
-    found : Calm
-        Of one drive.
+    found: of one drive.
     """
     speed, judged = found.speed / rpm, list(found.judged)
     curves = [np.max(one[:, judged], axis=-1) for one in (found.before, found.after)]

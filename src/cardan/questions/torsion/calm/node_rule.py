@@ -16,42 +16,23 @@ from cardan.questions.torsion.steady.steady_start import at_rest
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class NodeRule:
-    """What the joints of a drive do to one of its modes.
+    """What the joints of a drive do to one of its modes."""
 
-    Attributes
-    ----------
-    mode : int
-        From 1.
-    omega : float [rad/s]
-    damping_ratio : float
-        ζ.
-    kappa : array (n,)
-        Position of each joint relative to the node of the mode, 0 in it: its angle in the mode times Σ J u behind it.
-    joint_angle_share : array (n,)
-        τ = tan²(α/2) of each joint.
-    parametric : complex array (n,)
-        Share by which each joint modulates the stiffness twice a turn, with its phase: 2 τ κ e^(2iψ̄).
-    forced : complex array (n,) [√(kg m²)]
-        How each joint pushes the mode twice a turn where order 2 meets it, with its phase, over ω²:
-        τ e^(2iψ̄) (S (1 + 2iδ) - 2i u t/ω²) with S = Σ J u behind it, its mean torque t and lag δ under load.
-    torque_of_mode : float [N·m/√(kg m²)]
-        Largest torque of an element of the mode at unit amplitude.
-    position : array (n,) [m]
-        Of the joints along the line of the shafts.
-    nodes : tuple of float [m]
-        Where the mode stands still; the input is one where its speed is forced.
-    """
-
-    mode: int
-    omega: float
-    damping_ratio: float
+    mode: int  # from 1
+    omega: float  # [rad/s]
+    damping_ratio: float  # ζ
+    # (n,): position of each joint relative to the node of the mode, 0 in it: its angle in the mode times Σ J u behind
+    # it
     kappa: Array
-    joint_angle_share: Array
+    joint_angle_share: Array  # (n,): τ = tan²(α/2) of each joint
+    # (n,), complex: share by which each joint modulates the stiffness twice a turn, with its phase: 2 τ κ e^(2iψ̄)
     parametric: Array
+    # (n,) [√(kg m²)], complex: how each joint pushes the mode twice a turn where order 2 meets it, with its phase, over
+    # ω²: τ e^(2iψ̄) (S (1 + 2iδ) - 2i u t/ω²) with S = Σ J u behind it, its mean torque t and lag δ under load
     forced: Array
-    torque_of_mode: float
-    position: Array
-    nodes: tuple[float, ...]
+    torque_of_mode: float  # [N·m/√(kg m²)]: largest torque of an element of the mode at unit amplitude
+    position: Array  # (n,) [m]: of the joints along the line of the shafts
+    nodes: tuple[float, ...]  # [m]: where the mode stands still; the input is one where its speed is forced
 
     @property
     def modulation(self) -> float:

@@ -50,14 +50,7 @@ def lacking(drive: Drive) -> Lacking:
 def answer(drive: Drive, result: TorsionModes, *, stable: bool = False) -> Answer:
     """Return what there is to say of the torsional modes of a drive.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-    result : TorsionModes
-        Its modes.
-    stable : bool
-        Whether its exact equations are known to be stable at the only speed in use: they overrule the zones.
+    stable: whether its exact equations are known to be stable at the only speed in use: they overrule the zones.
     """
     tone, said = modes_said(drive, result, stable=stable)
     return Answer(

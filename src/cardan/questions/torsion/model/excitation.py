@@ -43,27 +43,13 @@ NODES = 64
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class EngineTorque:
-    """Torque of an engine on the input shaft: mean + Σ amplitude sin(order·angle of the crank + phase).
+    """Torque of an engine on the input shaft: mean + Σ amplitude sin(order·angle of the crank + phase)."""
 
-    Attributes
-    ----------
-    mean : float or None [N·m]
-        None where the engine does not say.
-    order : array (h,)
-        k, swings in one turn of the crank, rising.
-    amplitude : array (..., h) [N·m]
-        M_k; leading axes are those of the speed.
-    phase : array (..., h) [rad]
-        δ_k, cylinder 1 at its top dead centre in the start position.
-    speed_ratio : float
-        ξ: a harmonic has the order kξ of the input shaft.
-    """
-
-    mean: float | None
-    order: Array
-    amplitude: Array
-    phase: Array
-    speed_ratio: float
+    mean: float | None  # [N·m]: None where the engine does not say
+    order: Array  # (h,): k, swings in one turn of the crank, rising
+    amplitude: Array  # (..., h) [N·m]: M_k; leading axes are those of the speed
+    phase: Array  # (..., h) [rad]: δ_k, cylinder 1 at its top dead centre in the start position
+    speed_ratio: float  # ξ: a harmonic has the order kξ of the input shaft
 
     @property
     def laws(self) -> tuple[Law, ...]:
@@ -78,29 +64,10 @@ class EngineTorque:
 def engine_torque(engine: Engine, speed: ArrayLike | None = None) -> EngineTorque:
     """Return the torque of an engine on the input shaft by its harmonics, as given or from its crank drive.
 
-    Parameters
-    ----------
-    engine : Engine
-    speed : array (...), optional [rad/s]
-        Of the input shaft; the oscillating masses need it.
-
-    Raises
-    ------
-    InputError
-        The speed is missing.
-
-    Notes
-    -----
+    speed (...) [rad/s]: of the input shaft; the oscillating masses need it.
     Crank drive: p A s' - m s' s'' ω² with the way of the piston s/r = 1 - cos φ + (1 - √(1 - λ² sin²φ))/λ; p between
     polytropic compression and expansion with the mean pressure given, combustion at the dead centre. Cylinders that
     fire evenly spaced add up where k times the spacing is a whole number of turns and cancel elsewhere.
-
-    Examples
-    --------
-    >>> four = Engine(cylinders=4, bore=0.085, stroke=0.09, mean_pressure=1e6)
-    >>> found = engine_torque(four)
-    >>> found.order[:3], round(found.mean)
-    (array([2., 4., 6.]), 163)
     """
     given = engine.harmonics
     if engine.mean_pressure is None and engine.piston_mass is None:
@@ -156,24 +123,8 @@ def _crank_harmonics(engine: Engine) -> tuple[Array, Array, Array]:
 def piston(angle: ArrayLike, radius: float, rod_ratio: float) -> tuple[Array, Array, Array]:
     """Return the way of a piston from its top dead centre and its first two derivatives by the crank's angle.
 
-    Parameters
-    ----------
-    angle : array (p,) [rad]
-        φ from the top dead centre.
-    radius : float [m]
-        r of the crank.
-    rod_ratio : float
-        λ = r/l.
-
-    Returns
-    -------
-    tuple of arrays (p,) [m]
-        s, s', s''.
-
-    Examples
-    --------
-    >>> [float(one.round(6)) for one in piston(math.pi, 0.05, 0.3)]
-    [0.1, 0.0, -0.035]
+    angle (p,) [rad]: φ from the top dead centre; radius [m]: r of the crank; rod_ratio: λ = r/l.
+    Returns tuple of arrays (p,) [m]: s, s', s''.
     """
     phi = np.asarray(angle, dtype=float)
     sine, cosine = np.sin(phi), np.cos(phi)
@@ -228,18 +179,7 @@ def _coefficients(torque: Any, strokes: int, order: Array) -> Array:
 def law_of(machine: MachineTorque, *, resists: bool = False) -> Law:
     """Return the law of a torque on a station, positive with the rotation.
 
-    Parameters
-    ----------
-    machine : MachineTorque
-        As the drive gives it.
-    resists : bool
-        Whether it is a load, positive when it resists.
-
-    Examples
-    --------
-    >>> load = law_of(LinearTorque(standstill=5.0, slope=0.1), resists=True)
-    >>> float(load.at(0.0, np.asarray(0.0), np.asarray(100.0))[0])
-    -15.0
+    machine: as the drive gives it; resists: whether it is a load, positive when it resists.
     """
     sign = -1.0 if resists else 1.0
     if isinstance(machine, ConstantTorque):

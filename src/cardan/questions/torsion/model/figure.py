@@ -49,10 +49,7 @@ def modes_figures(found: TorsionModes) -> tuple[Figure, ...]:
 def campbell_figure(found: TorsionModes) -> Figure:
     """Return natural frequencies and orders over the input speed, with their meetings and zones of growth.
 
-    Parameters
-    ----------
-    found : TorsionModes
-        Of one drive.
+    found: of one drive.
     """
     low, top = _window(found)
     high = _height(found, top)
@@ -185,10 +182,7 @@ def _campbell_sentence(found: TorsionModes) -> Text:
 def shapes_figure(found: TorsionModes) -> Figure:
     """Return the shapes of the lowest modes along the line, with the joints and the nodes.
 
-    Parameters
-    ----------
-    found : TorsionModes
-        Of one drive.
+    found: of one drive.
     """
     train = found.train
     line = list(train.line)

@@ -25,17 +25,10 @@ class InputMotion(Protocol):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Uniform:
-    """One speed all the time.
+    """One speed all the time."""
 
-    Parameters
-    ----------
-    speed : float [rad/s]
-    angle : float [rad]
-        At time 0.
-    """
-
-    speed: float
-    angle: float = 0.0
+    speed: float  # [rad/s]
+    angle: float = 0.0  # [rad]: at time 0
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -49,27 +42,11 @@ class Uniform:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class SpeedCourse:
-    """Speed that runs straight from point to point and is held before the first and after the last.
+    """Speed that runs straight from point to point and is held before the first and after the last."""
 
-    Parameters
-    ----------
-    times : tuple of float [s]
-        Rising.
-    speeds : tuple of float [rad/s]
-        One for each time.
-    angle : float [rad]
-        At the first of the times.
-
-    Examples
-    --------
-    >>> ramp = SpeedCourse(times=(0.0, 2.0), speeds=(0.0, 50.0))
-    >>> [float(one) for one in ramp.at(np.asarray(1.0))], [float(one) for one in ramp.at(np.asarray(3.0))]
-    ([12.5, 25.0, 25.0], [100.0, 50.0, 0.0])
-    """
-
-    times: tuple[float, ...]
-    speeds: tuple[float, ...]
-    angle: float = 0.0
+    times: tuple[float, ...]  # [s]: rising
+    speeds: tuple[float, ...]  # [rad/s]: one for each time
+    angle: float = 0.0  # [rad]: at the first of the times
 
     def __post_init__(self) -> None:
         problems = []

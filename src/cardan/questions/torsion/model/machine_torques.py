@@ -18,8 +18,6 @@ from .torsional_model import Torque
 def turns_freely(drive: Drive, duty: Duty) -> bool:
     """Tell whether torques turn the input of a drive, rather than a speed that is forced on it.
 
-    Examples
-    --------
     >>> from cardan.drive.machine import Engine
     >>> drive = Drive.from_angles([0.1])
     >>> turns_freely(drive, Duty()), turns_freely(drive, Duty(engine=Engine(cylinders=4)))
@@ -44,23 +42,9 @@ def machine_torques(
 ) -> tuple[Torque, ...]:
     """Return the torques on the stations of a drive.
 
-    Parameters
-    ----------
-    drive : Drive
-    duty : Duty
-    stations : mapping of str to int
-        Stations by name.
-    last : int
-        Station of the output end.
-    ends : sequence of n+1 int
-        Last station of every shaft, for what resists its turning.
-    speed : float or array (s,), optional [rad/s]
-        Of the input.
-    free : bool
-        Whether torques turn the input; torques there are left out when its speed is forced.
-
-    Notes
-    -----
+    stations: stations by name; last: station of the output end.
+    ends: last station of every shaft, for what resists its turning; speed (s,) [rad/s].
+    free: whether torques turn the input; torques there are left out when its speed is forced.
     The torque of the duty loads the output; where it is that of the input, the mean of the output is the same but for
     what resists between.
     """

@@ -24,36 +24,21 @@ NEAR = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class ShaftLine:
-    """Stations and elements of a shaft along the power flow.
+    """Stations and elements of a shaft along the power flow."""
 
-    Attributes
-    ----------
-    inertia, ground_damping : list of N float [kg m², N·m·s/rad]
-        Of its stations.
-    stiffness, damping, backlash, loss_factor : lists of N-1 float
-        Of the elements between them.
-    share : list of N float
-        Where the stations are, over the length of the shaft.
-    names : list of N str
-    cuts : list of N (float or None) [m]
-        Where on the shaft the stations are that only part its body, as a file counts there; None for all others.
-    held : list of N tuples of int
-        Stations of the drive at each, by their index.
-    assumed : list of str
-        Paths of what the drive does not say.
-    """
-
-    inertia: list[float]
-    ground_damping: list[float]
-    stiffness: list[float]
+    inertia: list[float]  # inertia, ground_damping [kg m², N·m·s/rad]: of its stations
+    ground_damping: list[float]  # [N·m·s/rad]
+    stiffness: list[float]  # stiffness, damping, backlash, loss_factor: of the elements between them
     damping: list[float]
     backlash: list[float]
     loss_factor: list[float]
-    share: list[float]
+    share: list[float]  # where the stations are, over the length of the shaft
     names: list[str]
+    # list of N (float) [m]: where on the shaft the stations are that only part its body, as a file counts there; None
+    # for all others
     cuts: list[float | None]
-    held: list[tuple[int, ...]]
-    assumed: list[str]
+    held: list[tuple[int, ...]]  # stations of the drive at each, by their index
+    assumed: list[str]  # paths of what the drive does not say
 
     def stations(self, start: int) -> Iterator[tuple[int, int]]:
         """Yield every station of the drive on this shaft with its number in a model where the shaft begins."""
@@ -65,15 +50,8 @@ class ShaftLine:
 def shaft_line(drive: Drive, shaft: Shaft, count: int, problems: list[Problem]) -> ShaftLine:
     """Return stations and elements of a shaft.
 
-    Parameters
-    ----------
-    drive : Drive
-    shaft : Shaft
-        One of its shafts.
-    count : int
-        Stretches into which its body is divided between two stations.
-    problems : list of Problem
-        Takes up what is missing.
+    shaft: one of its shafts; count: stretches into which its body is divided between two stations.
+    problems: takes up what is missing.
     """
     length = line_length(drive, shaft.number, known_lengths(drive).get(shaft.number))
     places = shaft_places(drive, shaft.number, length)

@@ -41,21 +41,11 @@ class Constant:
 
 @dataclass(frozen=True, kw_only=True)
 class Swinging:
-    """Harmonic torque a sin(order·F + phase), F the angle of its station.
+    """Harmonic torque a sin(order·F + phase), F the angle of its station."""
 
-    Parameters
-    ----------
-    amplitude : array (...) [N·m]
-        a.
-    frequency : float
-        Swings in one turn of the station.
-    phase : array (...) [rad]
-        Phase of the sine at the start position.
-    """
-
-    amplitude: Array
-    frequency: float
-    phase: Array = 0.0
+    amplitude: Array  # (...) [N·m]
+    frequency: float  # swings in one turn of the station
+    phase: Array = 0.0  # (...) [rad]: phase of the sine at the start position
 
     @property
     def order(self) -> float:
@@ -71,17 +61,10 @@ class Swinging:
 
 @dataclass(frozen=True, kw_only=True)
 class Falling:
-    """Torque that falls with the speed: M0 - slope·Ḟ; a load that rises with the speed has M0 ≤ 0.
+    """Torque that falls with the speed: M0 - slope·Ḟ; a load that rises with the speed has M0 ≤ 0."""
 
-    Parameters
-    ----------
-    standstill : array (...) [N·m]
-        M0.
-    slope : array (...) [N·m·s/rad]
-    """
-
-    standstill: Array
-    slope: Array
+    standstill: Array  # (...) [N·m]: M0
+    slope: Array  # (...) [N·m·s/rad]
 
     order = 0.0
 
@@ -93,17 +76,10 @@ class Falling:
 
 @dataclass(frozen=True, kw_only=True)
 class SpeedTable:
-    """Torque read off a table over the speed, straight between its points, held beyond its ends.
+    """Torque read off a table over the speed, straight between its points, held beyond its ends."""
 
-    Parameters
-    ----------
-    speeds : array (k,) [rad/s]
-        Rising.
-    torques : array (k,) [N·m]
-    """
-
-    speeds: Array
-    torques: Array
+    speeds: Array  # (k,) [rad/s]: rising
+    torques: Array  # (k,) [N·m]
 
     order = 0.0
 
@@ -115,17 +91,10 @@ class SpeedTable:
 
 @dataclass(frozen=True, kw_only=True)
 class History:
-    """Torque over time, straight between its points, held beyond its ends.
+    """Torque over time, straight between its points, held beyond its ends."""
 
-    Parameters
-    ----------
-    times : array (k,) [s]
-        Rising.
-    torques : array (k,) [N·m]
-    """
-
-    times: Array
-    torques: Array
+    times: Array  # (k,) [s]: rising
+    torques: Array  # (k,) [N·m]
 
     order = None
 
@@ -137,21 +106,11 @@ class History:
 
 @dataclass(frozen=True, kw_only=True)
 class Asynchronous:
-    """Asynchronous motor by Kloss: M = 2 M_p s s_p/(s² + s_p²) with the slip s = 1 - Ḟ/ω_sync.
+    """Asynchronous motor by Kloss: M = 2 M_p s s_p/(s² + s_p²) with the slip s = 1 - Ḟ/ω_sync."""
 
-    Parameters
-    ----------
-    synchronous_speed : array (...) [rad/s]
-        ω_sync.
-    pullout_torque : array (...) [N·m]
-        M_p.
-    pullout_slip : array (...)
-        s_p.
-    """
-
-    synchronous_speed: Array
-    pullout_torque: Array
-    pullout_slip: Array
+    synchronous_speed: Array  # (...) [rad/s]: ω_sync
+    pullout_torque: Array  # (...) [N·m]: M_p
+    pullout_slip: Array  # (...): s_p
 
     order = 0.0
 
@@ -177,8 +136,6 @@ def _read(places: Array, values: Array, where: Array) -> tuple[Array, Array]:
 def base_period(orders: tuple[float, ...]) -> float | None:
     """Return the shortest of π, 2π and 4π of shaft angle that all orders allow [rad]; None where none does.
 
-    Examples
-    --------
     >>> [round(base_period(orders) / math.pi) for orders in ((), (2.0,), (3.0,), (1.5, 4.0))]
     [1, 1, 2, 4]
     >>> base_period((6.8,)) is None

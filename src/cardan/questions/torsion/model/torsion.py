@@ -24,47 +24,23 @@ STRAIGHT = 1e-9
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Node:
-    """Place of a mode that stands still.
+    """Place of a mode that stands still."""
 
-    Attributes
-    ----------
-    before, behind : int
-        Stations on either side; the same one where it stands still itself.
-    share : float
-        How far from the one to the other.
-    position : float [m]
-        Along the line of the shafts from the input end.
-    """
-
-    before: int
+    before: int  # before, behind: stations on either side; the same one where it stands still itself
     behind: int
-    share: float
-    position: float
+    share: float  # how far from the one to the other
+    position: float  # [m]: along the line of the shafts from the input end
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Crossing:
-    """Speed at which an order of the shaft meets a natural frequency.
+    """Speed at which an order of the shaft meets a natural frequency."""
 
-    Attributes
-    ----------
-    mode : int
-        From 1.
-    order : float
-        Swings in one turn of the input shaft.
-    cause : str
-        What swings so.
-    speed : float [rad/s]
-        Of the input.
-    inside : bool or None
-        Whether it lies in the speed range of the duty; None where that gives none.
-    """
-
-    mode: int
-    order: float
-    cause: str
-    speed: float
-    inside: bool | None
+    mode: int  # from 1
+    order: float  # swings in one turn of the input shaft
+    cause: str  # what swings so
+    speed: float  # [rad/s]: of the input
+    inside: bool | None  # whether it lies in the speed range of the duty; None where that gives none
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -244,19 +220,7 @@ def _nodes(train: TorsionalTrain, shape: Array) -> Iterator[Node]:
 
 
 def orders(drive: Drive, duty: Duty) -> list[tuple[float, str]]:
-    """Return the orders of the input shaft that something excites, each with its cause, rising.
-
-    Parameters
-    ----------
-    drive : Drive
-    duty : Duty
-
-    Examples
-    --------
-    >>> from cardan.drive.machine import Engine
-    >>> [order for order, _cause in orders(Drive.from_angles([0.1]), Duty(engine=Engine(cylinders=6)))]
-    [2.0, 3.0, 4.0, 6.0]
-    """
+    """Return the orders of the input shaft that something excites, each with its cause, rising."""
     found: dict[float, str] = {}
     if np.any(turning(given_chain(drive), drive.joints, near=True).joint_angle > STRAIGHT):
         found |= {2.0: _("joints"), 4.0: _("joints")}

@@ -40,23 +40,9 @@ class Slopes:
 def joint_law(angle: Array, joint_angle: Array) -> tuple[Array, Array, Array, Array]:
     """Return T and its first three derivatives of a Hooke joint, its angle counted from the plane of its shafts.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        θ of the driving yoke.
-    joint_angle : array (...) [rad]
-        α.
-
-    Returns
-    -------
-    tuple of arrays (...)
-        T, T', T'', T''': T = θ + arg(1 - τ e^(-2iθ)) unwrapped, τ = tan²(α/2), T' = cos α/(1 - sin²α cos²θ).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> [float(round(one, 4)) for one in joint_law(np.asarray(np.pi), np.asarray(np.pi / 3))]
-    [3.1416, 2.0, -0.0, -12.0]
+    angle (...) [rad]: θ of the driving yoke; joint_angle (...) [rad]: α.
+    Returns tuple of arrays (...): T, T', T'', T''': T = θ + arg(1 - τ e^(-2iθ)) unwrapped, τ = tan²(α/2), T' = cos
+    α/(1 - sin²α cos²θ).
     """
     xp = namespace(angle, joint_angle)
     tau = xp.tan(0.5 * joint_angle) ** 2
@@ -73,13 +59,7 @@ def joint_law(angle: Array, joint_angle: Array) -> tuple[Array, Array, Array, Ar
 def places(model: TorsionalModel, q: Array) -> Places:
     """Return the angles of the stations and their derivatives by their coordinates.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-    q : array (..., R) [rad]
-
-    Notes
-    -----
+    q (..., R) [rad].
     Chain rule behind a joint: F = T(f+ψ) - T(ψ), F' = T' f', F'' = T'' f'² + T' f'',
     F''' = T''' f'³ + 3 T'' f' f'' + T' f'''.
     """
@@ -136,15 +116,8 @@ def _contact(model: TorsionalModel, twist: Array, like: Array) -> tuple[Array, A
 def element_torques(model: TorsionalModel, q: Array, rate: Array) -> Array:
     """Return the torque of every element, positive when it carries power from A to B.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-    q, rate : array (..., R) [rad, rad/s]
-
-    Returns
-    -------
-    array (..., E) [N·m]
-        t = c x_e + b (Ḟ_A - Ḟ_B).
+    q, rate (..., R) [rad, rad/s].
+    Returns (..., E) [N·m]: t = c x_e + b (Ḟ_A - Ḟ_B).
     """
     place = places(model, q)
     return _torques(model, place, _speeds(model, place, rate), q[..., 0])
@@ -185,16 +158,8 @@ def gathered(model: TorsionalModel, values: Array) -> Array:
 def balance(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, time: Array = 0.0) -> Array:
     """Return left minus right side of the equations of motion; zero where they hold.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-    q, rate, acceleration : array (..., R) [rad, rad/s, rad/s²]
-    time : array (...) [s]
-
-    Returns
-    -------
-    array (..., R) [N·m]
-        Of a coordinate whose speed is forced it is the torque that forces it.
+    q, rate, acceleration (..., R) [rad, rad/s, rad/s²], time (...) [s].
+    Returns (..., R) [N·m]: of a coordinate whose speed is forced it is the torque that forces it.
     """
     place = places(model, q)
     acting, _along, _across = _acting(model, place, _speeds(model, place, rate), time)
@@ -209,16 +174,8 @@ def balance(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, t
 def accelerations(model: TorsionalModel, q: Array, rate: Array, time: Array = 0.0) -> Array:
     """Return the accelerations of the coordinates; that of a forced one is the one forced on it.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-        Every coordinate turns some inertia.
-    q, rate : array (..., R) [rad, rad/s]
-    time : array (...) [s]
-
-    Returns
-    -------
-    array (..., R) [rad/s²]
+    model: every coordinate turns some inertia; q, rate (..., R) [rad, rad/s]; time (...) [s].
+    Returns (..., R) [rad/s²].
     """
     xp = namespace(q)
     place = places(model, q)
@@ -238,19 +195,8 @@ def accelerations(model: TorsionalModel, q: Array, rate: Array, time: Array = 0.
 def slopes(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, time: Array = 0.0) -> Slopes:
     """Return the balance linearised about a motion: M δq̈ + C δq̇ + K δq.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-    q, rate, acceleration : array (..., R) [rad, rad/s, rad/s²]
-    time : array (...) [s]
-
-    Returns
-    -------
-    Slopes
-        With all coordinates, a forced one too; leave out its row and column for the rest.
-
-    Notes
-    -----
+    q, rate, acceleration (..., R) [rad, rad/s, rad/s²], time (...) [s].
+    Returns Slopes: with all coordinates, a forced one too; leave out its row and column for the rest.
     The term F'' τ holds the torque that the drive carries: a parametric stiffness that the book leaves out.
     """
     return linearised(model, q, rate, acceleration, time)[1]
@@ -261,15 +207,8 @@ def linearised(
 ) -> tuple[Array, Slopes]:
     """Return `balance` and `slopes` of a motion in one go.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-    q, rate, acceleration : array (..., R) [rad, rad/s, rad/s²]
-    time : array (...) [s]
-
-    Returns
-    -------
-    array (..., R) [N·m], Slopes
+    q, rate, acceleration (..., R) [rad, rad/s, rad/s²], time (...) [s].
+    Returns (..., R) [N·m].
     """
     xp = namespace(q)
     like = q[..., 0]

@@ -35,8 +35,6 @@ SHARED = frozenset({"speeds", "torques", "times", "frequency"})
 def leading(model: TorsionalModel) -> tuple[int, ...]:
     """Return the leading axes of a model: those of its arrays, of its torques and of its speed, spread over each other.
 
-    Examples
-    --------
     >>> from .torsional_model import torsional_line
     >>> leading(torsional_line([[1.0, 1.0]], stiffness=[[[5.0], [6.0]]], input_speed=[[1.0], [2.0], [3.0]]))
     (3, 2)
@@ -62,15 +60,9 @@ def _own(law: Law) -> dict[str, Array]:
 def chosen(model: TorsionalModel, outer: tuple[int, ...], rows: Array, *, moments: bool = True) -> TorsionalModel:
     """Return some of the drives of a model in one leading axis.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-    angle_error : tuple of int
-        Leading axes that those of the model spread over.
-    rows : array of int (b,)
-        Which drives, counted through the axes.
-    moments : bool
-        Make their torques ready for moments in a second axis.
+    angle_error: leading axes that those of the model spread over.
+    rows (b,) of int: which drives, counted through the axes.
+    moments: make their torques ready for moments in a second axis.
     """
     place = np.unravel_index(rows, outer) if outer else ()
 
@@ -92,8 +84,6 @@ def chosen(model: TorsionalModel, outer: tuple[int, ...], rows: Array, *, moment
 def single(model: TorsionalModel, outer: tuple[int, ...], row: int) -> TorsionalModel:
     """Return one drive of a model by itself, without leading axes; rows are counted through the axes.
 
-    Examples
-    --------
     >>> from .torsional_model import torsional_line
     >>> two = torsional_line([[1.0, 1.0]], stiffness=[[[5.0], [6.0]]])
     >>> single(two, (2,), 1).stiffness
@@ -113,13 +103,7 @@ def single(model: TorsionalModel, outer: tuple[int, ...], row: int) -> Torsional
 
 
 def period_of(model: TorsionalModel) -> float:
-    """Return the shaft angle after which the drive and all its torques repeat: π, 2π or 4π.
-
-    Raises
-    ------
-    InputError
-        Torques that run in time, or orders that no two turns hold a whole number of.
-    """
+    """Return the shaft angle after which the drive and all its torques repeat: π, 2π or 4π."""
     orders: list[float] = []
     problems: list[Problem] = []
     for k, torque in enumerate(model.torques):
@@ -151,18 +135,10 @@ def repeating(model: TorsionalModel) -> tuple[TorsionalModel, tuple[int, ...]]:
 class Turning:
     """The drives as oscillators: how far each coordinate is off even rotation; see `harmonics.Equation`.
 
-    Parameters
-    ----------
-    model : TorsionalModel (...)
-    angle_error : tuple of int
-    speed : array (B,) [rad/s]
-        Of the input, or mean speed of free drives.
-    period : float [rad]
-        Shaft angle of a period.
-    share : array (B,), optional
-        Bends are these shares of their own.
-    rounding : float
-        Radius of the corners of backlash over its half; elements then keep their damping amid it. 0 by the equations.
+    model (...); speed (B,) [rad/s]: of the input, or mean speed of free drives; period [rad]: shaft angle of a period.
+    share (B,): bends are these shares of their own.
+    rounding: radius of the corners of backlash over its half; elements then keep their damping amid it. 0 by the
+    equations.
     """
 
     def __init__(

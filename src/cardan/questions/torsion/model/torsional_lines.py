@@ -19,18 +19,7 @@ from .torsional_rates import laws
 def line_of(model: TorsionalModel, drives: int, start: float = 0.0) -> lines.Line:
     """Return drives in one leading axis as a line to be stepped.
 
-    Parameters
-    ----------
-    model : TorsionalModel (b,) or ()
-    drives : int
-        b.
-    start : float [s]
-        Where times are counted from.
-
-    Raises
-    ------
-    InputError
-        A coordinate without inertia, a torque that has no fixed steps.
+    model, TorsionalModel (b,) or (); drives: b; start [s]: where times are counted from.
     """
 
     def last(values: Array) -> Array:

@@ -32,53 +32,31 @@ class Torque:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class TorsionalModel:
-    """Stations and elements of one drive or of many that are built alike; leading axes (...) are the drives'.
+    """Stations and elements of one drive or of many that are built alike; leading axes (...) are the drives'."""
 
-    Attributes
-    ----------
-    inertia : array (..., N) [kg m²]
-        J of every station, in the order of the power flow.
-    driven : tuple of N (int, int) or None
-        For a driven yoke the station of its driving yoke and the joint between them, both from 0; None for a station
-        that has a coordinate of its own. A driving yoke stands before its driven yoke.
-    elements : tuple of E (int, int)
-        Stations A and B that each element joins; its torque is positive when it carries power from A to B.
-    stiffness, damping, backlash : array (..., E) [N·m/rad, N·m·s/rad, rad]
-        Of every element; backlash is the whole play, the damper acts in contact only.
-    joint_angle, phase : array (..., n) [rad]
-        α and ψ of every joint: F_out = T(F_in + ψ; α) - T(ψ; α).
-    ground_damping : array (..., N) [N·m·s/rad]
-    loss_factor : array (..., E)
-        Structural damping η, in the frequency domain only.
-    torques : tuple of Torque
-    input_speed : array (...) [rad/s] or None
-        Speed that is forced on the first station; None where the drive is free and torques turn it.
-    input_motion : InputMotion or None
-        Motion that is forced on the first station instead, where its speed changes.
-    rest : array (..., E) [rad] or None
-        Twist of every element at which it carries nothing; 0 where not given.
-    shaft : tuple of N int
-        Shaft of every station from 0.
-    names : tuple of N str
-        Of the stations, for tables and pictures.
-    """
-
-    inertia: Array
+    inertia: Array  # (..., N) [kg m²]: J of every station, in the order of the power flow
+    # for a driven yoke the station of its driving yoke and the joint between them, both from 0; None for a station that
+    # has a coordinate of its own. A driving yoke stands before its driven yoke.
     driven: tuple[tuple[int, int] | None, ...]
+    # stations A and B that each element joins; its torque is positive when it carries power from A to B
     elements: tuple[tuple[int, int], ...]
+    # stiffness, damping, backlash (..., E) [N·m/rad, N·m·s/rad, rad]: of every element; backlash is the whole play, the
+    # damper acts in contact only
     stiffness: Array
-    damping: Array
-    backlash: Array
-    joint_angle: Array
-    phase: Array
-    ground_damping: Array
-    loss_factor: Array
+    damping: Array  # (..., E) [N·m·s/rad]
+    backlash: Array  # (..., E) [rad]
+    joint_angle: Array  # joint_angle, phase (..., n) [rad]: α and ψ of every joint: F_out = T(F_in + ψ; α) - T(ψ; α)
+    phase: Array  # (..., n) [rad]
+    ground_damping: Array  # (..., N) [N·m·s/rad]
+    loss_factor: Array  # (..., E): structural damping η, in the frequency domain only
     torques: tuple[Torque, ...] = ()
+    # (...) [rad/s]: speed that is forced on the first station; None where the drive is free and torques turn it
     input_speed: Array | None = None
+    # motion that is forced on the first station instead, where its speed changes
     input_motion: InputMotion | None = None
-    rest: Array | None = None
-    shaft: tuple[int, ...] = ()
-    names: tuple[str, ...] = ()
+    rest: Array | None = None  # (..., E) [rad]: twist of every element at which it carries nothing; 0 where not given
+    shaft: tuple[int, ...] = ()  # shaft of every station from 0
+    names: tuple[str, ...] = ()  # of the stations, for tables and pictures
 
     @cached_property
     def coordinate(self) -> tuple[int, ...]:

@@ -24,55 +24,26 @@ class StraightModes:
     """Natural modes of a straight torsional line, the slowest first; turning without twist is left out.
 
     So is what dampers keep from swinging at all.
-
-    Attributes
-    ----------
-    omega : array (m,) [rad/s]
-    shape : array (m, N)
-        Angles of the stations, u, with Σ J u² = 1 [1/√(kg m²)].
-    damping_ratio : array (m,)
-        ζ of dampers, structural damping, damping against the housing and machines whose torque changes with the speed.
-    joint_weight : array (m, n)
-        κ of every joint: its u times Σ J u of all stations behind it; 0 in a node of the mode. For two masses it is
-        the κ of Mathieu's reduction.
-    residual : array (m,)
-        What the balance of a mode misses, over its largest torque.
     """
 
-    omega: Array
-    shape: Array
+    omega: Array  # (m,) [rad/s]
+    shape: Array  # (m, N): angles of the stations, u, with Σ J u² = 1 [1/√(kg m²)]
+    # (m,): ζ of dampers, structural damping, damping against the housing and machines whose torque changes with the
+    # speed
     damping_ratio: Array
+    # (m, n): κ of every joint: its u times Σ J u of all stations behind it; 0 in a node of the mode. For two masses it
+    # is the κ of Mathieu's reduction.
     joint_weight: Array
-    residual: Array
+    residual: Array  # (m,): what the balance of a mode misses, over its largest torque
 
 
 def straight_modes(model: TorsionalModel, *, speed: float = 0.0) -> StraightModes:
     """Return the natural modes of a model, all joints straight and all backlash closed.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-        One drive, without leading axes. Where its input speed is forced, the first station stands still.
-    speed : float [rad/s]
-        At which torques are asked how they change with the speed.
-
-    Returns
-    -------
-    StraightModes
-
-    Notes
-    -----
+    model: one drive, without leading axes. Where its input speed is forced, the first station stands still.
+    speed [rad/s]: at which torques are asked how they change with the speed.
     K = BᵀB with a row √c (…, 1, -1, …) for each element, so ω are the singular values of B M^(-1/2): they keep their
     digits where stiff elements stand beside soft ones. Coordinates without inertia follow the others statically.
-
-    Examples
-    --------
-    >>> from .torsional_model import torsional_line
-    >>> found = straight_modes(torsional_line([[2.0], [0.6]], stiffness=[[], []], joint_angle=[0.3]))
-    >>> found.omega
-    array([], dtype=float64)
-    >>> straight_modes(torsional_line([[2.0, 0.6]], stiffness=[[900.0]])).omega
-    array([44.15880433])
     """
     first = 0 if model.free else 1
     rank = model.coordinates - first
@@ -171,14 +142,7 @@ def _residual(model: TorsionalModel, omega: Array, shape: Array) -> Array:
 def modulation(model: TorsionalModel, weight: Array) -> Array:
     """Return by which share joints modulate the stiffness of every mode twice a turn, complex array (m,).
 
-    Parameters
-    ----------
-    model : TorsionalModel
-    weight : array (m, n)
-        κ of the joints, `StraightModes.joint_weight`.
-
-    Notes
-    -----
+    weight (m, n): κ of the joints, `StraightModes.joint_weight`.
     q/a of Mathieu's equation y'' + (a - 2q cos 2φ) y: 2 Σ τ_k κ_k e^(2iψ̄_k), τ = tan²(α/2), ψ̄_k the phase of joint k
     less the mean lead Σ τ_j sin 2ψ_j of the joints before it. Twice what the book gives, whose joints turn evenly.
     A mode is excited in its principal zone where its modulus exceeds 2ζ.
@@ -192,19 +156,8 @@ def modulation(model: TorsionalModel, weight: Array) -> Array:
 def meeting_speeds(model: TorsionalModel, order: float, pendulums: tuple[int, ...], speed: float) -> Array:
     """Return the speeds at which an order of the shaft meets the natural frequencies, rising, array (m,) [rad/s].
 
-    Parameters
-    ----------
-    model : TorsionalModel
-        One drive, all joints straight.
-    order : float
-        Swings in one turn of the input shaft, ν.
-    pendulums : tuple of int
-        Elements whose stiffness goes with the square of the speed.
-    speed : float [rad/s]
-        At which the model is.
-
-    Notes
-    -----
+    model: one drive, all joints straight; order: swings in one turn of the input shaft, ν.
+    pendulums: elements whose stiffness goes with the square of the speed; speed [rad/s]: at which the model is.
     K + Ω²K' of pendulums: K u = Ω² (ν²M - K') u.
     """
     if not pendulums:

@@ -20,17 +20,9 @@ Forces: TypeAlias = tuple[list[float], list[float], float]
 def forces_of(model: TorsionalModel) -> Callable[[float, Sequence[float], Sequence[float]], Forces]:
     """Return the function that gives inertia and force of every coordinate at a time, angles and speeds.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-        One drive without backlash: where it touches, elements `rest` at half of it.
-
-    Notes
-    -----
+    model: one drive without backlash: where it touches, elements `rest` at half of it.
     The power is Σ M Ḟ - Σ b (Ḟ_A - Ḟ_B)² - Σ b_g Ḟ²; that of a forced speed is not in it.
 
-    Examples
-    --------
     >>> from cardan.questions.torsion.model.torsional_model import torsional_line
     >>> line = torsional_line([[2.0, 1.0]], stiffness=[[50.0]])
     >>> forces_of(line)(0.0, [0.0, 0.1], [0.0, 0.0])

@@ -39,37 +39,19 @@ HOLDING = 1e-5
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TorsionalTrain:
-    """The torsional model of a drive, and where its stations are.
-
-    Attributes
-    ----------
-    model : TorsionalModel
-    position : array (N,) [m]
-        Of every station along the line of the shafts, from the input end.
-    joints : tuple of n (int, int)
-        Stations of the driving and of the driven yoke of every joint.
-    hangs : tuple of N (int or None)
-        Station that an absorber or pendulum hangs on; None for one of the line itself.
-    pendulums : tuple of int
-        Elements that hold pendulums: their stiffness goes with the square of the speed.
-    assumed : tuple of str
-        Paths of what the drive does not say and the model assumes.
-    cuts : tuple of N (float or None) [m]
-        Where on their shafts the stations are that only part its body; None for all others.
-    to_scale : bool
-        Whether the positions follow from lengths that the drive gives; else some shafts are as long as others.
-    usual_loss : float
-        Loss factor that every shaft counts with, as the drive says no damping anywhere; 0 where it says some.
-    """
+    """The torsional model of a drive, and where its stations are."""
 
     model: TorsionalModel
-    position: Array
-    joints: tuple[tuple[int, int], ...]
-    hangs: tuple[int | None, ...]
-    pendulums: tuple[int, ...]
-    assumed: tuple[str, ...]
+    position: Array  # (N,) [m]: of every station along the line of the shafts, from the input end
+    joints: tuple[tuple[int, int], ...]  # stations of the driving and of the driven yoke of every joint
+    hangs: tuple[int | None, ...]  # station that an absorber or pendulum hangs on; None for one of the line itself
+    pendulums: tuple[int, ...]  # elements that hold pendulums: their stiffness goes with the square of the speed
+    assumed: tuple[str, ...]  # paths of what the drive does not say and the model assumes
+    # tuple of N (float) [m]: where on their shafts the stations are that only part its body; None for all others
     cuts: tuple[float | None, ...]
+    # whether the positions follow from lengths that the drive gives; else some shafts are as long as others
     to_scale: bool = True
+    # loss factor that every shaft counts with, as the drive says no damping anywhere; 0 where it says some
     usual_loss: float = 0.0
 
     @property
@@ -356,17 +338,7 @@ def _empty_problems(model: TorsionalModel) -> Iterator[Problem]:
 def in_time(model: TorsionalModel, frequency: ArrayLike) -> TorsionalModel:
     """Return a model whose structural damping is viscous, equal at one frequency: b = ηc/ω on top of its dampers.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-    frequency : array (...) [rad/s]
-        ω at which both lose the same.
-
-    Examples
-    --------
-    >>> from .torsional_model import torsional_line
-    >>> in_time(torsional_line([[1.0, 1.0]], stiffness=[[500.0]], loss_factor=[[0.02]]), 100.0).damping
-    array([0.1])
+    frequency (...) [rad/s]: ω at which both lose the same.
     """
     if not np.any(model.loss_factor):
         return model
@@ -377,21 +349,8 @@ def in_time(model: TorsionalModel, frequency: ArrayLike) -> TorsionalModel:
 def stacked(models: Sequence[TorsionalModel]) -> TorsionalModel:
     """Return models that are built alike as one with a leading axis.
 
-    Parameters
-    ----------
-    models : sequence of N TorsionalModel
-        With the same stations, elements and kinds of torque; numbers may differ, tables of torques may not.
-
-    Raises
-    ------
-    InputError
-        They are not built alike.
-
-    Examples
-    --------
-    >>> from .torsional_model import torsional_line
-    >>> stacked([torsional_line([[1.0, 1.0]], stiffness=[[c]]) for c in (400.0, 500.0)]).stiffness.tolist()
-    [[400.0], [500.0]]
+    models: with the same stations, elements and kinds of torque; numbers may differ, tables of torques may not.
+    Raises InputError: they are not built alike.
     """
     return _merged(models, np.stack)
 
@@ -399,14 +358,8 @@ def stacked(models: Sequence[TorsionalModel]) -> TorsionalModel:
 def chained(models: Sequence[TorsionalModel]) -> TorsionalModel:
     """Return models with one leading axis each, that are built alike, as one: their drives one after the other.
 
-    Parameters
-    ----------
-    models : sequence of TorsionalModel (b,)
-
-    Raises
-    ------
-    InputError
-        They are not built alike.
+    models, sequence of TorsionalModel (b,).
+    Raises InputError: they are not built alike.
     """
     angle_errors = [leading(one) for one in models]
     return _merged(

@@ -13,49 +13,19 @@ from .torsional_model import TorsionalModel
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StraightWaves:
-    """Vibration x e^(iωt) of a straight line.
+    """Vibration x e^(iωt) of a straight line."""
 
-    Attributes
-    ----------
-    angle : complex array (..., N) [rad]
-        Of every station.
-    torque : complex array (..., E) [N·m]
-        Of every element.
-    """
-
-    angle: Array
-    torque: Array
+    angle: Array  # (..., N) [rad], complex: of every station
+    torque: Array  # (..., E) [N·m], complex: of every element
 
 
 def straight_waves(model: TorsionalModel, station: int, torque: ArrayLike, omega: ArrayLike) -> StraightWaves:
     """Return how a line vibrates under a harmonic torque on one station, all joints straight and all backlash closed.
 
-    Parameters
-    ----------
-    model : TorsionalModel (...)
-        Where its input speed is forced, the first station stands still.
-    station : int
-        On which the torque acts.
-    torque : complex array (...) [N·m]
-        Its amplitude and phase.
-    omega : array (...) [rad/s]
-        Its frequency, not 0.
-
-    Returns
-    -------
-    StraightWaves
-        Not finite at a natural frequency without damping.
-
-    Notes
-    -----
+    model (...): where its input speed is forced, the first station stands still; station: on which the torque acts.
+    torque (...) [N·m], complex: its amplitude and phase; omega (...) [rad/s]: its frequency, not 0.
+    Returns StraightWaves: not finite at a natural frequency without damping.
     (K + iωC - ω²M) x = f with complex stiffness c(1 + iη) + iωb of the elements and damping iωb_g against the housing.
-
-    Examples
-    --------
-    >>> from .torsional_model import torsional_line
-    >>> line = torsional_line([[1.5, 0.05, 0.8]], stiffness=[[8000.0, 4000.0]], loss_factor=[[0.02, 0.05]])
-    >>> np.abs(straight_waves(line, 0, 1.0, 60.0).torque)
-    array([1.17886063, 1.1584548 ])
     """
     w = np.asarray(omega, dtype=float)[..., None]
     carried = model.stiffness * (1.0 + 1j * model.loss_factor) + 1j * w * model.damping

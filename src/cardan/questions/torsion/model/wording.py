@@ -18,10 +18,7 @@ from .torsional_train import TorsionalTrain
 def assumptions(train: TorsionalTrain) -> Iterator[Remark]:
     """Yield what the model assumes, in one line a sort.
 
-    Parameters
-    ----------
-    train : TorsionalTrain
-        Whose `assumed` paths are put into words.
+    train: whose `assumed` paths are put into words.
     """
     kinds = {
         "stiffness": _("rigid, for want of a stiffness or a body of known length: {shafts}"),
@@ -49,22 +46,7 @@ def assumptions(train: TorsionalTrain) -> Iterator[Remark]:
 def ranges(values: ArrayLike, mask: ArrayLike, dimension: str = "", unit: str = "") -> Joined:
     """Return the ranges of values in which something holds; told as nothing where there is none.
 
-    Parameters
-    ----------
-    values : array (s,)
-        Rising, in SI.
-    mask : array of bool (s,)
-        Where it holds.
-    dimension, unit : str
-        Of the values, as of `Quantity`.
-
-    Examples
-    --------
-    >>> from cardan.answers.reader import Reader
-    >>> from cardan.units import rpm
-    >>> speeds = rpm * np.asarray([1300.0, 1320.0, 1340.0, 1500.0])
-    >>> ranges(speeds, [True, True, False, True], "angular_speed").told(Reader())
-    '1\u202f300 to 1\u202f320 rpm, 1\u202f500 rpm'
+    values (s,): rising, in SI; mask (s,) of bool: where it holds; dimension, unit: of the values, as of `Quantity`.
     """
     inside = np.asarray(mask, dtype=bool)
     steps = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))

@@ -61,17 +61,7 @@ def otherwise(_drive: Drive) -> str:
 def ask(drive: Drive, *, progress: Callable[[float], object] | None = None) -> Stability | None:
     """Return where torsional vibration is stable, about the speed and the joint angles of a drive.
 
-    Parameters
-    ----------
-    drive : Drive
-        With a speed.
-    progress : function, optional
-        Told the share done; answering "stop" ends the work.
-
-    Returns
-    -------
-    Stability or None
-        None where all joints are all but straight.
+    Returns Stability or None: None where all joints are all but straight.
     """
     joint_angle = float(np.max(given_chain(drive).joint_angle))
     if not drive.duty.speed or joint_angle < LITTLE:
@@ -87,14 +77,8 @@ def ask(drive: Drive, *, progress: Callable[[float], object] | None = None) -> S
 def answer(_drive: Drive, result: Stability, *, signs: bool = False) -> Answer:
     """Return what there is to say of stability.
 
-    Parameters
-    ----------
-    _drive : Drive
-        What is asked about.
-    result : Stability
-        Of a point, over one path or over two.
-    signs : bool
-        Draw a map in letters, for a terminal, and as a figure even where nothing is unstable.
+    result: of a point, over one path or over two.
+    signs: draw a map in letters, for a terminal, and as a figure even where nothing is unstable.
     """
     axes = map_axes(result)
     tone, said = _mapped(result, axes) if axes else _point(result)

@@ -38,10 +38,7 @@ def stability_figures(found: Stability) -> tuple[Figure, ...]:
 def multipliers_figure(found: Stability) -> Figure:
     """Return the multipliers in the complex plane, with the circle that they are to stay within.
 
-    Parameters
-    ----------
-    found : Stability
-        Of one drive at one speed.
+    found: of one drive at one speed.
     """
     turn = np.linspace(0.0, 2.0 * math.pi, 181)
     values = found.multipliers[np.isfinite(found.multipliers)]
@@ -75,10 +72,7 @@ def multipliers_figure(found: Stability) -> Figure:
 def growth_figure(found: Stability) -> Figure:
     """Return the growth rate over one quantity, unstable ranges shaded.
 
-    Parameters
-    ----------
-    found : Stability
-        Over one path.
+    found: over one path.
     """
     (over,) = map_axes(found)
     values = over.values
@@ -114,10 +108,7 @@ def growth_figure(found: Stability) -> Figure:
 def map_figure(found: Stability) -> Figure:
     """Return the unstable part of a map over two quantities, with where the drive stands.
 
-    Parameters
-    ----------
-    found : Stability
-        Over two paths.
+    found: over two paths.
     """
     axes = map_axes(found)
     turned = axes[1].key == SPEED

@@ -56,24 +56,12 @@ FINER = (1.6, 2.4)
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FloquetMap:
-    """Stability of steady running over a map; axes (...) are those of the model and the speeds.
+    """Stability of steady running over a map; axes (...) are those of the model and the speeds."""
 
-    Attributes
-    ----------
-    floquet : Floquet (...)
-        Multipliers, growth rate, verdict, kind and nearest zone at every point.
-    orbit : Orbit (...)
-        The motions judged, by their lower harmonics.
-    status : array of int (...)
-        `cardan.maths.periodic.harmonics.Status` of the motions.
-    cancelled : bool
-        Whether the work was stopped; what was not done is unknown.
-    """
-
-    floquet: Floquet
-    orbit: Orbit
-    status: Array
-    cancelled: bool = False
+    floquet: Floquet  # (...): multipliers, growth rate, verdict, kind and nearest zone at every point
+    orbit: Orbit  # (...): the motions judged, by their lower harmonics
+    status: Array  # (...) of int: `cardan.maths.periodic.harmonics.Status` of the motions
+    cancelled: bool = False  # whether the work was stopped; what was not done is unknown
 
     @property
     def unstable_share(self) -> float:
@@ -92,45 +80,15 @@ def floquet_map(
 ) -> FloquetMap:
     """Return whether steady running is stable at every point of a map.
 
-    Parameters
-    ----------
-    model : TorsionalModel (...)
-        Any of its numbers may vary along its leading axes.
-    speed : array (...) [rad/s], optional
-        Of the input, or mean speed of free drives; by default the input speed of the model.
-    method : Plain or Compiled, optional
-        Compiled for more than a few points by default. The kernel does not know open play, tables of torques, backward
-        turning and coordinates without inertia: they go the plain way, as do points whose motion it does not find.
-    harmonics : int, optional
-        Harmonics of the motion in the kernel, for half a turn each; as many as the joint angles ask for by default.
-    progress : function, optional
-        Told the share done; when it answers "stop" the points not yet done stay unknown.
-
-    Returns
-    -------
-    FloquetMap
-
-    Raises
-    ------
-    InputError
-        As `cardan.questions.torsion.steady.steady.periodic_response`, and a map of too many points.
-
-    Notes
-    -----
+    model (...): any of its numbers may vary along its leading axes.
+    speed (...) [rad/s]: of the input, or mean speed of free drives; by default the input speed of the model.
+    method: Compiled for more than a few points by default. The kernel does not know open play, tables of torques,
+    backward turning and coordinates without inertia: they go the plain way, as do points whose motion it does not find.
+    harmonics: harmonics of the motion in the kernel, for half a turn each; as many as the joint angles ask for by
+    default.
+    progress: told the share done; when it answers "stop" the points not yet done stay unknown.
     The same equations as `run_stability.floquet`, eight drives at a time: motion by harmonic balance,
     monodromy matrix by collocation of order 10.
-
-    Examples
-    --------
-    Damping against speed around the principal zone of a drive with one joint:
-
-    >>> from cardan.questions.torsion.model.torsional_model import torsional_line
-    >>> drive = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], damping=[[[[0.2]], [[6.0]]], []],
-    ...     joint_angle=[0.4363], input_speed=[40.0, 49.386, 61.7])
-    >>> found = floquet_map(drive)
-    >>> found.floquet.stable
-    array([[ True, False,  True],
-           [ True,  True,  True]])
     """
     omega = speeds_of(model, speed)
     outer = np.broadcast_shapes(leading(replace(model, input_speed=None)), omega.shape)

@@ -19,28 +19,14 @@ SPEED = "duty.speed"
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MapAxis:
-    """What varies along an axis of a map.
+    """What varies along an axis of a map."""
 
-    Attributes
-    ----------
-    key : str
-        Its path without unit.
-    label : str
-        What it is.
-    dimension, unit : str
-        Of the values, empty where they have none.
-    values : array (s,)
-        In that unit.
-    here : float or None
-        Value of the drive itself, in that unit.
-    """
-
-    key: str
+    key: str  # its path without unit
     label: str
-    dimension: str
+    dimension: str  # dimension, unit: of the values, empty where they have none
     unit: str
-    values: Array
-    here: float | None
+    values: Array  # (s,): in that unit
+    here: float | None  # value of the drive itself, in that unit
 
     @property
     def factor(self) -> float:

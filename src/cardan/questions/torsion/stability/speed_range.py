@@ -42,26 +42,9 @@ def speed_sweep(
 ) -> SteadyResponse:
     """Return the steady running of drives at many speeds: what an order map shows.
 
-    Parameters
-    ----------
-    model : TorsionalModel (...)
-        Its own input speed does not count.
-    speeds : array (k,) [rad/s]
-        Of the input, or mean speeds of free drives.
-    method, orders, progress
-        As `cardan.questions.torsion.steady.steady.periodic_response` takes them.
-
-    Returns
-    -------
-    SteadyResponse (..., k)
-
-    Examples
-    --------
-    >>> from cardan.questions.torsion.model.torsional_model import torsional_line
-    >>> drive = torsional_line([[1.0, 0.02], [0.02, 0.4]], stiffness=[[4000.0], [6000.0]], damping=[[1.0], [1.0]],
-    ...     joint_angle=[0.35], input_speed=30.0)
-    >>> speed_sweep(drive, [20.0, 37.0, 60.0]).torque.amplitude[:, 0, 0].round(1)  # order 2 of the first element
-    array([ 27.9, 933.6, 128.3])
+    model (...): its own input speed does not count; speeds (k,) [rad/s]: of the input, or mean speeds of free drives.
+    method, orders, progress: as `cardan.questions.torsion.steady.steady.periodic_response` takes them.
+    Returns (..., k).
     """
     where = np.asarray(speeds, dtype=float)
     if where.ndim != 1 or not where.size:
@@ -79,36 +62,18 @@ def _widened(law: Law) -> Law:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class UnstableSpeeds:
-    """Ranges of speeds in which steady running is unstable, within the range looked at.
+    """Ranges of speeds in which steady running is unstable, within the range looked at."""
 
-    Attributes
-    ----------
-    lowest, highest : arrays (k,) [rad/s]
-        Ends of each range; those at an end of what was looked at are no edges.
-    worst : array (k,) [rad/s]
-        Speed of the fastest growth in each.
-    growth_rate : array (k,) [1/s]
-        There.
-    kind : array of int (k,)
-        `cardan.questions.torsion.steady.run_stability.Kind` there.
-    zone : Zone (k,)
-    looked : (float, float) [rad/s]
-        From where to where.
-    unknown : int
-        Speeds at which no steady running was found.
-    cancelled : bool
-        Whether the work was stopped: no ranges are told then.
-    """
-
+    # lowest, highest (k,) [rad/s]: ends of each range; those at an end of what was looked at are no edges
     lowest: Array
-    highest: Array
-    worst: Array
-    growth_rate: Array
-    kind: Array
-    zone: Zone
-    looked: tuple[float, float]
-    unknown: int
-    cancelled: bool = False
+    highest: Array  # (k,) [rad/s]
+    worst: Array  # (k,) [rad/s]: speed of the fastest growth in each
+    growth_rate: Array  # (k,) [1/s]
+    kind: Array  # (k,) of int: `cardan.questions.torsion.steady.run_stability.Kind` there
+    zone: Zone  # (k,)
+    looked: tuple[float, float]  # [rad/s]: from where to where
+    unknown: int  # speeds at which no steady running was found
+    cancelled: bool = False  # whether the work was stopped: no ranges are told then
 
     def margin(self, speed: float) -> float:
         """Return how far a speed is from the nearest range [rad/s]: negative inside one, nan where there is none."""
@@ -122,34 +87,11 @@ def unstable_speeds(
 ) -> UnstableSpeeds:
     """Return the ranges of speed in which steady running of a drive is unstable.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-        One drive; its own input speed does not count.
-    lowest, highest : float [rad/s]
-        Where to look.
-    points : int
-        Speeds looked at first, beside those around the zones of the straight drive.
-    progress : function, optional
-        Told the share done; may answer "stop".
-
-    Returns
-    -------
-    UnstableSpeeds
-
-    Notes
-    -----
+    model: one drive; its own input speed does not count.
+    lowest, highest [rad/s]: where to look.
+    points: speeds looked at first, beside those around the zones of the straight drive.
     Peaks of growth between the speeds looked at are climbed, so that narrow zones are not passed over; the edges of
     every range are then found to a millionth of the step.
-
-    Examples
-    --------
-    >>> from cardan.questions.torsion.model.torsional_model import torsional_line
-    >>> drive = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1e3], []], damping=[[0.2], []], joint_angle=[0.4363],
-    ...     input_speed=50.0)
-    >>> found = unstable_speeds(drive, 30.0, 80.0)
-    >>> found.lowest.round(3), found.highest.round(3), found.zone.name((0,))
-    (array([46.872]), array([51.608]), 'principal zone of mode 1')
     """
     check(_problems(model, lowest, highest))
     one = chosen(model, (), np.zeros(1, dtype=int))

@@ -44,24 +44,12 @@ SURE = 2e-5
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Mapped:
-    """What the kernel found of drives.
+    """What the kernel found of drives."""
 
-    Attributes
-    ----------
-    matrix : array (B, m, m)
-        Monodromy matrices for (x, ẋ).
-    coefficient : array (B, R, H+1), complex
-        Of the motion of the free coordinates.
-    force : array (B,)
-        Constant torque on the first station of free drives.
-    moved : array (B,)
-        Last Newton step over the motion; nan where there is none.
-    """
-
-    matrix: Array
-    coefficient: Array
-    force: Array
-    moved: Array
+    matrix: Array  # (B, m, m): monodromy matrices for (x, ẋ)
+    coefficient: Array  # (B, R, H+1), complex: of the motion of the free coordinates
+    force: Array  # (B,): constant torque on the first station of free drives
+    moved: Array  # (B,): last Newton step over the motion; nan where there is none
 
 
 def fits(model: TorsionalModel, speed: Array) -> bool:
@@ -82,13 +70,7 @@ def fits(model: TorsionalModel, speed: Array) -> bool:
 def mapped(turning: Turning, harmonics: int, *, threads: int | None = None) -> Mapped:
     """Return motions and monodromy matrices of drives by the compiled kernel.
 
-    Parameters
-    ----------
-    turning : Turning
-        Drives for which `fits` holds.
-    harmonics : int
-        H.
-    threads : int, optional
+    turning: drives for which `fits` holds; harmonics: H.
     """
     count = len(turning.speed)
     padded = -(-count // LANES) * LANES

@@ -20,32 +20,12 @@ WORTH = 3000.0
 def vibration_growth(orbit: Orbit, rows: Array) -> Array:
     """Return by how much disturbances of motions grow in a period, ln max|ρ|: array (b,).
 
-    Parameters
-    ----------
-    orbit : Orbit (...)
-        As `cardan.questions.torsion.steady.torque_swing.torque_swings` gives it.
-    rows : array of int (b,)
-        Which motions, counted through the leading axes.
-
-    Returns
-    -------
-    array (b,)
-        Negative where every disturbance dies out; nan where there is no motion.
-
-    Notes
-    -----
+    orbit (...): as `cardan.questions.torsion.steady.torque_swing.torque_swings` gives it.
+    rows (b,) of int: which motions, counted through the leading axes.
+    Returns: negative where every disturbance dies out; nan where there is no motion.
     As `run_stability.floquet`, but that the drift of free drives to another mean speed is always left out,
     also where a motor or load governs it, as a weak motor fails to above a resonance: that is no vibration, and the
     speeds of a search are given. Compiled where it is worth it.
-
-    Examples
-    --------
-    >>> from cardan.questions.torsion.steady.torque_swing import torque_swings
-    >>> from cardan.questions.torsion.model.torsional_model import torsional_line
-    >>> drive = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], damping=[[0.2], []],
-    ...     joint_angle=[np.radians(25)], input_speed=49.386)
-    >>> print(np.exp(vibration_growth(torque_swings(drive, [49.386]).orbit, np.asarray([0]))))
-    [1.14415]
     """
     found = np.full(len(rows), np.nan)
     there = np.isfinite(orbit.coefficient.reshape(orbit.count, -1)[rows]).all(axis=-1)

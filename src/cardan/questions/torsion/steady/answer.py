@@ -59,12 +59,7 @@ def lacking(drive: Drive) -> Lacking:
 def ask(drive: Drive, *, progress: Callable[[float], object] | None = None) -> TorsionResponse:
     """Return the steady motions over the operating range of a drive.
 
-    Parameters
-    ----------
-    drive : Drive
-        With a range of speeds.
-    progress : function, optional
-        Told the share done; answering "stop" ends the work.
+    drive: with a range of speeds.
     """
     between = drive.duty.speed_range
     assert between is not None

@@ -33,12 +33,8 @@ SLACKS = (1.0, 0.5, 0.2, 0.05, 0.0)
 class Backlashed:
     """One drive as an oscillator that switches; see `cardan.maths.periodic.switching_orbit.Switching`.
 
-    Parameters
-    ----------
-    turning : Turning
-        With one drive.
-    slack : float
-        Share of its damping that an element keeps amid its play; 0 by the equations.
+    turning: with one drive.
+    slack: share of its damping that an element keeps amid its play; 0 by the equations.
     """
 
     def __init__(self, turning: Turning, slack: float = 0.0) -> None:
@@ -121,18 +117,8 @@ def pieces_of(
 ) -> Pieces | None:
     """Return the steady running of one drive by shooting, or None.
 
-    Parameters
-    ----------
-    turning : Turning
-        With one drive.
-    start : array (R, H+1), complex, optional
-        Fourier sum near the motion, from which its contacts are read off.
-    force : float [N·m]
-        Constant torque on the first station with it.
-    method : Shooting, optional
-
-    Notes
-    -----
+    turning: with one drive; start (R, H+1), complex: Fourier sum near the motion, from which its contacts are read off.
+    force [N·m]: constant torque on the first station with it.
     Without a start, or where that leads nowhere, the joint angles grow from 0: the straight drive rests under its mean
     torques, and each motion begins the search for the next.
     """

@@ -21,10 +21,7 @@ FINE = 512
 def closed(turning: Turning) -> Turning:
     """Return drives without play that rest on the side to which their mean torques push them.
 
-    Parameters
-    ----------
-    turning : Turning
-        Drives in one axis, as `Turning.part` gives them.
+    turning: drives in one axis, as `Turning.part` gives them.
     """
     model, rest = turning.model, _rest(turning.model)
     shifted = replace(model, backlash=np.zeros_like(model.backlash), rest=rest + 0.5 * _sides(turning) * model.backlash)
@@ -34,12 +31,9 @@ def closed(turning: Turning) -> Turning:
 def stays_closed(turning: Turning, coefficient: Array) -> Array:
     """Tell which motions keep all play on the side to which mean torques push it, array of bool (b,).
 
-    Parameters
-    ----------
-    turning : Turning
-        Drives in one axis, with their play.
-    coefficient : array (b, R, H+1), complex
-        Motions of the free coordinates, as those of `closed` drives; nan where there is none.
+    turning: drives in one axis, with their play.
+    coefficient (b, R, H+1), complex: motions of the free coordinates, as those of `closed` drives; nan where there is
+    none.
     """
     if not np.any(turning.model.backlash > 0.0):
         return np.ones(len(turning.speed), dtype=bool)

@@ -62,10 +62,7 @@ def looks(train: TorsionalTrain, elements: Sequence[int]) -> Iterator[tuple[int,
 def response_figure(found: TorsionResponse) -> Figure:
     """Return the torques over a turn and the orders of the one that alternates most.
 
-    Parameters
-    ----------
-    found : TorsionResponse
-        At one speed.
+    found: at one speed.
     """
     turn = max(2.0 * math.pi, found.steady.period)
     angle = np.linspace(0.0, turn, 721)
@@ -168,13 +165,7 @@ def _speed(value: float, digits: int = 4) -> Quantity:
 
 
 def sweep_figure(found: TorsionResponse) -> Figure:
-    """Return highest and lowest torques and their orders over the input speed, unstable speeds shaded.
-
-    Parameters
-    ----------
-    found : TorsionResponse
-        Over speeds.
-    """
+    """Return highest and lowest torques and their orders over the input speed, unstable speeds shaded."""
     speed = np.abs(found.speed) / rpm
     names = found.train.elements
     peak = np.nanmax(np.where(np.isfinite(found.swing), found.swing, np.nan), axis=0, initial=0.0)
@@ -252,13 +243,7 @@ def runs(mask: Array) -> Iterator[tuple[int, int]]:
 
 
 def waterfall_figure(found: TorsionResponse) -> Figure:
-    """Return the orders of the largest alternating torque at some speeds, one behind the other.
-
-    Parameters
-    ----------
-    found : TorsionResponse
-        Over speeds.
-    """
+    """Return the orders of the largest alternating torque at some speeds, one behind the other."""
     speed = np.abs(found.speed) / rpm
     peak = np.nanmax(np.where(np.isfinite(found.swing), found.swing, np.nan), axis=0, initial=0.0)
     e = worst_elements(peak)[0]

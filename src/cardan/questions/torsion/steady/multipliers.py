@@ -27,19 +27,9 @@ FADED = 20.0
 def multipliers_of(orbit: Orbit, rows: Array) -> tuple[Array, Array, Array]:
     """Return the multipliers of motions, how many were left out of free drives, and the residual of their product.
 
-    Parameters
-    ----------
-    orbit : Orbit (...)
-    rows : array of int (b,)
-        Which drives, counted through the leading axes.
-
-    Returns
-    -------
-    values : array (b, m), complex
-        The largest first; nan at the end where one is left out.
-    removed : array of int (b,)
-    residual : array (b,)
-        ln of their product less the integral of the damping; nan where that says nothing.
+    orbit (...); rows (b,) of int: which drives, counted through the leading axes.
+    Returns values (b, m), complex: the largest first; nan at the end where one is left out; removed (b,) of int;
+    residual (b,): ln of their product less the integral of the damping; nan where that says nothing.
     """
     coefficients, duration = linear_motion(orbit, rows), orbit.time.reshape(-1)[rows]
     matrix = monodromy(coefficients, duration)
@@ -53,11 +43,7 @@ def multipliers_of(orbit: Orbit, rows: Array) -> tuple[Array, Array, Array]:
 def multipliers_in_pieces(orbit: Orbit, row: int) -> tuple[Array, Array, Array]:
     """Return the same of one motion in pieces; its residual is nan.
 
-    Parameters
-    ----------
-    orbit : Orbit (...)
-    row : int
-        Which drive, one of those in pieces.
+    orbit (...); row: which drive, one of those in pieces.
     """
     pieces, alone = orbit.pieces[row], np.asarray([row])
     values, removed = _values(orbit, alone, pieces.monodromy[None], pieces.heavy)
@@ -72,11 +58,7 @@ def multipliers_in_pieces(orbit: Orbit, row: int) -> tuple[Array, Array, Array]:
 def linear_motion(orbit: Orbit, rows: Array) -> Coefficients:
     """Return mass, damping and stiffness of the free coordinates about motions, over the share of their period.
 
-    Parameters
-    ----------
-    orbit : Orbit (...)
-    rows : array of int (b,)
-        Which drives, counted through the leading axes.
+    orbit (...); rows (b,) of int: which drives, counted through the leading axes.
     """
     drives, backward = orbit.drives(rows), (orbit.speed.reshape(-1)[rows] < 0.0)[:, None, None]
     first = 0 if drives.free else 1
@@ -104,11 +86,9 @@ def _values(orbit: Orbit, rows: Array, matrix: Array, heavy: Array) -> tuple[Arr
 def _unmoved(damping: Array, heavy: Array) -> Array:
     """Return how many coordinates have neither inertia nor damper: they follow the others at once, array (b,).
 
-    Parameters
-    ----------
-    damping : array (b, p, R, R)
-        At moments of the motion; a damper that lets go at any of them holds nothing back over a period.
-    heavy : array of bool (R,)
+    damping (b, p, R, R): at moments of the motion; a damper that lets go at any of them holds nothing back over a
+    period.
+    heavy (R,) of bool.
     """
     light = np.flatnonzero(~heavy)
     if not light.size:
@@ -126,18 +106,10 @@ def _without_last(values: Array, count: Array) -> Array:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Turns:
-    """What turns free drives as a whole.
+    """What turns free drives as a whole."""
 
-    Attributes
-    ----------
-    tangent : array (b, m)
-        Disturbances by a shift in time.
-    drifts : array of bool (b,)
-        Whether any speed is as good as any other.
-    """
-
-    tangent: Array
-    drifts: Array
+    tangent: Array  # (b, m): disturbances by a shift in time
+    drifts: Array  # (b,) of bool: whether any speed is as good as any other
 
     @classmethod
     def of(cls, drives: TorsionalModel, speed: Array, tangent: Array) -> Turns:
@@ -152,11 +124,9 @@ class Turns:
 def values_of(matrix: Array, turns: Turns | None = None) -> tuple[Array, Array]:
     """Return the multipliers of monodromy matrices, the largest first, and how many were left out of free drives.
 
-    Parameters
-    ----------
-    matrix : array (b, m, m)
-    turns : Turns, optional
-        Of free drives: a shift in time is left out, and where any speed is as good as any other the drift to one too.
+    matrix (b, m, m).
+    turns: of free drives: a shift in time is left out, and where any speed is as good as any other the drift to one
+    too.
     """
     removed = np.zeros(len(matrix), dtype=int)
     if turns is None:
@@ -173,11 +143,7 @@ def values_of(matrix: Array, turns: Turns | None = None) -> tuple[Array, Array]:
 def drifting(drives: TorsionalModel, speed: Array) -> Array:
     """Tell which free drives may turn at any speed: no drag and no torque of theirs changes with it, array (b,).
 
-    Parameters
-    ----------
-    drives : TorsionalModel (b,)
-        With torques ready for moments in a second axis.
-    speed : array (b,) [rad/s]
+    drives (b,): with torques ready for moments in a second axis; speed (b,) [rad/s].
     """
     governed = np.any(drives.ground_damping != 0.0, axis=-1)
     here = speed[:, None]
@@ -189,15 +155,8 @@ def drifting(drives: TorsionalModel, speed: Array) -> Array:
 def vibrating(values: Array, count: int) -> Array:
     """Return the multipliers of free drives without those of turning as a whole, array (b, m-count), in no order.
 
-    Parameters
-    ----------
-    values : array (b, m)
-        Multipliers.
-    count : int
-        How many to leave out: one, the drift to another speed, where a shift in time is left out already, else two.
-
-    Notes
-    -----
+    values (b, m).
+    count: how many to leave out: one, the drift to another speed, where a shift in time is left out already, else two.
     Left out are the real ones nearest to 1. Amid a resonance a drift and vibration are one: what grows there beside
     them is judged.
     """

@@ -18,31 +18,19 @@ from cardan.questions.torsion.model.torsional_model import TorsionalModel
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Orbit:
-    """How every coordinate moves over a period; leading axes (...) are those of the drives.
+    """How every coordinate moves over a period; leading axes (...) are those of the drives."""
 
-    Attributes
-    ----------
-    model : TorsionalModel
-        The drives; their axes spread over (...).
-    speed : array (...) [rad/s]
-        Ω of the input, or mean speed of free drives.
-    period : float [rad]
-        Shaft angle of a period.
-    coefficient : array (..., R, H+1), complex
-        c_k of what each coordinate is off even rotation, q = φ + Re Σ c_k e^(2πikφ/period), φ = Ωt; nan where no motion
-        was found.
-    force : array (...) [N·m]
-        Constant torque on the first station of free drives that keeps the mean speed; 0 where the speed is forced.
-    pieces : mapping from int to Pieces
-        Motions found by shooting, exact at contacts, by their drive counted through the leading axes. They hold there
-        instead of the Fourier sum, which is then but their lower harmonics.
-    """
-
-    model: TorsionalModel
-    speed: Array
-    period: float
+    model: TorsionalModel  # the drives; their axes spread over (...)
+    speed: Array  # (...) [rad/s]: Ω of the input, or mean speed of free drives
+    period: float  # [rad]: shaft angle of a period
+    # (..., R, H+1), complex: c_k of what each coordinate is off even rotation, q = φ + Re Σ c_k e^(2πikφ/period), φ =
+    # Ωt; nan where no motion was found
     coefficient: Array
+    # (...) [N·m]: constant torque on the first station of free drives that keeps the mean speed; 0 where the speed is
+    # forced
     force: Array
+    # motions found by shooting, exact at contacts, by their drive counted through the leading axes. They hold there
+    # instead of the Fourier sum, which is then but their lower harmonics.
     pieces: Mapping[int, Pieces] = field(default_factory=dict)
 
     @property

@@ -50,24 +50,13 @@ class Kind(IntEnum):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Zone:
-    """Zone of parametric resonance nearest to the speed, by the natural frequencies of the straight drive.
+    """Zone of parametric resonance nearest to the speed, by the natural frequencies of the straight drive."""
 
-    Attributes
-    ----------
-    modes : array of int (..., 2)
-        Numbers of the two modes from 1, alike for a zone of one mode; 0 where there is none.
-    sign : array of int (...)
-        1 for the sum of their frequencies, -1 for the difference.
-    multiple : array of int (...)
-        m: number of the zone, the principal one is 1.
-    speed : array (...) [rad/s]
-        (ω_i ± ω_j)/(2m).
-    """
-
+    # (..., 2) of int: numbers of the two modes from 1, alike for a zone of one mode; 0 where there is none
     modes: Array
-    sign: Array
-    multiple: Array
-    speed: Array
+    sign: Array  # (...) of int: 1 for the sum of their frequencies, -1 for the difference
+    multiple: Array  # (...) of int: m: number of the zone, the principal one is 1
+    speed: Array  # (...) [rad/s]: (ω_i ± ω_j)/(2m)
 
     def name(self, index: tuple[int, ...] = ()) -> str:
         """Return the name of one of the zones."""
@@ -85,41 +74,24 @@ class Zone:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Floquet:
-    """Stability of steady running; leading axes (...) are those of the drives and speeds.
+    """Stability of steady running; leading axes (...) are those of the drives and speeds."""
 
-    Attributes
-    ----------
-    multipliers : array (..., m), complex
-        What each disturbance is multiplied by over a period, the largest first; nan at the end where it is left out.
-        So are of a free drive the 1 of a shift in time and, where no torque changes with the speed, the drift to
-        another speed; of any drive what has neither inertia nor damper, which cannot be disturbed by itself.
-    removed : array of int (...)
-        How many were left out of a free drive.
-    period : float [rad]
-        Shaft angle of a period.
-    growth_rate : array (...) [1/s]
-        ln max|ρ| over the duration of a period; negative where disturbances die out, -inf where there are none.
-    verdict : array of int (...)
-        A `Verdict` each.
-    kind : array of int (...)
-        A `Kind` each, of the largest multiplier.
-    order : array (...)
-        Lowest order of the shaft at which that disturbance swings; the others differ by whole multiples of 2π/period,
-        either way.
-    zone : Zone
-        Nearest zone, of that kind where the disturbance grows.
-    determinant_residual : array (...)
-        ln of the product of all multipliers less the integral of the damping, which must be equal (Liouville).
-    """
-
+    # (..., m), complex: what each disturbance is multiplied by over a period, the largest first; nan at the end where
+    # it is left out. So are of a free drive the 1 of a shift in time and, where no torque changes with the speed, the
+    # drift to another speed; of any drive what has neither inertia nor damper, which cannot be disturbed by itself.
     multipliers: Array
-    removed: Array
-    period: float
+    removed: Array  # (...) of int: how many were left out of a free drive
+    period: float  # [rad]: shaft angle of a period
+    # (...) [1/s]: ln max|ρ| over the duration of a period; negative where disturbances die out, -inf where there are
+    # none
     growth_rate: Array
-    verdict: Array
-    kind: Array
+    verdict: Array  # (...) of int: a `Verdict` each
+    kind: Array  # (...) of int: a `Kind` each, of the largest multiplier
+    # (...): lowest order of the shaft at which that disturbance swings; the others differ by whole multiples of
+    # 2π/period, either way
     order: Array
-    zone: Zone
+    zone: Zone  # nearest zone, of that kind where the disturbance grows
+    # (...): ln of the product of all multipliers less the integral of the damping, which must be equal (Liouville)
     determinant_residual: Array
 
     @property
@@ -242,17 +214,9 @@ def shaped(found: Floquet, outer: tuple[int, ...]) -> Floquet:
 def nearest_zone(frequencies: Array, speed: Array, kind: Array) -> Zone:
     """Return the zone of parametric resonance nearest to each speed.
 
-    Parameters
-    ----------
-    frequencies : array (b, n) [rad/s]
-        Natural ones of the straight drives.
-    speed : array (b,) [rad/s]
-    kind : array of int (b,)
-        `Kind` of the disturbance that grows: zones of one mode or combinations of two; -1 where none does, for zones
-        of one mode and sums of two, none higher than the second.
-
-    Notes
-    -----
+    frequencies (b, n) [rad/s]: natural ones of the straight drives; speed (b,) [rad/s].
+    kind (b,) of int: `Kind` of the disturbance that grows: zones of one mode or combinations of two; -1 where none
+    does, for zones of one mode and sums of two, none higher than the second.
     Joints swing twice a turn: Ω = (ω_i ± ω_j)/(2m), i = j with the sum alone.
     """
     count, rows = frequencies.shape[-1], np.arange(len(speed))

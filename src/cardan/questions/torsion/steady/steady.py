@@ -109,12 +109,8 @@ def steady_orbits(
 ) -> tuple[Orbit, Array]:
     """Return the motions of `periodic_response` alone, and their status, array of int (...).
 
-    Parameters
-    ----------
-    model, speed, method, progress
-        As `periodic_response` takes them.
-    opened : Shooting, optional
-        How to find motions that are no Fourier sums, where the method does not say it.
+    model, speed, method, progress: as `periodic_response` takes them.
+    opened: how to find motions that are no Fourier sums, where the method does not say it.
     """
     omega = speeds_of(model, speed)
     outer = np.broadcast_shapes(leading(replace(model, input_speed=None)), omega.shape)

@@ -27,23 +27,17 @@ ROUNDS = 3
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Found:
-    """What is read off motions, drives in one axis.
+    """What is read off motions, drives in one axis."""
 
-    Attributes
-    ----------
-    torque, speed, drive : arrays (B, E | N | 1, K+1), complex
-        Coefficients of element torques, station speeds and the torque that the input needs.
-    lowest, highest : arrays (B, E) [N·m]
-    residual, power_residual : arrays (B,)
-    """
-
+    # torque, speed, drive (B, E | N | 1, K+1), complex: coefficients of element torques, station speeds and the torque
+    # that the input needs
     torque: Array
-    speed: Array
-    drive: Array
-    lowest: Array
-    highest: Array
-    residual: Array
-    power_residual: Array
+    speed: Array  # (B, E | N | 1, K+1), complex
+    drive: Array  # (B, E | N | 1, K+1), complex
+    lowest: Array  # (B, E) [N·m]
+    highest: Array  # (B, E) [N·m]
+    residual: Array  # (B,)
+    power_residual: Array  # (B,)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -81,11 +75,7 @@ def _curves(drives: TorsionalModel, motion: tuple[Array, Array, Array], force: A
 def read_off(orbit: Orbit, count: int) -> Found:
     """Return orders 0 … ``count`` of the base, extremes and residuals of motions.
 
-    Parameters
-    ----------
-    orbit : Orbit (...)
-    count : int
-        K.
+    orbit (...); count: K.
     """
     harmonics = orbit.coefficient.shape[-1]
     samples = max(8 * (harmonics + 1), 2 * count + 2)

@@ -16,79 +16,42 @@ from .orbit import Orbit
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Orders:
-    """Curves over the shaft angle by their orders: x = mean + Σ amplitude_ν cos(νφ + phase_ν).
+    """Curves over the shaft angle by their orders: x = mean + Σ amplitude_ν cos(νφ + phase_ν)."""
 
-    Attributes
-    ----------
-    mean : array (..., c)
-        Of every curve.
-    amplitude, phase : arrays (..., c, K) [as the curve, rad]
-        Of every order.
-    """
-
-    mean: Array
-    amplitude: Array
-    phase: Array
+    mean: Array  # (..., c): of every curve
+    amplitude: Array  # amplitude, phase (..., c, K) [as the curve, rad]: of every order
+    phase: Array  # (..., c, K) [rad]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Traces:
-    """Curves over the shaft angle.
+    """Curves over the shaft angle."""
 
-    Attributes
-    ----------
-    angle : array (p,) [rad]
-        φ = Ωt.
-    station_angle, station_speed : arrays (..., p, N) [rad, rad/s]
-    torque : array (..., p, E) [N·m]
-        Of the elements.
-    """
-
-    angle: Array
-    station_angle: Array
-    station_speed: Array
-    torque: Array
+    angle: Array  # (p,) [rad]: φ = Ωt
+    station_angle: Array  # (..., p, N) [rad]
+    station_speed: Array  # (..., p, N) [rad/s]
+    torque: Array  # (..., p, E) [N·m]: of the elements
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SteadyResponse:
-    """Steady running of torsional models; leading axes (...) are those of the drives and speeds.
+    """Steady running of torsional models; leading axes (...) are those of the drives and speeds."""
 
-    Attributes
-    ----------
-    orbit : Orbit
-        The motion itself.
-    order : array (K,)
-        Orders of the shaft: multiples of 2π over the period.
-    torque : Orders (..., E) [N·m]
-        Of the elements.
-    torque_lowest, torque_highest : arrays (..., E) [N·m]
-        True extremes over a period.
-    station_speed : Orders (..., N) [rad/s]
-    drive_torque : Orders (..., 1) [N·m]
-        What the input needs on the first station, beside the torques of the model: to turn at exactly its speed, or,
-        where the drive is free, the constant torque that keeps the mean speed.
-    status : array of int (...)
-        `cardan.maths.periodic.harmonics.Status`; results are nan where no motion was found.
-    residual : array (...)
-        By how much the equations of motion fail to hold, at moments between those the solution was made from, over
-        the largest torque.
-    power_residual : array (...)
-        What the power balance of a period misses, over the power that flows.
-    stable : array of bool (...) or None
-        Whether small disturbances die out; `run_stability.floquet` says more. None where it was not asked.
-    """
-
-    orbit: Orbit
-    order: Array
-    torque: Orders
-    torque_lowest: Array
-    torque_highest: Array
-    station_speed: Orders
+    orbit: Orbit  # the motion itself
+    order: Array  # (K,): orders of the shaft: multiples of 2π over the period
+    torque: Orders  # (..., E) [N·m]: of the elements
+    torque_lowest: Array  # torque_lowest, torque_highest (..., E) [N·m]: True extremes over a period
+    torque_highest: Array  # (..., E) [N·m]
+    station_speed: Orders  # (..., N) [rad/s]
+    # (..., 1) [N·m]: what the input needs on the first station, beside the torques of the model: to turn at exactly its
+    # speed, or, where the drive is free, the constant torque that keeps the mean speed
     drive_torque: Orders
-    status: Array
+    status: Array  # (...) of int: `cardan.maths.periodic.harmonics.Status`; results are nan where no motion was found
+    # (...): by how much the equations of motion fail to hold, at moments between those the solution was made from, over
+    # the largest torque
     residual: Array
-    power_residual: Array
+    power_residual: Array  # (...): what the power balance of a period misses, over the power that flows
+    # (...) of bool: whether small disturbances die out; `run_stability.floquet` says more. None where it was not asked.
     stable: Array | None = None
 
     @property

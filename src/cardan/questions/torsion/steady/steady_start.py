@@ -25,14 +25,8 @@ def straight_stiffness(drives: TorsionalModel) -> Array:
 def straight_frequencies(drives: TorsionalModel) -> Array:
     """Return the natural frequencies of drives, all joints straight and all backlash closed, array (b, m) [rad/s].
 
-    Parameters
-    ----------
-    drives : TorsionalModel (b,)
-
-    Returns
-    -------
-    array (b, m)
-        Rising; of a free drive the first is 0, its turning as a whole.
+    drives (b,).
+    Returns: rising; of a free drive the first is 0, its turning as a whole.
     """
     mass = np.zeros((len(drives.inertia), drives.coordinates))
     for k, r in enumerate(drives.coordinate):
@@ -55,8 +49,6 @@ def straight_frequencies(drives: TorsionalModel) -> Array:
 def at_rest(turning: Turning) -> Array:
     """Return the twist of every coordinate under mean torques, all joints straight, array (B, R, 1), complex.
 
-    Notes
-    -----
     Each element with backlash lies on the side that its torque pushes it to; one without torque lies amid it.
     """
     rows = np.arange(len(turning.speed))

@@ -37,18 +37,10 @@ CHUNK = 512
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TorqueSwings:
-    """How far the torques of drives swing; leading axes (...) are those of the drives and speeds.
+    """How far the torques of drives swing; leading axes (...) are those of the drives and speeds."""
 
-    Attributes
-    ----------
-    orbit : Orbit (...)
-        The motions; nan where none was found.
-    swing : array (..., E) [N·m]
-        Half of highest less lowest torque of every element; nan where no motion was found.
-    """
-
-    orbit: Orbit
-    swing: Array
+    orbit: Orbit  # (...): the motions; nan where none was found
+    swing: Array  # (..., E) [N·m]: half of highest less lowest torque of every element; nan where no motion was found
 
     @property
     def found(self) -> Array:
@@ -59,38 +51,12 @@ class TorqueSwings:
 def torque_swings(model: TorsionalModel, speed: ArrayLike, *, progress: Progress | None = None) -> TorqueSwings:
     """Return how far the torques of drives swing in steady running, to about five digits.
 
-    Parameters
-    ----------
-    model : TorsionalModel (...)
-        Its axes and those of the speed spread over each other.
-    speed : array (...) [rad/s]
-        Of the input, or mean speed of free drives; not 0.
-    progress : function, optional
-        Told the share done; when it answers "stop" the remaining motions are left out.
-
-    Returns
-    -------
-    TorqueSwings
-
-    Raises
-    ------
-    InputError
-        A speed of 0, a torque that runs in time.
-
-    Notes
-    -----
+    model (...): its axes and those of the speed spread over each other.
+    speed (...) [rad/s]: of the input, or mean speed of free drives; not 0.
+    progress: told the share done; when it answers "stop" the remaining motions are left out.
     Harmonic balance of the exact equations, as `periodic_response` but with fewer harmonics and without what a search
     does not ask for. With backlash it is `periodic_response`. Torques of orders that no two turns hold are answered by
     the straight line and added by their amplitudes.
-
-    Examples
-    --------
-    >>> from cardan.questions.torsion.model.torsional_model import torsional_line
-    >>> drive = torsional_line([[1.0, 0.02], [0.02, 0.4]], stiffness=[[4000.0], [6000.0]],
-    ...     damping=[[1.0], [1.0]], joint_angle=[0.35], input_speed=30.0)
-    >>> found = torque_swings(drive, [25.0, 30.0])
-    >>> found.swing.shape, bool(abs(found.swing[1, 0] / periodic_response(drive).peak_to_peak[0] - 0.5) < 1e-5)
-    ((2, 2), True)
     """
     omega = np.asarray(speed, dtype=float)
     if not np.all(np.isfinite(omega) & (omega != 0.0)):
@@ -177,10 +143,7 @@ def _beside(model: TorsionalModel, loose: tuple[Torque, ...], omega: Array) -> A
 def some_motions(orbit: Orbit, rows: Array) -> Orbit:
     """Return some of the motions, counted through their leading axes, in one axis.
 
-    Parameters
-    ----------
-    orbit : Orbit (...)
-    rows : array of int (b,)
+    orbit (...), rows (b,) of int.
     """
     return Orbit(
         model=chosen(orbit.model, orbit.angle_error, rows, moments=False),

@@ -42,24 +42,12 @@ SHARE = 0.35
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Apart:
-    """A torque whose order no two turns hold a whole number of times, as the straight line answers it.
+    """A torque whose order no two turns hold a whole number of times, as the straight line answers it."""
 
-    Attributes
-    ----------
-    order : float
-        Of the input shaft.
-    station : int
-        On which it acts.
-    torque : complex array (..., E) [N·m]
-        Of every element.
-    angle : complex array (..., N) [rad]
-        Of every station.
-    """
-
-    order: float
-    station: int
-    torque: Array
-    angle: Array
+    order: float  # of the input shaft
+    station: int  # on which it acts
+    torque: Array  # (..., E) [N·m], complex: of every element
+    angle: Array  # (..., N) [rad], complex: of every station
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -191,16 +179,7 @@ def torsion_response(
 def peak_refined(drive: Drive, found: TorsionResponse, *, progress: Progress | None = None) -> TorsionResponse:
     """Return steady motions over many speeds with further ones about that of the largest alternating torque.
 
-    Parameters
-    ----------
-    drive : Drive
-    found : TorsionResponse (s,)
-        Over rising speeds.
-    progress : function, optional
-        As of `torsion_response`.
-
-    Notes
-    -----
+    found (s,): over rising speeds; progress: as of `torsion_response`.
     The highest of some speeds is not the top of the curve: the speeds beside it lie ever closer until its neighbours
     are as high to a thousandth. Where it is at an end of the speeds, nothing is added.
     """
@@ -235,11 +214,6 @@ def loaded_model(
 
     Structural damping counts as viscous, equal at order 2; for disturbances at that of the zone of parametric resonance
     nearest to the speed, at which they vibrate.
-
-    Raises
-    ------
-    InputError
-        What the model misses; a torque that runs in time.
     """
     check(_timed(duty))
     flat = speeds.reshape(-1)
@@ -306,8 +280,6 @@ def _scaled(progress: Progress | None, low: float, high: float) -> Progress | No
 def level(mean: float, swing: float) -> float:
     """Return a mean, 0 where it is nothing but rounding beside the swing about it.
 
-    Examples
-    --------
     >>> level(3e-11, 0.2), level(400.0, 1300.0)
     (0.0, 400.0)
     """

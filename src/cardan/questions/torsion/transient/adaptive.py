@@ -51,33 +51,16 @@ HALVINGS = 30
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Task:
-    """What is to be done.
+    """What is to be done."""
 
-    Attributes
-    ----------
-    model : TorsionalModel
-        One drive.
-    motion : InputMotion or None
-        What is forced on the first coordinate.
-    tolerance : (float, float)
-        Share for speeds and work; angles [rad] and speeds [rad/s].
-    stiff : bool or None
-        Whether to integrate implicitly; None to find out.
-    span : (float, float) [s]
-    times : array (t,) [s]
-        Samples.
-    q, rate : array (R,) [rad, rad/s]
-        At the start.
-    """
-
-    model: TorsionalModel
-    motion: InputMotion | None
-    tolerance: tuple[float, float]
-    stiff: bool | None
-    span: tuple[float, float]
-    times: Array
-    q: Array
-    rate: Array
+    model: TorsionalModel  # one drive
+    motion: InputMotion | None  # what is forced on the first coordinate
+    tolerance: tuple[float, float]  # share for speeds and work; angles [rad] and speeds [rad/s]
+    stiff: bool | None  # whether to integrate implicitly; None to find out
+    span: tuple[float, float]  # [s]
+    times: Array  # (t,) [s]: samples
+    q: Array  # q, rate (R,) [rad, rad/s]: at the start
+    rate: Array  # (R,) [rad/s]
 
 
 def march(task: Task, progress: Progress | None) -> Simulation:

@@ -23,10 +23,7 @@ def transient_figures(found: Transient) -> tuple[Figure, ...]:
 def transient_figure(found: Transient) -> Figure:
     """Return torques and speeds over time.
 
-    Parameters
-    ----------
-    found : Transient
-        Of one drive.
+    found: of one drive.
     """
     motion = found.motion
     names = found.train.elements

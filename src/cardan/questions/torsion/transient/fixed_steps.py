@@ -117,16 +117,7 @@ def stepped(
 ) -> Simulation:
     """Return the simulation of drives in fixed steps.
 
-    Parameters
-    ----------
-    model : TorsionalModel (...)
-    method : FixedStep
-    span : (float, float) [s]
-    times : array (t,) [s]
-        Samples.
-    q, rate : array (..., R) [rad, rad/s]
-        At the start.
-    progress : function, optional
+    model (...), span [s], times (t,) [s], q, rate (..., R) [rad, rad/s].
     """
     angle_error = leading(model)
     count = math.prod(angle_error)

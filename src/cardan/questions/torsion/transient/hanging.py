@@ -23,58 +23,23 @@ MATTERS = 0.05
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Hang:
-    """A stretch of time in which the speed did not rise although torque was left over.
+    """A stretch of time in which the speed did not rise although torque was left over."""
 
-    Attributes
-    ----------
-    start, end : float [s]
-    speed : float [rad/s]
-        Mean speed of the first station meanwhile.
-    could : float [rad/s²]
-        Mean acceleration that the torques would give the same drive if it did not swing.
-    did : float [rad/s²]
-        What it did.
-    power : float [W]
-        Mean power that went into swinging.
-    """
-
-    start: float
-    end: float
-    speed: float
-    could: float
-    did: float
-    power: float
+    start: float  # [s]
+    end: float  # [s]
+    speed: float  # [rad/s]: mean speed of the first station meanwhile
+    could: float  # [rad/s²]: mean acceleration that the torques would give the same drive if it did not swing
+    did: float  # [rad/s²]
+    power: float  # [W]: mean power that went into swinging
 
 
 def hanging(model: TorsionalModel, found: Simulation) -> tuple[Hang, ...]:
     """Return where a drive that torques turn hung on a resonance.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-        One drive, as it was simulated.
-    found : Simulation
-        With some samples in every turn.
-
-    Returns
-    -------
-    tuple of Hang
-        Empty where it passed all resonances, and where its speed is forced.
-
-    Notes
-    -----
+    model: one drive, as it was simulated; found: with some samples in every turn.
+    Returns: empty where it passed all resonances, and where its speed is forced.
     Near half a natural frequency the joints swing the drive, and its dampers take the power that would raise the
     speed: the torque that is left, M(Ω) - Σ b_g Ω over Σ J, is compared with the rise of the mean speed over turns.
-
-    Examples
-    --------
-    >>> from cardan.questions.torsion.model.torques import Constant
-    >>> from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
-    >>> from cardan.questions.torsion.transient.transient import simulate
-    >>> push = Torque(station=0, law=Constant(value=5.0))
-    >>> line = torsional_line([[0.5, 0.5]], stiffness=[[1000.0]], torques=[push])
-    >>> hanging(line, simulate(line, span=10.0))
-    ()
     """
     if not model.free or np.ndim(found.status):
         return ()

@@ -30,21 +30,11 @@ LENIENT = 0.75
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Freedom:
-    """Which coordinates of a drive are free, and which of them have inertia.
+    """Which coordinates of a drive are free, and which of them have inertia."""
 
-    Attributes
-    ----------
-    motion : InputMotion or None
-        What is forced on the first coordinate.
-    free : array of int
-        Coordinates that are not forced.
-    heavy : array of int
-        Those of them that turn some inertia.
-    """
-
-    motion: InputMotion | None
-    free: Array
-    heavy: Array
+    motion: InputMotion | None  # what is forced on the first coordinate
+    free: Array  # coordinates that are not forced
+    heavy: Array  # those of them that turn some inertia
 
     def whole(self, time: Array, q: Array, rate: Array) -> tuple[Array, Array]:
         """Return angles and speeds of all coordinates (m, R) for those of the free ones (m, u)."""
@@ -81,17 +71,11 @@ def freedom_of(model: TorsionalModel, motion: InputMotion | None) -> Freedom:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Piece:
-    """A step or the part of it before a contact changed.
+    """A step or the part of it before a contact changed."""
 
-    Attributes
-    ----------
-    start, end : float [s]
-    dense : function
-        From times (m,) within the piece to angles and speeds of the free coordinates (m, u) and the work (m,).
-    """
-
-    start: float
-    end: float
+    start: float  # [s]
+    end: float  # [s]
+    # from times (m,) within the piece to angles and speeds of the free coordinates (m, u) and the work (m,)
     dense: Callable[[Array], tuple[Array, Array, Array]]
 
     def within(self) -> Array:
@@ -309,13 +293,8 @@ def _energy_size(model: TorsionalModel, freedom: Freedom, time: float, q: Array,
 def held(model: TorsionalModel, sides: Array, *, loose: float = 0.0) -> TorsionalModel:
     """Return the drive without backlash that moves like this one while the sides of its contacts stay.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-    sides : array of int (E,)
-        1 or -1 where an element touches, 0 within its play; 1 without play.
-    loose : float
-        Share of its stiffness that an element keeps within its play, drawn to the middle of it.
+    sides (E,) of int: 1 or -1 where an element touches, 0 within its play; 1 without play.
+    loose: share of its stiffness that an element keeps within its play, drawn to the middle of it.
     """
     touching = np.abs(sides).astype(float)
     return replace(
@@ -344,17 +323,9 @@ def sides_of(model: TorsionalModel, twist: Array, rate: Array) -> Array:
 def passed(model: TorsionalModel, sides: Array, twist: Array) -> Array:
     """Return how far each element is past the end of its contact, or past either end of its play.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-    sides : array of int (E,)
-    twist : array (m, E) [rad]
-
-    Returns
-    -------
-    array (m, E, 2) [rad]
-        Positive past the end; of an element in contact the first one counts alone, of a loose one they are its
-        positive and its negative side.
+    sides (E,) of int, twist (m, E) [rad].
+    Returns (m, E, 2) [rad]: positive past the end; of an element in contact the first one counts alone, of a loose one
+    they are its positive and its negative side.
     """
     half = 0.5 * model.backlash
     touching, never = sides != 0, np.full_like(twist, -1.0)

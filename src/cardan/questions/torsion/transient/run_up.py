@@ -30,37 +30,18 @@ ORDER = 4.0
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FollowedRunUp:
-    """A run-up with the resonances on its way.
+    """A run-up with the resonances on its way."""
 
-    Attributes
-    ----------
-    course : RunUp
-        How the speed of the input goes.
-    modes : TorsionModes
-        What it passes.
-    steps : float
-        How many steps it takes, about.
-    motion : Transient or None
-        Torques and speeds in time; None where that takes too many steps.
-    """
-
-    course: RunUp
-    modes: TorsionModes
-    steps: float
-    motion: Transient | None
+    course: RunUp  # how the speed of the input goes
+    modes: TorsionModes  # what it passes
+    steps: float  # how many steps it takes, about
+    motion: Transient | None  # torques and speeds in time; None where that takes too many steps
 
 
 def follow(drive: Drive, course: RunUp, *, progress: Callable[[float], object] | None = None) -> FollowedRunUp:
     """Return a run-up of a drive, followed in time where that does not take too long.
 
-    Parameters
-    ----------
-    drive : Drive
-        With this run-up in its duty.
-    course : RunUp
-        How the speed of its input goes.
-    progress : function, optional
-        Told the share done; answering "stop" ends the work.
+    drive: with this run-up in its duty; course: how the speed of its input goes.
     """
     modes = torsion_modes(drive)
     each = STRIKING if np.any(modes.train.model.backlash > 0.0) else SMOOTH

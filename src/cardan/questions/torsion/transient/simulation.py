@@ -41,73 +41,37 @@ class Status(IntEnum):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Extremes:
-    """Lowest and highest values over the whole span, found between the samples too, and when they were reached.
+    """Lowest and highest values over the whole span, found between the samples too, and when they were reached."""
 
-    Attributes
-    ----------
-    torque_low, torque_high : array (..., E) [N·m]
-        Of every element.
-    torque_low_time, torque_high_time : array (..., E) [s]
-    speed_low, speed_high : array (..., N) [rad/s]
-        Of every station.
-    speed_low_time, speed_high_time : array (..., N) [s]
-    """
-
-    torque_low: Array
-    torque_high: Array
-    torque_low_time: Array
-    torque_high_time: Array
-    speed_low: Array
-    speed_high: Array
-    speed_low_time: Array
-    speed_high_time: Array
+    torque_low: Array  # torque_low, torque_high (..., E) [N·m]: of every element
+    torque_high: Array  # (..., E) [N·m]
+    torque_low_time: Array  # (..., E) [s]
+    torque_high_time: Array  # (..., E) [s]
+    speed_low: Array  # speed_low, speed_high (..., N) [rad/s]: of every station
+    speed_high: Array  # (..., N) [rad/s]
+    speed_low_time: Array  # (..., N) [s]
+    speed_high_time: Array  # (..., N) [s]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Simulation:
-    """Motion of one drive or of many over time; nan after a drive ended early.
+    """Motion of one drive or of many over time; nan after a drive ended early."""
 
-    Attributes
-    ----------
-    times : array (t,) [s]
-        Samples.
-    coordinate, rate : array (..., t, R) [rad, rad/s]
-        Angles and speeds of the coordinates.
-    angle, speed : array (..., t, N) [rad, rad/s]
-        Of every station.
-    torque : array (..., t, E) [N·m]
-        Of every element, positive when it carries power along the drive.
-    input_torque : array (..., t) [N·m] or None
-        Torque that forces the speed of the first station; None where it is free.
-    energy : array (..., t) [J]
-        Σ ½ J Ḟ² + Σ ½ c x_e².
-    work : array (..., t) [J]
-        What torques have brought since the start, less what dampers have taken.
-    extremes : Extremes
-    status : array of int (...)
-        A `Status` each.
-    ended : array (...) [s]
-        Time that was reached.
-    steps : int
-        Steps taken, of all drives.
-    method : str
-        What integrated: "explicit", "implicit" or "fixed steps".
-    """
-
-    times: Array
-    coordinate: Array
-    rate: Array
-    angle: Array
-    speed: Array
-    torque: Array
+    times: Array  # (t,) [s]: samples
+    coordinate: Array  # coordinate, rate (..., t, R) [rad, rad/s]: angles and speeds of the coordinates
+    rate: Array  # (..., t, R) [rad/s]
+    angle: Array  # angle, speed (..., t, N) [rad, rad/s]: of every station
+    speed: Array  # (..., t, N) [rad/s]
+    torque: Array  # (..., t, E) [N·m]: of every element, positive when it carries power along the drive
+    # (..., t) [N·m]: torque that forces the speed of the first station; None where it is free
     input_torque: Array | None
-    energy: Array
-    work: Array
+    energy: Array  # (..., t) [J]: Σ ½ J Ḟ² + Σ ½ c x_e²
+    work: Array  # (..., t) [J]: what torques have brought since the start, less what dampers have taken
     extremes: Extremes
-    status: Array
-    ended: Array
-    steps: int
-    method: str
+    status: Array  # (...) of int: a `Status` each
+    ended: Array  # (...) [s]: time that was reached
+    steps: int  # steps taken, of all drives
+    method: str  # what integrated: "explicit", "implicit" or "fixed steps"
 
     @property
     def residual(self) -> Array:
@@ -142,16 +106,9 @@ def reported(
 ) -> Simulation:
     """Return a simulation from the coordinates at its samples.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-    times : array (t,) [s]
-    q, rate : array (..., t, R) [rad, rad/s]
-    work : array (..., t) [J]
-    forced_acceleration : array (t,) [rad/s²] or None
-        Of the first coordinate, where it is forced.
-    extremes, status, ended, steps, method
-        As in `Simulation`.
+    times (t,) [s], q, rate (..., t, R) [rad, rad/s], work (..., t) [J].
+    forced_acceleration (t,) [rad/s²]: of the first coordinate, where it is forced.
+    extremes, status, ended, steps, method: as in `Simulation`.
     """
     place = places(model, q)
     speed = place.first * rate[..., list(model.coordinate)]

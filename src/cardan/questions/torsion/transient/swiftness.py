@@ -30,21 +30,12 @@ def own_rates(
 ) -> tuple[Array, Array]:
     """Return the fastest rate of drives, and the fastest one that lives on.
 
-    Parameters
-    ----------
-    model : TorsionalModel
-        One drive, or many in one axis with torques ready for moments in a second one.
-    free : array of int
-        Coordinates that are not forced; all of them turn some inertia.
-    q, rate : array (..., R) [rad, rad/s]
-    time : float [s]
-    length : float [s]
-        How long the drive is followed: what is damped away early counts by its share of that.
-
-    Returns
-    -------
-    fastest, living : arrays (...) [rad/s]
-        Largest \\|λ\\| of the linearised drive over half a turn, all elements in contact.
+    model: one drive, or many in one axis with torques ready for moments in a second one.
+    free: coordinates that are not forced; all of them turn some inertia.
+    q, rate (..., R) [rad, rad/s], time [s].
+    length [s]: how long the drive is followed: what is damped away early counts by its share of that.
+    Returns fastest, living (...) [rad/s]: largest |λ| of the linearised drive over half a turn, all elements in
+    contact.
     """
     by = _turns(model, q, rate, time)
     count = len(free)
