@@ -1,5 +1,6 @@
 """The docstring is a contract: every public thing says what it takes, in which shape and unit, and shows it."""
 
+import ast
 import inspect
 import re
 from dataclasses import fields, is_dataclass
@@ -10,6 +11,7 @@ import pytest
 from tests.test_public_names import public_names
 
 from .house.exported import exported
+from .house.imports import modules
 
 PUBLIC = public_names()
 
@@ -104,3 +106,27 @@ def test_what_pages_additions_and_calculations_take_documents_all_parameters_or_
         if documented and not inspect.isclass(thing) and {*documented} != {*inspect.signature(thing).parameters}:
             wrong[name] = documented
     assert wrong == {}
+
+
+@pytest.mark.slow
+def test_what_is_not_exported_says_it_shortly():
+    """One line, and below it at most what names and types do not say: no sections, which are for readers outside."""
+    long = [name for name, doc in told_inside() if re.search(r"^(\w+ ?\w+)\n-{3,}$", doc, re.M)]
+    assert long == []
+
+
+def told_inside():
+    """Yield the docstring of every function, class and method that is not exported, by its dotted name."""
+    for home, path in modules().items():
+        for node in ast.parse(path.read_text("utf-8")).body:
+            yield from told_within(node, home, f"{home}.{getattr(node, 'name', '')}" in exported())
+
+
+def told_within(node, home, known):
+    if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+        name = f"{home}.{node.name}"
+        if not known:
+            yield name, ast.get_docstring(node) or ""
+        for inner in node.body:
+            public = isinstance(node, ast.ClassDef) and not getattr(inner, "name", "_").startswith("_")
+            yield from told_within(inner, name, known and public)
