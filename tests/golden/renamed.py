@@ -12,6 +12,8 @@ COMMAND_LINES: tuple[tuple[str, str], ...] = (
     (r"--bend-deg", "--joint-angle-deg"),
     (r"--bends(?= )", "--joint-angles"),
     (r"--bend(?= )", "--joint-angle"),
+    (r"^catalogue max_bends", "catalogue max_joint_angles"),
+    (r"^(simulate-fault \S+) bends", r"\1 joint_angles"),
     (r"^(?!calc )(.*)\bbend_deg", r"\1joint_angle_deg"),
 )
 """Pattern in a whole command line -> what stands there now: ``(r"^simulate-fault ", "fault ")``."""
@@ -69,6 +71,9 @@ PATHS: tuple[tuple[str, str, str], ...] = (
     ("strength", r"limits\.ends_at_Nm", "limits.limit_torque_Nm"),
     ("select", r"need\.bend_deg", "need.joint_angle_deg"),
     ("check", r"cures\.(.*)", r"remedies.\1"),
+    ("(?!calc )", r"(.*[._ ])?irregularity(.*)bend(.*)", r"\1speed_fluctuation\2joint_angle\3"),
+    ("(?!calc )", r"(.*[._ ])?irregularity(.*)", r"\1speed_fluctuation\2"),
+    ("(?!calc )", r"(.*[._ ])?bend_(.*)", r"\1joint_angle_\2"),
 )
 """Pattern at the start of the old command line, pattern of a whole old path, its new path (with or without unit):
 ``("life", r"joints\\.iso_h", "joints.rating_life_h")``. The first that fits counts."""
