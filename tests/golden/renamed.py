@@ -71,9 +71,10 @@ PATHS: tuple[tuple[str, str, str], ...] = (
     ("strength", r"limits\.ends_at_Nm", "limits.limit_torque_Nm"),
     ("select", r"need\.bend_deg", "need.joint_angle_deg"),
     ("check", r"cures\.(.*)", r"remedies.\1"),
-    ("(?!calc )", r"(.*[._ ])?irregularity(.*)bend(.*)", r"\1speed_fluctuation\2joint_angle\3"),
-    ("(?!calc )", r"(.*[._ ])?irregularity(.*)", r"\1speed_fluctuation\2"),
-    ("(?!calc )", r"(.*[._ ])?bend_(.*)", r"\1joint_angle_\2"),
+    ("torsion stability", r"over\.bend_deg", "over.joint_angle_deg"),
+    ("(sweep|catalogue|joint)", r"(.*[._ ])?irregularity(.*)bend(.*)", r"\1speed_fluctuation\2joint_angle\3"),
+    ("(sweep|catalogue|joint)", r"(.*[._ ])?irregularity(.*)", r"\1speed_fluctuation\2"),
+    ("(sweep|catalogue|joint)", r"(.*[._ ])?bend_(.*)", r"\1joint_angle_\2"),
 )
 """Pattern at the start of the old command line, pattern of a whole old path, its new path (with or without unit):
 ``("life", r"joints\\.iso_h", "joints.rating_life_h")``. The first that fits counts."""
@@ -81,7 +82,10 @@ PATHS: tuple[tuple[str, str, str], ...] = (
 FIELDS: tuple[tuple[str, str], ...] = ()
 """Pattern in a refused field -> what stands there now."""
 
-ANSWERED: tuple[str, ...] = (r"(forces|assembly) examples/truck-duty-cycle",)
+ANSWERED: tuple[str, ...] = (
+    r"(forces|assembly) examples/truck-duty-cycle",
+    r"torsion stability examples/pto-flywheel\.toml --speeds 300:1500:6",
+)
 """Command lines, by a pattern of their start, that were refused and are answered now."""
 
 AMONG: tuple[tuple[str, str], ...] = (("simulate-fault", r"orders\.size"),)
