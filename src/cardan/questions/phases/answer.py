@@ -497,7 +497,8 @@ def spread(found: Phasing) -> Iterator[Remark]:
 def _keys(drive: Drive, found: Phasing) -> Iterator[KeyFigure]:
     verdict, tone = _uniformity(drive, found)
     title, share = _("speed fluctuation δ of the output"), float(found.as_built.speed_fluctuation)
-    yield KeyFigure(name="speed_fluctuation", title=title, value=Quantity(share, "share"), verdict=verdict, tone=tone)
+    drawn, value = _("as drawn") if drive.movements or drive.poses else "", Quantity(share, "share")
+    yield KeyFigure(name="speed_fluctuation", title=title, place=drawn, value=value, verdict=verdict, tone=tone)
     posed = found.as_built.pose_speed_fluctuation
     if posed.size and float(np.max(posed)) > share + UTMOST:
         place = say(_("in the pose {name}"), name=found.poses[int(foremost(posed))])
