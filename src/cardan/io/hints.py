@@ -43,7 +43,7 @@ def meant(cls: type, key: str) -> str:
 
     >>> from cardan.drive.joints import Hooke
     >>> meant(Hooke, "centre"), meant(Hooke, "joint_angle_mm"), meant(Hooke, "colour")
-    ('centre', 'bend', '')
+    ('centre', 'joint_angle', '')
     """
     split = _split(cls, key)
     if split:

@@ -36,7 +36,7 @@ def shortened(text: str, most: int = LONG) -> str:
     """Return a text that is not too long: of words the first, of a path the last.
 
     >>> shortened("shafts[1].spline.mean_diameter_mm", 20), shortened("speed_fluctuation of the output", 20)
-    ('…ne.mean_diameter_mm', 'speed fluctuation of the…')
+    ('…ne.mean_diameter_mm', 'speed_fluctuation o…')
     """
     if len(text) <= most:
         return text

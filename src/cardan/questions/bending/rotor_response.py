@@ -137,7 +137,7 @@ def rotor_response(
     >>> found = rotor_response(replace(drive, shafts=(drive.shafts[0], bad, drive.shafts[2])))
     >>> speed, size = found.peak(3)
     >>> print(f"{1e6 * size:.1f} μm at {speed / found.rotor.critical:.2f} of the critical speed", found.unstable)
-    4.5 μm at 0.33 of the critical speed ()
+    4.7 μm at 0.33 of the critical speed ()
     """
     one = rotor(drive, shaft, damping_ratio=damping_ratio)
     used = used_speeds(drive.duty if duty is None else duty)

@@ -82,7 +82,7 @@ def release(mechanism: Mechanism, joint: str, way: Way, axis: ArrayLike) -> Rele
     >>> hinge = Pair(id="upper", type="R", links=("wall", "door"), point=(0.0, 0.0, 2.0), axis=(0.0, 0.0, 1.0))
     >>> lower = Pair(id="lower", type="R", links=("wall", "door"), point=(0.0, 0.0, 0.2), axis=(0.0, 0.0, 1.0))
     >>> release(Mechanism(frame="wall", joints=(hinge, lower)), "upper", "trans", [0.0, 0.0, 1.0]).verdict
-    'cure'
+    'remedy'
     """
     names = [pair.id for pair in mechanism.joints]
     if joint not in names:
