@@ -76,7 +76,7 @@ def trade_off_figure(found: TradeOff) -> Figure:
     needed = (
         ()
         if not np.isfinite(found.needed)
-        else (Rule(value=found.needed / rpm, role="failed", dash="solid", text=_("needed")),)
+        else (Rule(value=found.needed / rpm, role="warning", dash="solid", text=_("advised")),)
     )
     return Figure(
         name="trade-off",

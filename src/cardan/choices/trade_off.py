@@ -54,7 +54,7 @@ class TradeOff:
     speed : float or None [rad/s]
         Highest speed of the duty.
     needed : float [rad/s]
-        Critical speed that it asks for; nan without a speed.
+        Critical speed that the limits ask for or practice advises; nan without a speed.
     """
 
     shaft: int
@@ -160,11 +160,12 @@ def trade_off(
                 if one.subject in ("", path)
             ]
         _complete(verdicts)
-        run = [one for one in verdicts if one.run and not one.advice]
+        told = [one for one in verdicts if one.run]
+        run = [one for one in told if not one.advice]
         used = np.max(
             [np.broadcast_to(np.asarray(one.utilisation, float), d.shape) for one in run if one.check in STRENGTH], 0
         )
-        fast = [one for one in run if one.check == "critical_speed" and one.sense == "at_least"]
+        fast = [one for one in told if one.check == "critical_speed" and one.sense == "at_least"]
         ratio = np.broadcast_to(np.asarray(fast[0].value, float), d.shape) if fast else np.full(d.shape, np.nan)
         fine = np.all([np.broadcast_to(np.asarray(one.passed), d.shape) for one in run], 0)
         return used, ratio, fine if moving else used <= 1.0

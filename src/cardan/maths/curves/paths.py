@@ -10,8 +10,8 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
-import scipy
 
+from cardan.later import later
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.kernel import frames
 
@@ -23,6 +23,8 @@ Path: TypeAlias = Callable[[Array], Jet]
 
 ACCURATE = 1e-10
 """Accuracy of `transport` [rad]."""
+
+_interpolate = later("scipy.interpolate")
 
 
 def swing(amplitude: ArrayLike, frequency: float, phase: ArrayLike, times: Array) -> Jet:
@@ -107,7 +109,7 @@ def interpolated(at: ArrayLike, values: ArrayLike, times: Array) -> Jet:
     >>> value, rate, acceleration
     (array([2.25]), array([3.]), array([2.]))
     """
-    spline: Any = scipy.interpolate.CubicSpline(np.asarray(at, dtype=float), np.asarray(values, dtype=float), axis=0)
+    spline: Any = _interpolate().CubicSpline(np.asarray(at, dtype=float), np.asarray(values, dtype=float), axis=0)
     return spline(times), spline(times, 1), spline(times, 2)
 
 

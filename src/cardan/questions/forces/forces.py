@@ -140,30 +140,14 @@ def kinetostatics(
     harmonics: Sequence[tuple[float, float, float]] = (),
     field: str = "supports",
 ) -> Forces:
-    """Return the forces of drives whose axes stand still; many drives and positions in one call.
+    """Return the forces of drives whose axes stand still; many drives and positions in one call; nan where they lock.
 
-    Parameters
-    ----------
-        whole : Train (...)
-            Points, masses and supports.
-        angle : array (p,) [rad]
-            φ_1 from the start position.
-        torque : float or array (...) or (..., p) [N·m]
-            Torque at the output, positive when it resists positive turning; or at the input, where it drives. The last
-            axis is that of the positions only where the array has one axis more than the drives.
-        torque_at : str
-            ``output`` or ``input``.
-        speed, acceleration : float or array (...) [rad/s, rad/s²]
-            ω_1, ε_1; without a speed no inertia counts.
-        harmonics : sequence of (order, amplitude, phase)
-            Swinging parts of the torque [1/turn, N·m, rad], by the angle of the shaft where it is given.
-        field : str
-            What an error about the supports names.
-
-    Returns
-    -------
-        Forces
-            nan where friction locks a joint of a drive.
+    whole (...): points, masses and supports; angle (p,) [rad]: φ_1 from the start position.
+    torque (...) or (..., p) [N·m]: resists positive turning at the output, or drives at the input (`torque_at`); its
+    last axis is that of the positions only where it has one axis more than the drives.
+    speed, acceleration (...) [rad/s, rad/s²]: ω_1, ε_1; without a speed no inertia counts.
+    harmonics: (order [1/turn], amplitude [N·m], phase [rad]) of swinging parts, by the angle of the shaft.
+    field: what an error about the supports names.
     """
     xp = namespace(whole.points, angle)
     place = place_of(whole)
