@@ -8,7 +8,7 @@ import numpy as np
 from numba import types
 
 from cardan.maths.compiled.lanes import BYTES, LANES, OUTPUT, address, compiled, step
-from cardan.maths.compiled.threads import share
+from cardan.maths.compiled.method import share
 
 CHAINS, ROUNDS = 4, 60
 """Independent groups of lanes, enough to hide how long one multiply-add takes; multiply-adds of each in one go."""

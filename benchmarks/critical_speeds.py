@@ -7,9 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan import bending_speeds, example
-from cardan.maths.linear.beam_elements import matrices
 from cardan.maths.linear.modes import synchronous
-from cardan.maths.linear.rotor_beams import Line, line, round_section
+from cardan.maths.linear.rotor_beams import Line, line, matrices, round_section
 from cardan.maths.linear.transfer import speeds
 
 from .harness import Figure, fastest

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from cardan.batch.chunks import TARGET, Chunk, Chunks
+from cardan.batch.work import TARGET, Chunk, Chunks
 from cardan.errors import MissingExtraError
 
 from .harness import Figure, fastest
@@ -83,7 +83,7 @@ def keeping(rows: int) -> Figure:
     """Return how fast a chunk is put on the disk, checksums and all, against its bytes as they are."""
     import numpy as np
 
-    from cardan.batch.table.parquet import Label, put, write_chunk
+    from cardan.batch.table.store import Label, put, write_chunk
     from cardan.batch.work import Column
 
     names = [f"c{k}" for k in range(6)]

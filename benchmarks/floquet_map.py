@@ -10,7 +10,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from cardan.maths.compiled.method import Compiled
-from cardan.questions.torsion.model.torques import Constant
+from cardan.questions.torsion.model.inputs import Constant
 from cardan.questions.torsion.model.torsional_balance import slopes
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
 from cardan.questions.torsion.stability.floquet_map import floquet_map

@@ -8,7 +8,7 @@ import numpy as np
 from numba import types
 
 from cardan.maths.compiled.lanes import BYTES, LANES, OUTPUT, address, compiled, fence, step
-from cardan.maths.compiled.threads import share
+from cardan.maths.compiled.method import share
 
 _past = step(lambda number: (number,), past_caches=True)
 

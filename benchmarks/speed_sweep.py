@@ -8,10 +8,10 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from cardan.questions.torsion.model.torques import Constant
+from cardan.questions.torsion.model.inputs import Constant
 from cardan.questions.torsion.model.torsional_balance import accelerations
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
-from cardan.questions.torsion.stability.speed_range import speed_sweep
+from cardan.questions.torsion.stability.floquet_map import speed_sweep
 
 from .harness import Figure, fastest
 

@@ -12,8 +12,7 @@ from cardan.maths.arrays import Array
 from cardan.methods import MonteCarlo
 from cardan.questions.accuracy.accuracy import error_arrays, one_turn, transmission_error
 from cardan.questions.accuracy.allocation import allocate
-from cardan.questions.accuracy.sample_sums import Exact, Sums
-from cardan.questions.accuracy.sampling import drawn
+from cardan.questions.accuracy.sampling import Exact, Sums, drawn
 from cardan.units import deg
 
 from .harness import Figure, fastest

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cardan.questions.torsion.model.torques import Constant, Falling
+from cardan.questions.torsion.model.inputs import Constant, Falling
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
 from cardan.questions.torsion.transient.fixed_steps import FixedStep
 from cardan.questions.torsion.transient.transient import simulate

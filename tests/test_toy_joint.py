@@ -11,8 +11,7 @@ from cardan.batch.answering.questions import questions
 from cardan.drive.joints import JOINTS, register
 from cardan.errors import InputError
 from cardan.io import dumps, loads
-from cardan.io.reference import reference
-from cardan.io.schema import schema
+from cardan.io.schema import reference, schema
 from cardan.questions.motion.motion import motion
 from cardan.register import QUESTIONS
 from cardan.report.answers import answered, subject

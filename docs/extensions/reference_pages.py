@@ -78,7 +78,7 @@ SHOWN = {
 def rows() -> str:
     """Return one section for each table of the catalogue, with all its rows."""
     from cardan.catalogue import TABLES, catalogue
-    from cardan.catalogue.telling import row_flat
+    from cardan.catalogue.rows import row_flat
 
     parts = []
     for name, kind in TABLES.items():

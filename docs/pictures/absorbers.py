@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan.formulas.absorber_tuning import absorber_variants
+from cardan.formulas.absorbers import absorber_variants
 from cardan.formulas.run_up import run_up
 
 from .kit import ACCENT, INK, PALE, SERIES, page

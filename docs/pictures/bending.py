@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan.questions.bending.bending import bending_speeds
-from cardan.questions.bending.speed_map import critical_speed_map
+from cardan.questions.bending.bending import bending_speeds, critical_speed_map
 from cardan.units import mm, rpm
 
 from .kit import ACCENT, INK, PALE, SERIES, page

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan.drive.joints.laws import pilot_lever, tilted_plane, tripod
-from cardan.formulas.pilot_lever import lever_choice
+from cardan.drive.joints import rzeppa, tripod
+from cardan.drive.joints.common import laws
+from cardan.formulas.joint_geometry import lever_choice
 from cardan.units import deg
 
 from .kit import ACCENT, DRIVEN, DRIVING, INK, PALE, SERIES, bare, note, page
@@ -41,9 +42,9 @@ def demands() -> Figure:
     figure, axes = page(9.0, 3.6)
     phi = np.linspace(0, 2 * np.pi, 361)
     for k in range(3):
-        each = tilted_plane.deviation(phi + k * np.pi / 3, 40 * deg, 0.5 * deg)
+        each = laws.deviation(phi + k * np.pi / 3, 40 * deg, 0.5 * deg)
         axes.plot(phi / deg, each / deg, color=SERIES[k], lw=1.6, label=f"balls {k + 1} and {k + 4}")
-    mean = tilted_plane.ball_demands(phi, 40 * deg, 0.5 * deg).mean
+    mean = laws.ball_demands(phi, 40 * deg, 0.5 * deg).mean
     axes.plot(phi / deg, mean / deg, color=INK, lw=2.6, label="all together")
     axes.set_xlim(0, 360)
     axes.set_xticks(range(0, 361, 60))
@@ -60,7 +61,7 @@ def lever() -> Figure:
     best = lever_choice(0.35, 35 * deg).c
     lengths = ((0.72, "c/a = 0.72", 0), (0.70, "0.70", 0), (best, f"{best:.4f}, the best", 0.03), (0.65, "0.65", -0.05))
     for colour, (c, name, shift) in zip(SERIES, lengths, strict=False):
-        error = pilot_lever.plane_error(joint_angle * deg, 0.35, c) / deg
+        error = rzeppa.plane_error(joint_angle * deg, 0.35, c) / deg
         axes.plot(joint_angle, error, color=colour, lw=2.6 if c == best else 1.6)
         axes.text(36.4, error[-1] + shift, name, color=colour, va="center", size=11)
     axes.axhline(0, color=PALE, lw=0.8)

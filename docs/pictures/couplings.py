@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan.drive.joints.laws import double_cardan, pin_coupling
-from cardan.formulas.centring import best_centring
+from cardan.drive.joints import double_cardan, pin_coupling
+from cardan.formulas.joint_geometry import best_centring
 from cardan.units import deg
 
 from .kit import ACCENT, DRIVEN, DRIVING, INK, PALE, SERIES, arc, bare, note, page

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan.questions.bending.crack import UNCRACKED, Crack
-from cardan.questions.bending.cracked_rotor import cracked_rotor
+from cardan.questions.bending.cracked_rotor import UNCRACKED, Crack, cracked_rotor
 
 from .kit import ACCENT, INK, PALE, SERIES, page
 

@@ -23,8 +23,10 @@ from cardan.drive.joints import (
     Tracta,
     Tripod,
     Weiss,
+    pin_coupling,
 )
-from cardan.drive.joints.laws import offset_grooves, pin_coupling, profile_coupling
+from cardan.drive.joints import clemens as profile_coupling
+from cardan.drive.joints import weiss as offset_grooves
 from cardan.questions.motion.joint_law import joint_turn
 from cardan.units import deg, mm
 

@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan.book.massless_joints import steady_twist
-from cardan.book.mathieu_reduction import MathieuReduction, mathieu_reduction
+from cardan.book.mathieu_drive import MathieuReduction, mathieu_reduction, steady_twist
 from cardan.maths.periodic.mathieu import boundaries, damped_zone
 from cardan.units import deg
 

@@ -7,12 +7,11 @@ from dataclasses import replace
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan.questions.torsion.model.torques import Constant, Swinging
-from cardan.questions.torsion.model.torsional_batch import chosen
+from cardan.questions.torsion.model.inputs import Constant, Swinging
+from cardan.questions.torsion.model.torsional_layouts import chosen
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
-from cardan.questions.torsion.stability.floquet_map import floquet_map
-from cardan.questions.torsion.stability.speed_range import speed_sweep
-from cardan.questions.torsion.steady.steady_start import straight_frequencies
+from cardan.questions.torsion.stability.floquet_map import floquet_map, speed_sweep
+from cardan.questions.torsion.steady.orbit import straight_frequencies
 from cardan.units import deg, rpm
 
 from .kit import INK, PALE, SERIES, page

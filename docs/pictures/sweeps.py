@@ -8,8 +8,7 @@ from typing import Any
 
 from cardan import figures
 from cardan.batch.engine.running import run
-from cardan.batch.figures.map import heat_figure
-from cardan.batch.figures.sweep import parallel_figure, pareto_figure
+from cardan.batch.figures.sweep import heat_figure, parallel_figure, pareto_figure
 from cardan.batch.search.goals import Goal
 from cardan.batch.table.results import results
 from cardan.batch.table.views import map_of

@@ -6,10 +6,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cardan.maths.compiled.method import Compiled
-from cardan.questions.torsion.model.torques import Falling
+from cardan.questions.torsion.model.inputs import Falling
 from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
 from cardan.questions.torsion.transient.fixed_steps import FixedStep
-from cardan.questions.torsion.transient.hanging import hanging
+from cardan.questions.torsion.transient.torsion_transient import hanging
 from cardan.questions.torsion.transient.transient import simulate
 from cardan.units import deg, rpm
 

@@ -2,8 +2,8 @@
 
 from .choices.selection import Candidate as Candidate
 from .choices.selection import JointDuty as JointDuty
+from .choices.selection import joint_duty as joint_duty
 from .choices.selection import select_joint as select_joint
-from .choices.selection_reasons import joint_duty as joint_duty
 from .drive.joints import Clemens as Clemens
 from .drive.joints import ConstantVelocity as ConstantVelocity
 from .drive.joints import DoubleCardan as DoubleCardan
@@ -17,11 +17,11 @@ from .drive.joints import Rzeppa as Rzeppa
 from .drive.joints import Tracta as Tracta
 from .drive.joints import Tripod as Tripod
 from .drive.joints import Weiss as Weiss
-from .formulas.centring import Centring as Centring
-from .formulas.centring import best_centring as best_centring
-from .formulas.pin_geometry import PinGeometry as PinGeometry
-from .formulas.pin_geometry import best_pins as best_pins
-from .formulas.pin_geometry import pin_choices as pin_choices
+from .formulas.joint_geometry import Centring as Centring
+from .formulas.joint_geometry import PinGeometry as PinGeometry
+from .formulas.joint_geometry import best_centring as best_centring
+from .formulas.joint_geometry import best_pins as best_pins
+from .formulas.joint_geometry import pin_choices as pin_choices
 from .questions.motion.joint_law import JointAngles as JointAngles
 from .questions.motion.joint_law import JointTurn as JointTurn
 from .questions.motion.joint_law import joint_over_angles as joint_over_angles

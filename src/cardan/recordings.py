@@ -9,12 +9,12 @@ from .questions.diagnosis.findings import Finding as Finding
 from .questions.diagnosis.findings import diagnose as diagnose
 from .questions.diagnosis.signals.orbit import Orbit as Orbit
 from .questions.diagnosis.signals.orbit import orbit as orbit
-from .questions.diagnosis.signals.order_tracks import TrackedOrders as TrackedOrders
-from .questions.diagnosis.signals.order_tracks import tracked_orders as tracked_orders
 from .questions.diagnosis.signals.orders import OrderMap as OrderMap
 from .questions.diagnosis.signals.orders import OrderSpectrum as OrderSpectrum
+from .questions.diagnosis.signals.orders import TrackedOrders as TrackedOrders
 from .questions.diagnosis.signals.orders import order_map as order_map
 from .questions.diagnosis.signals.orders import order_spectrum as order_spectrum
+from .questions.diagnosis.signals.orders import tracked_orders as tracked_orders
 from .questions.diagnosis.signals.rotation import Rotation as Rotation
 from .questions.diagnosis.signals.signal import Channel as Channel
 from .questions.diagnosis.signals.signal import Signal as Signal

@@ -32,11 +32,11 @@ from .choices.trade_off import TradeOff as TradeOff
 from .choices.trade_off import trade_off as trade_off
 from .drive.drives import Drives as Drives
 from .drive.drives import stack as stack
-from .questions.bending.speed_map import CriticalSpeedMap as CriticalSpeedMap
-from .questions.bending.speed_map import critical_speed_map as critical_speed_map
+from .questions.bending.bending import CriticalSpeedMap as CriticalSpeedMap
+from .questions.bending.bending import critical_speed_map as critical_speed_map
 from .questions.losses.losses import LossMap as LossMap
 from .questions.losses.losses import loss_map as loss_map
-from .questions.motion.traces import Traces as Traces
-from .questions.motion.traces import traces as traces
+from .questions.motion.many_drives import Traces as Traces
+from .questions.motion.many_drives import traces as traces
 from .questions.phases.batch import YokeAngles as YokeAngles
 from .questions.phases.batch import synchronous_yokes as synchronous_yokes

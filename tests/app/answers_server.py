@@ -11,11 +11,10 @@ from cardan.app import page
 from cardan.app.parts.answers import Answers
 from cardan.app.parts.diagnosis import Diagnosis
 from cardan.app.parts.verdicts import Verdicts
-from cardan.app.state.choices import Choices
+from cardan.app.state.document import Workspace
 from cardan.app.state.jobs import Jobs
 from cardan.app.state.recordings import DIAGNOSIS, close_all
-from cardan.app.state.session import Session
-from cardan.app.state.workspace import Workspace
+from cardan.app.state.session import Choices, Session
 from cardan.figures import Figure
 from cardan.io import example_text
 from cardan.io.edit import edit

@@ -11,9 +11,8 @@ from cardan.figures.render_plotly import described
 from cardan.io import example
 from cardan.register import QUESTIONS
 from cardan.report.answers import answered, subject
-from cardan.report.applying import Applicable
 from cardan.report.block import Cell, Column, Listing, Picture, Points, Table, Words
-from cardan.report.lights import Light, lights
+from cardan.report.lights import Applicable, Light, lights
 
 EVIL = "<script>alert(1)</script>\"'&"
 

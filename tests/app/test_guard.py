@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from cardan.app.guard import COOKIE, VISITOR, Guard
+from cardan.app.server import COOKIE, VISITOR, Guard
 
 
 async def _inner(scope: Any, _receive: Any, send: Any) -> None:

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cardan.batch.chunks import MOST, UNKNOWN, Chunks, chunks_of, rows_for
+from cardan.batch.work import MOST, UNKNOWN, Chunks, chunks_of, rows_for
 from tests.batch.works import Numbers, Trouble
 
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError, equivalent_joint, example
-from cardan.batch import plan as plan_module
-from cardan.batch.plan import work_of
+from cardan.batch import sweep as plan_module
+from cardan.batch.sweep import work_of
 from cardan.batch.work import Reduction, Work
 from cardan.drive.fields.paths import with_values
 from cardan.io import loads

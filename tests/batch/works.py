@@ -161,7 +161,7 @@ class Rowwise:
 
 def threads_and_process(chunk):
     """Return how many threads the kernels of a worker have, and its number."""
-    from cardan.maths.compiled.threads import available
+    from cardan.maths.compiled.method import available
 
     return available(), os.getpid()
 

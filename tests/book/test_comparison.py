@@ -8,8 +8,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cardan import Drive, InputError, book_comparison, equivalent_joint, motion
-from cardan.book.comparison import book_series, collinear_joint_angle, mean_phases, rule_of_practice
-from cardan.book.forms import arrangement_phase, blokh, blokh_coefficients, double_joint, double_joint_law
+from cardan.book.comparison import (
+    arrangement_phase,
+    blokh,
+    blokh_coefficients,
+    book_series,
+    collinear_joint_angle,
+    double_joint,
+    double_joint_law,
+    mean_phases,
+    rule_of_practice,
+)
 from cardan.book.single_joint import book_coefficients, fourier, joint_extremes
 from cardan.sweeps import Drives
 from cardan.units import arcmin, deg

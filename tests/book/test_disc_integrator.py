@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from cardan.book.disc_integrator import differentiated, roller_speed, roller_turn
+from cardan.book.instruments import differentiated, roller_speed, roller_turn
 
 
 def test_the_roller_adds_up_its_way():

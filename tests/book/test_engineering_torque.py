@@ -2,9 +2,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from cardan.book.engineering_torque import engineering_torque, torque_course
-from cardan.book.massless_joints import steady_twist
-from cardan.book.mathieu_reduction import mathieu_reduction
+from cardan.book.dynamic_book import engineering_torque, torque_course
+from cardan.book.mathieu_drive import mathieu_reduction, steady_twist
 from cardan.errors import InputError
 from cardan.units import deg
 

@@ -8,7 +8,7 @@ from cardan.book.evidence import evidence, ratio_by_vectors, swing_by_vectors
 from cardan.drive.drive import Drive
 from cardan.drive.models.chain import chain
 from cardan.drive.models.geometry import geometry
-from cardan.questions.motion.closure import closure
+from cardan.questions.motion.equivalence import closure
 from cardan.questions.motion.motion import motion
 from cardan.questions.phases.phases import phases
 from cardan.units import deg

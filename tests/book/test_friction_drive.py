@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from cardan.book.friction_drive import cone_ratio, least_press, press, speed_ratio
+from cardan.book.instruments import cone_ratio, least_press, press, speed_ratio
 from cardan.units import deg
 
 

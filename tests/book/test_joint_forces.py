@@ -6,10 +6,14 @@ import array_api_strict as strict
 import numpy as np
 import pytest
 
-from cardan.book.double_joint_forces import double_joint_forces, largest_middle_couple
-from cardan.book.single_joint_forces import single_joint_forces, single_joint_peaks
-from cardan.book.spline_thrust import spline_thrust
-from cardan.questions.forces.cross_loads import journal_loads
+from cardan.book.joint_forces import (
+    double_joint_forces,
+    largest_middle_couple,
+    single_joint_forces,
+    single_joint_peaks,
+    spline_thrust,
+)
+from cardan.questions.forces.forces import journal_loads
 from cardan.units import deg
 
 TURN = np.arange(720) * (np.pi / 360)

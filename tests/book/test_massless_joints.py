@@ -3,9 +3,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize
 
-from cardan.book import massless_joints
-from cardan.book.massless_joints import MasslessDrive, steady_twist
-from cardan.book.mathieu_reduction import mathieu_reduction
+from cardan.book import mathieu_drive
+from cardan.book.mathieu_drive import MasslessDrive, mathieu_reduction, steady_twist
 from cardan.errors import InputError
 from cardan.maths.periodic.mathieu import exponents
 from cardan.units import deg
@@ -157,7 +156,7 @@ def test_a_motion_that_the_first_guess_misses_is_followed_up():
 
 
 def test_a_resonance_has_no_steady_motion(monkeypatch):
-    monkeypatch.setattr(massless_joints, "LEAST_STEP", 1.0)
+    monkeypatch.setattr(mathieu_drive, "LEAST_STEP", 1.0)
     with pytest.raises(InputError, match="no steady motion") as caught:
         steady_twist(four_joints(speed=0.5 * four_joints().natural_frequency))
     assert caught.value.field == "speed"

@@ -5,7 +5,7 @@ import pytest
 
 from cardan import Drive
 from cardan.book.comparison import book_series
-from cardan.book.mathieu_reduction import mathieu_reduction
+from cardan.book.mathieu_drive import mathieu_reduction
 from cardan.errors import InputError
 from cardan.maths.periodic.mathieu import exponents
 from cardan.questions.motion.motion import initial_phases

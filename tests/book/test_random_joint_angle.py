@@ -1,16 +1,16 @@
 import numpy as np
 import pytest
 
-from cardan.book.random_joint_angle import (
+from cardan.book.varying_joint_angle import (
+    driven_motion,
     random_joint_angle,
     random_joint_angle_path,
     rate_deviation,
     sideband_gain,
     sidebands,
 )
-from cardan.book.varying_joint_angle import driven_motion
 from cardan.errors import InputError
-from cardan.maths.curves import spectra
+from cardan.maths.curves import paths
 from cardan.units import deg
 
 FREQUENCY = np.asarray([2.0, 8.0, 20.0, 40.0])
@@ -18,7 +18,7 @@ SHAPE = np.asarray([0.0, 1.0, 0.4, 0.0])
 
 
 def scaled(deviation):
-    return SHAPE * deviation**2 / spectra.variance(FREQUENCY, SHAPE)
+    return SHAPE * deviation**2 / paths.variance(FREQUENCY, SHAPE)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
-from cardan.book.slot_cam import Contact, SlotCam, cam_forces, follower_force
+from cardan.book.instruments import Contact, SlotCam, cam_forces, follower_force
 from cardan.units import deg
 
 BASE = SlotCam(

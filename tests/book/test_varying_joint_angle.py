@@ -11,7 +11,7 @@ from cardan.book.varying_joint_angle import (
     swinging_joint,
 )
 from cardan.maths.curves import paths
-from cardan.questions.motion.spin_range import speed_range
+from cardan.questions.motion.instants import speed_range
 from cardan.units import deg
 
 SINGLE = [

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cardan.mechanism.mechanism import Mechanism
-from cardan.mechanism.pair import PAIRS, Pair
+from cardan.mechanism.mechanism import PAIRS, Mechanism, Pair
 
 
 def row(vector):

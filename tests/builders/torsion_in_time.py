@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from cardan.questions.torsion.model.torques import Asynchronous, Constant, Falling, SpeedTable, Swinging
+from cardan.questions.torsion.model.inputs import Asynchronous, Constant, Falling, SpeedTable, Swinging
 from cardan.questions.torsion.model.torsional_balance import accelerations
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
 

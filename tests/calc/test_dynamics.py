@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cardan import InputError, calc
-from cardan.formulas.absorber_tuning import den_hartog
+from cardan.formulas.absorbers import den_hartog
 
 CASES = json.loads((Path(__file__).parents[1] / "reference" / "dynamics.json").read_text("utf8"))["cases"]
 CASE = {case["id"]: case["inputs"] for case in CASES}

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from cardan.catalogue import TABLES, Catalogue, catalogue, material, with_files
-from cardan.catalogue.rows import FLAGS, AnglePair, Fault, Grade, JointSize, LifeFactor
-from cardan.catalogue.telling import row_flat
+from cardan.catalogue.rows import FLAGS, AnglePair, Fault, Grade, JointSize, LifeFactor, row_flat
 from cardan.errors import InputError
 from cardan.texts import speaking
 
@@ -144,7 +143,7 @@ def test_figures_that_contradict_each_other_are_refused(tmp_path: Path) -> None:
 
 
 def test_rows_are_told_in_the_language_spoken_and_kept_as_their_file_has_them(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("cardan.catalogue.telling._", str.upper)
+    monkeypatch.setattr("cardan.catalogue.rows._", str.upper)
     known = Catalogue(tables=catalogue().tables)
     with speaking("ru"):
         fault, grade = known.row(Fault, "F10"), known.grade("C22")

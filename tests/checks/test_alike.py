@@ -2,8 +2,8 @@
 
 from cardan import example
 from cardan.checks import check
-from cardan.checks.alike import alike, title_of
 from cardan.checks.verdict import Verdict
+from cardan.checks.verdict_table import alike, title_of
 
 
 def verdict(number: int, value: float) -> Verdict:

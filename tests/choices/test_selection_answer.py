@@ -6,9 +6,8 @@ from cardan.answers.data import data
 from cardan.answers.printed import printed
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
-from cardan.choices.selection import JointDuty, select_joint
+from cardan.choices.selection import JointDuty, fitting_sizes, select_joint
 from cardan.choices.selection_answer import answer, ask, lacking, selected
-from cardan.choices.selection_reasons import fitting_sizes
 from cardan.drive.drive import Drive
 from cardan.io import example
 from cardan.texts import speaking

@@ -11,8 +11,7 @@ from cardan.catalogue import catalogue, completed
 from cardan.catalogue.rows import JointSize
 from cardan.checks import check
 from cardan.checks.strength.strength import strength
-from cardan.choices.preferred import R20, R40, round_up
-from cardan.choices.sized import CHECKS
+from cardan.choices.size_search import CHECKS, R20, R40, round_up
 from cardan.choices.sizing import size
 from cardan.choices.trade_off import front, trade_off
 from cardan.drive.cross import Cross

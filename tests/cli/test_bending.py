@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from cardan import io as files
-from cardan.questions.bending.bending import bending_speeds
-from cardan.questions.bending.speed_map import critical_speed_map
+from cardan.questions.bending.bending import bending_speeds, critical_speed_map
 from cardan.units import rpm
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import plain, widest

@@ -28,7 +28,7 @@ def test_help_imports_nothing_heavy(arguments):
     found = modules_after(*arguments)
     assert not found & set(HEAVY)
     assert {name for name in found if name.startswith("cardan.")} <= {
-        "cardan.cli", "cardan.cli.main", "cardan.cli.app", "cardan.cli.lazy", "cardan.cli.shared.options",
+        "cardan.cli", "cardan.cli.main", "cardan.cli.app", "cardan.cli.shared.source",
         "cardan.texts", "cardan.errors", "cardan.later", "cardan.version",
         "cardan.register", "cardan.answers", "cardan.answers.question",
     }  # fmt: skip

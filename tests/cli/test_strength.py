@@ -13,7 +13,7 @@ from cardan.checks.strength.strength import strength
 from cardan.choices.selection import JointDuty, select_joint
 from cardan.choices.sizing import size
 from cardan.drive.fields.parts import known_lengths
-from cardan.questions.bending.shaft_balance import balance
+from cardan.questions.bending.balance import balance
 from cardan.units import deg, rpm
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import widest
@@ -214,8 +214,8 @@ def test_json_is_the_balance(cardan, winch):
 @pytest.mark.parametrize("table", TABLES)
 def test_every_row_is_shown_as_a_file_may_give_it(cardan, drive_file, table):
     """Rows printed as JSON, written as a file, read back: the same rows."""
-    from cardan.catalogue.telling import row_tree
-    from cardan.io.writer import toml_text
+    from cardan.catalogue.rows import row_tree
+    from cardan.io.drive_file import toml_text
 
     rows = cardan("catalogue", table, "--json").content["rows"]
     own = catalogue().tables[table]

@@ -6,7 +6,7 @@ import io
 import numpy as np
 import pytest
 
-from cardan.batch import asked as sweep_asked
+from cardan.batch import show_answer as sweep_asked
 from cardan.batch.search.pareto import pareto
 from tests.batch.tables import SIZE, stored, whole
 from tests.cli.test_forces import plain, widest

@@ -16,7 +16,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.shaft import Lump, Shaft
 from cardan.drive.support import Support
 from cardan.drive.yokes import unweighed, with_yokes, yoke_mass
-from cardan.questions.bending.shaft_balance import balance
+from cardan.questions.bending.balance import balance
 from cardan.questions.forces.forces import forces
 from cardan.questions.torsion.model.torsional_train import torsional_train
 

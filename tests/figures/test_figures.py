@@ -16,7 +16,7 @@ from matplotlib.textpath import TextPath
 from cardan import figures
 from cardan.answers.reader import USUAL
 from cardan.book.comparison import book_comparison
-from cardan.book.figures.comparison import book_figure
+from cardan.book.figure import book_figure
 from cardan.drive.drive import Drive
 from cardan.figures import palette
 from cardan.figures.axes import axis, steps, written
@@ -29,7 +29,7 @@ from cardan.figures.render_svg import inline_svg
 from cardan.io import example, example_names
 from cardan.questions.motion.articulation import articulation
 from cardan.questions.motion.equivalence import after_each_joint, equivalent_joint
-from cardan.questions.motion.figures.equivalence import orders_figure
+from cardan.questions.motion.figures.motion import orders_figure
 from cardan.questions.motion.motion import motion
 from cardan.questions.phases.phases import phases
 from cardan.units import deg

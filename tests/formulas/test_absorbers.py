@@ -7,8 +7,16 @@ from scipy.optimize import minimize, minimize_scalar
 
 from cardan import InputError
 from cardan.book.straight_line import line_response
-from cardan.formulas.absorber_tuning import den_hartog, h_infinity, peak, viscous_optimum
-from cardan.formulas.absorbers import absorber_response, absorber_stiffness, amplification, natural_frequencies
+from cardan.formulas.absorbers import (
+    absorber_response,
+    absorber_stiffness,
+    amplification,
+    den_hartog,
+    h_infinity,
+    natural_frequencies,
+    peak,
+    viscous_optimum,
+)
 from cardan.formulas.pendulum import pendulum, tuned_length
 
 

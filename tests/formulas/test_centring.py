@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cardan import InputError
-from cardan.formulas.centring import best_centring
+from cardan.formulas.joint_geometry import best_centring
 from cardan.units import deg
 
 

@@ -1,7 +1,7 @@
 import numpy as np
 
-from cardan.drive.joints.laws.offset_grooves import plane_tilt
-from cardan.formulas.groove_offset import groove_offset
+from cardan.drive.joints.weiss import plane_tilt
+from cardan.formulas.joint_geometry import groove_offset
 from cardan.units import deg
 
 

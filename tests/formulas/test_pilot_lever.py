@@ -3,8 +3,8 @@ import numpy as np
 import pytest
 
 from cardan import InputError
-from cardan.drive.joints.laws.pilot_lever import even_length, plane_error
-from cardan.formulas.pilot_lever import lever_choice
+from cardan.drive.joints.rzeppa import even_length, plane_error
+from cardan.formulas.joint_geometry import lever_choice
 from cardan.units import deg
 
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from cardan import InputError
-from cardan.drive.joints.laws import pin_coupling
-from cardan.formulas.pin_geometry import best_pins, pin_choices
+from cardan.drive.joints import pin_coupling
+from cardan.formulas.joint_geometry import best_pins, pin_choices
 from cardan.units import deg
 
 TURN = np.linspace(0, 2 * np.pi, 361)

@@ -8,10 +8,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from cardan import InputError
-from cardan.formulas import joint_run_up as behind
+from cardan.formulas import run_up as behind
 from cardan.formulas import run_up as sweep
-from cardan.formulas.joint_run_up import joint_run_up
-from cardan.formulas.run_up import run_up
+from cardan.formulas.run_up import joint_run_up, run_up
 from cardan.maths.periodic.oscillator import chirp
 from cardan.units import deg
 

@@ -42,6 +42,6 @@ def test_no_circle_among_the_rooms_of_a_folder(folder):
 
 @pytest.mark.slow
 def test_a_circle_would_be_seen():
-    arrows = between({"cardan.report.page": "a", "cardan.report.block": "b"})
-    assert arrows["a"]["b"] == ("cardan.report.page", "cardan.report.block")
+    arrows = between({"cardan.report.content": "a", "cardan.report.block": "b"})
+    assert arrows["a"]["b"] == ("cardan.report.content", "cardan.report.block")
     assert circles({"a": ["b"], "b": ["c"], "c": ["a"], "d": ["a"]}) == [("a", "b", "c")]

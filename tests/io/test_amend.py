@@ -8,9 +8,8 @@ import pytest
 
 from cardan.errors import InputError
 from cardan.io import example_names, example_text, loads
-from cardan.io.amend import amend, insert
+from cardan.io.amend import amend, insert, joint_moved, with_joint, without_joint
 from cardan.io.examples import example_file
-from cardan.io.restructure import joint_moved, with_joint, without_joint
 
 DRIVE = """# my drive
 format = 1

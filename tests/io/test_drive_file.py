@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cardan import Drive, InputError, equivalent_joint, load, save
-from cardan.drive.fields.tables import written
+from cardan.drive.fields.keys import written
 from cardan.io import dumps, example, example_names, example_text, loads, starter
 from cardan.io.edit import edit
 from cardan.io.examples import example_file

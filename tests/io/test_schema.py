@@ -11,7 +11,7 @@ import pytest
 
 from cardan.io import example_names, example_text, schema, starter
 from cardan.io.formats import FORMATS
-from cardan.io.reference import reference
+from cardan.io.schema import reference
 
 VALIDATOR = jsonschema.Draft202012Validator(schema())
 

@@ -9,8 +9,8 @@ import pytest
 from cardan import example
 from cardan.drive.station import Absorber, Pendulum
 from cardan.io import example_text, loads
-from cardan.io.stations import put_station, station_text
-from cardan.questions.torsion.absorber.hosts import hosts, hung
+from cardan.io.edit import put_station, station_text
+from cardan.questions.torsion.absorber.absorber_search import hosts, hung
 from cardan.questions.torsion.model.torsional_train import torsional_train
 
 THINGS = (

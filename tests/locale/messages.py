@@ -18,13 +18,11 @@ from babel.messages.pofile import read_po, write_po
 
 from cardan.calc import CALCULATIONS, GROUPS, Given
 from cardan.catalogue import catalogue
-from cardan.catalogue.rows import TABLES
-from cardan.catalogue.telling import SENTENCES, WORDS
+from cardan.catalogue.rows import SENTENCES, TABLES, WORDS
 from cardan.cli.files.example import about
 from cardan.io import example_names, example_text, mechanism_names, recording_names
-from cardan.io.reference import sections
-from cardan.mechanism.mechanism import Mechanism
-from cardan.mechanism.pair import Pair
+from cardan.io.schema import sections
+from cardan.mechanism.mechanism import Mechanism, Pair
 from cardan.reading.fields import fields_of
 from cardan.texts import DOMAIN, FOLDER, LANGUAGES, speaking
 from cardan.units import DIMENSIONS, LABELS

@@ -3,7 +3,7 @@ import itertools
 import pytest
 
 from cardan import InputError
-from cardan.mechanism.groups import group, minus_groups, zero_groups
+from cardan.mechanism.counting import group, minus_groups, zero_groups
 
 # Book Tables 2 and 3 as far as they are legible, completed by hand.
 ZERO = {

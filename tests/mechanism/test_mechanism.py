@@ -3,8 +3,7 @@ import pytest
 
 from cardan import InputError
 from cardan.maths.kernel import screws
-from cardan.mechanism.mechanism import Mechanism
-from cardan.mechanism.pair import PAIRS, axes
+from cardan.mechanism.mechanism import PAIRS, Mechanism, axes
 from tests.builders.mechanisms import anyhow, hooke, pair
 
 # tmm Table 1 and the Book: freedoms of each kind of pair.

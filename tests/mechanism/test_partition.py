@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cardan import InputError
-from cardan.mechanism.partition import Join, joins, partition
+from cardan.mechanism.counting import Join, joins, partition
 from tests.builders.mechanisms import hooke
 
 

@@ -4,8 +4,7 @@ from cardan.checks import check
 from cardan.checks.key_figures import key_figures as verdict_figures
 from cardan.drive.drive import Drive
 from cardan.report.answers import answered, subject
-from cardan.report.block import Cell
-from cardan.report.page import key_figures, key_table
+from cardan.report.block import Cell, key_figures, key_table
 
 PAGES = ("motion", "phasing", "articulation")
 

@@ -15,12 +15,9 @@ from cardan.io.edit import edit
 from cardan.questions.gathering import principal
 from cardan.register import QUESTIONS, groups
 from cardan.report import subject as subjects
-from cardan.report.answers import answered, subject
-from cardan.report.applying import Applicable, settings, synchronous
-from cardan.report.content import moved
-from cardan.report.lacking import told
-from cardan.report.lights import lights, sentence, with_remedies
-from cardan.report.loaded import loaded
+from cardan.report.answers import answered, subject, told
+from cardan.report.content import loaded, moved
+from cardan.report.lights import Applicable, lights, sentence, settings, synchronous, with_remedies
 from cardan.report.subject import Subject
 from cardan.units import deg
 

@@ -3,7 +3,7 @@
 from cardan.answers.answer import KeyFigure
 from cardan.answers.quantity import Quantity
 from cardan.io import example
-from cardan.report.page import key_figures
+from cardan.report.block import key_figures
 from tests.report.first_page import key_rows
 
 

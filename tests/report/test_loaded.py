@@ -8,14 +8,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from cardan.answers.numbers import significant
 from cardan.answers.quantity import told
-from cardan.answers.reader import USUAL
+from cardan.answers.reader import USUAL, significant
 from cardan.drive.accuracy import Error
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.movement import Hitch
-from cardan.figures.wording import percent
+from cardan.figures.axes import percent
 from cardan.io import example, example_names
 from cardan.maths.kernel import frames
 from cardan.questions.accuracy.tolerance import Linear, WorstCase, tolerance

@@ -10,7 +10,7 @@ import pytest
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.errors import InputError
-from cardan.figures.wording import percent
+from cardan.figures.axes import percent
 from cardan.io import example, example_names, example_text
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.report.block import Page, Words

@@ -17,8 +17,7 @@ from cardan.drive.pose import Pose
 from cardan.errors import InputError
 from cardan.figures import palette
 from cardan.io import example_names
-from cardan.scene.scene import scene
-from cardan.scene.utilisation import use_colour
+from cardan.scene.scene import scene, use_colour
 from cardan.units import deg
 
 SPATIAL = Drive.from_angles(

@@ -16,9 +16,8 @@ from cardan.units import spoken
 
 from . import answer
 from .answer import Depth, Tone
-from .numbers import spreadsheet
 from .quantity import Quantity, told
-from .reader import Reader
+from .reader import Reader, spreadsheet
 
 SIGNS: dict[Tone, str] = {"plain": "○", "good": "✓", "warning": "▲", "failed": "✖", "next": "→"}
 """Every tone by a sign too, never by colour alone."""

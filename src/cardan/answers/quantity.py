@@ -9,8 +9,7 @@ from typing import Any, TypeAlias
 
 from cardan.texts import _
 
-from .numbers import THIN
-from .reader import Reader
+from .reader import THIN, Reader
 
 ROUNDING = 1e-13
 """A share below this is nothing but rounding."""

@@ -13,24 +13,120 @@ from nicegui import ui
 from starlette.responses import Response
 
 from cardan.drive.bodies.solids import solids
+from cardan.errors import InputError
 from cardan.figures.drive import space_figure
 from cardan.figures.render_svg import inline_svg
-from cardan.io import example, example_names, example_text
+from cardan.io import example, example_names, example_text, starter
 from cardan.texts import _
 
+from .parts import widgets as toasts
 from .parts.answers import Answers
 from .parts.diagnosis import Diagnosis
 from .parts.download import Exports
 from .parts.editor import Editor
 from .parts.header import Header
-from .parts.keys import Keys
-from .parts.start import Start
-from .parts.timers import Timer
 from .parts.verdicts import Verdicts
 from .parts.view import View
+from .parts.widgets import Timer
 from .state.jobs import Jobs
 from .state.recordings import DIAGNOSIS
 from .state.session import Session
+
+# Keys for all of the page: undo, redo, save.
+
+PRESSED = """if (!window.cardanKeys) {
+  window.cardanKeys = true;
+  addEventListener('keydown', (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
+    const writing = event.target.closest('input, select, textarea, [contenteditable=true]');
+    const letter = (/^[a-z]$/i.test(event.key) ? event.key : event.code.replace('Key', '')).toLowerCase();
+    if (letter === 's') {
+      event.preventDefault();
+      if (!event.repeat) emitEvent('cardan-key', 'save');
+    } else if ((letter === 'z' || letter === 'y') && !writing) {
+      event.preventDefault();
+      emitEvent('cardan-key', letter === 'y' || event.shiftKey ? 'redo' : 'undo');
+    }
+  });
+}"""
+"""Tells which key was pressed: by its letter, or by its place where letters of another script are written."""
+
+
+class Keys:
+    """Listens to ctrl Z, ctrl shift Z, ctrl Y and ctrl S; inside a text the browser's own undo goes first.
+
+    It belongs to the window: parts of the page that are built anew do not bring another one.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        ui.on("cardan-key", lambda event: self._pressed(str(event.args)))
+        ui.run_javascript(PRESSED)
+
+    def _pressed(self, what: str) -> None:
+        if what == "save":
+            self._save()
+        elif what == "redo":
+            self.session.redo()
+        else:
+            self.session.undo()
+
+    def _save(self) -> None:
+        if self.session.empty:
+            return
+        with self.session.speaking():
+            try:
+                self.session.save(self.session.name or "drive.toml")
+                toasts.done(_("{name} is saved.").format(name=self.session.name))
+            except InputError as error:
+                toasts.refused(error)
+
+
+# An empty start: examples with pictures, the files of the folder, a new drive.
+
+FIRST = ("truck-printed-angles", "car-propshaft", "two-piece-rear-drive", "pto-drive", "mill-spindle", "truck-supports")
+"""Examples shown first."""
+
+
+class Start:
+    """What the user sees before a drive is open.
+
+    session: what the user will work on.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        with ui.element("main").classes("start"):
+            ui.label(_("Which drive?")).classes("title").props("role=heading aria-level=1")
+            with ui.row().classes("choices"):
+                ui.button(_("New drive"), icon="add", on_click=lambda: session.open(starter(), saved=False)).props(
+                    "no-caps unelevated"
+                ).props('data-mark="new"')
+                for name in session.workspace.names()[:6]:
+                    ui.button(name, icon="description", on_click=lambda name=name: self._open(name)).props(
+                        "no-caps outline"
+                    )
+            ui.label(_("Examples")).classes("head").props("role=heading aria-level=2")
+            with ui.element("div").classes("cards"):
+                for name in (*FIRST, *(one for one in example_names() if one not in FIRST)):
+                    self._card(name)
+
+    def _card(self, name: str) -> None:
+        drive = example(name)
+        with ui.element("button").classes("card").props(f'data-mark="example-{name}"') as card:
+            ui.element("img").props(f'src="/cardan-examples/{name}.svg" loading=lazy alt=""')
+            ui.label(drive.name or name).classes("head")
+            count = len(drive.joints)
+            ui.label(_("joints: {count}").format(count=count)).classes("hint")
+        card.on("click", lambda: self.session.open(example_text(name), saved=False))
+
+    def _open(self, name: str) -> None:
+        with self.session.speaking():
+            try:
+                self.session.open(self.session.workspace.read(name), name)
+            except InputError as error:
+                toasts.refused(error)
+
 
 STATIC = Path(__file__).parent / "static"
 

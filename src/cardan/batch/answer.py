@@ -12,9 +12,9 @@ from cardan.answers.answer import Answer, Column, Remark, Table
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.texts import _, plural
 
-from .plan import SweepWork
 from .search.answer import quantity, shown
 from .show_answer import counted, missing_rows, stored
+from .sweep import SweepWork
 from .table.swept import Sweep
 from .work import Column as Field
 

@@ -8,13 +8,12 @@ from cardan.answers.answer import Answer, Cell, Column, Table
 from cardan.answers.quantity import Quantity, say
 from cardan.answers.question import Lacking
 from cardan.drive.drive import Drive
-from cardan.drive.models.laws import unmapped
-from cardan.questions.motion.equivalence import SYNCHRONOUS
-from cardan.questions.motion.rounding import each_uniform
+from cardan.drive.models.chain import unmapped
+from cardan.questions.motion.equivalence import SYNCHRONOUS, each_uniform
 from cardan.texts import _
 
 from .comparison import BookComparison, book_comparison
-from .figures.comparison import book_figure
+from .figure import book_figure
 
 ALIKE = 5e-4
 """Share of the exact value below which an approximation agrees with it to three digits."""

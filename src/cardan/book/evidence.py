@@ -16,7 +16,7 @@ from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.motion import motion
 from cardan.texts import _
 
-from .forms import blokh
+from .comparison import blokh
 
 ROUNDING = 1e-13
 """Rounding that a chain of products may gather, before it is scaled by how steep the motion is."""

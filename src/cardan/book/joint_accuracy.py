@@ -8,7 +8,7 @@ import numpy as np
 
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
-from cardan.maths.curves.peaks import peaks
+from cardan.maths.curves.extremes import peaks
 from cardan.maths.kernel import loops
 from cardan.questions.accuracy.accuracy import one_turn
 from cardan.questions.accuracy.sampling import MonteCarlo, drawn

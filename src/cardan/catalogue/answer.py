@@ -12,8 +12,7 @@ from cardan.texts import _, mark, plural
 from cardan.units import preferred
 
 from .catalogue import Catalogue, catalogue
-from .rows import TABLES, Row
-from .telling import row_flat, row_keys, row_tree
+from .rows import TABLES, Row, row_flat, row_keys, row_tree
 
 HIDDEN = ("confidence", "names", "russian", "uses", "parts", "family", "pair_mobility", "poisson", "density_kg_m3")
 """Keys that stand only in a single row and in files."""

@@ -13,7 +13,7 @@ from cardan.drive.models.chain import Chain, turning
 from cardan.drive.models.geometry import geometry_from_points
 from cardan.drive.movement import Movement
 from cardan.maths.arrays import Array
-from cardan.maths.curves.series import turning_points
+from cardan.maths.curves.extremes import turning_points
 from cardan.maths.kernel import frames
 from cardan.questions.motion.moving_chain import moving_shafts
 from cardan.questions.motion.moving_points import default_times, moving_points

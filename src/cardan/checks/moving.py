@@ -16,8 +16,7 @@ from cardan.questions.motion.standing import steepest, still
 from cardan.texts import _
 
 from .design import Design
-from .told import joined
-from .verdict import Verdict
+from .verdict import Verdict, joined
 
 WORSE = 1.0 + 1e-9
 """A pose is worse than another from here on; less is rounding."""

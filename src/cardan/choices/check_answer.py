@@ -12,14 +12,15 @@ from cardan.answers.quantity import Say, say
 from cardan.answers.question import Lacking
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import Catalogue
-from cardan.checks.alike import alike, title_of
 from cardan.checks.checks import CHECKS, check
 from cardan.checks.figure import check_figures
 from cardan.checks.key_figures import key_figures
 from cardan.checks.verdict import Verdict
 from cardan.checks.verdict_table import (
+    alike,
     missing_table,
     share,
+    title_of,
     unconfirmed_remark,
     verdict_key,
     verdict_records,
@@ -27,12 +28,10 @@ from cardan.checks.verdict_table import (
 )
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
-from cardan.drive.fields.paths import bare_path
-from cardan.drive.fields.words import in_words
+from cardan.drive.fields.paths import bare_path, in_words
 from cardan.texts import _, mark, plural
 
-from .change import Remedy, typed
-from .remedy import most_helpful, remedies
+from .remedy import Remedy, most_helpful, remedies, typed
 
 REMEDIES = 3
 """Remedies shown of each failed verdict; programs get all."""

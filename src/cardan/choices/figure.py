@@ -12,7 +12,7 @@ from cardan.figures.palette import DASHES
 from cardan.texts import _
 from cardan.units import rpm
 
-from .sized import Sizing
+from .size_search import Sizing
 from .trade_off import TradeOff
 
 MOST_USED = 2.0

@@ -15,8 +15,7 @@ from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.texts import _, plural
 
-from .selection import Candidate, JointDuty, select_joint
-from .selection_reasons import Reason, SizeFit, fitting_sizes, joint_duty, reasons
+from .selection import Candidate, JointDuty, Reason, SizeFit, fitting_sizes, joint_duty, reasons, select_joint
 
 TONES: dict[str, Tone] = {"ok": "good", "conditional": "warning", "rejected": "failed"}
 

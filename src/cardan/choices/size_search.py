@@ -1,9 +1,11 @@
-"""The smallest size at which checks pass: many sizes judged at once, the range narrowed down to the last digits."""
+"""The smallest size at which checks pass: many sizes at once, those that are made, and what stood before."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -16,9 +18,6 @@ from cardan.errors import InputError, Problem, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost_of
 from cardan.texts import _
-
-from .preferred import SLACK, round_up
-from .sized import CHECKS, STEPS, Sizing, used
 
 REACH = (1e-4, 1e4)
 """Smallest and largest share of the size tried first that are looked at."""
@@ -188,3 +187,172 @@ def _made(path: str, value: float, series: str) -> float:
 def _bare(path: str) -> str:
     """Return the name of the key of a path without its unit."""
     return path.rpartition(".")[2].rpartition("_")[0]
+
+
+# Sizes that are made: preferred numbers, and steps of a drawing.
+
+R20 = (1.0, 1.12, 1.25, 1.4, 1.6, 1.8, 2.0, 2.24, 2.5, 2.8, 3.15, 3.55, 4.0, 4.5, 5.0, 5.6, 6.3, 7.1, 8.0, 9.0)
+"""Preferred numbers of ISO 3, series R20."""
+
+SERIES = ("step", "R20", "R10", "R40")
+"""What sizes can be rounded up to: steps of a drawing, or preferred numbers."""
+
+SLACK = 1e-9
+"""A size may be above a preferred one by this share: what is left of rounding."""
+
+R40 = tuple(
+    sorted(
+        {
+            *R20,
+            1.06,
+            1.18,
+            1.32,
+            1.5,
+            1.7,
+            1.9,
+            2.12,
+            2.36,
+            2.65,
+            3.0,
+            3.35,
+            3.75,
+            4.25,
+            4.75,
+            5.3,
+            6.0,
+            6.7,
+            7.5,
+            8.5,
+            9.5,
+        }
+    )
+)
+
+ROWS = {"R10": R20[::2], "R20": R20, "R40": R40}
+
+
+def round_up(value: float, *, step: float, series: str = "step") -> float:
+    """Return the smallest size that is made and no smaller than a value.
+
+    value: above zero; step: step of the drawing, in the unit of the value; series: one of `SERIES`.
+    """
+    if series not in SERIES:
+        names = ", ".join(SERIES)
+        raise refuse("series", _("{value} is none of {choices}").format(value=repr(series), choices=names))
+    if series == "step":
+        digits = max(0, 3 - math.floor(math.log10(step)))
+        return round(step * math.ceil(value / step * (1.0 - SLACK)), digits)
+    decade = 10.0 ** math.floor(math.log10(value))
+    row = (*ROWS[series], 10.0)
+    return float(f"{decade * next(one for one in row if one * decade * (1.0 + SLACK) >= value):.6g}")
+
+
+# What a part was sized to, by which checks, and what stood before.
+
+Hold: TypeAlias = Literal["ratio", "wall", "outer"]
+
+HOLDS: tuple[Hold, ...] = ("ratio", "wall", "outer")
+"""What a tube keeps while it is sized: its wall over its outer diameter, its wall, its outer diameter."""
+
+PARTS = ("tube", "shaft", "journal", "needles", "joint")
+"""What can be sized."""
+
+CHECKS = {
+    "tube": ("tube_strength", "tube_fatigue", "tube_buckling", "twist", "critical_speed"),
+    "shaft": ("tube_strength", "tube_fatigue", "twist", "critical_speed"),
+    "journal": ("journal_strength",),
+    "needles": ("bearing_life", "needle_static"),
+    "joint": (
+        "joint_angle",
+        "joint_torque",
+        "rated_torque",
+        "max_speed",
+        "speed_angle",
+        "rim_speed",
+        "journal_strength",
+        "yoke_strength",
+        "needle_static",
+        "bearing_life",
+    ),
+}
+"""Part -> checks that its size must pass."""
+
+STEPS = {
+    "outer": 1.0,
+    "inner": 1.0,
+    "wall": 0.1,
+    "ply_thickness": 0.01,
+    "journal": 0.5,
+    "capacity": 100.0,
+    "static_capacity": 100.0,
+}
+"""Steps of a drawing, by the key that is sized, in its unit: mm and N."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Tried:
+    """A size of the catalogue and what the checks say of it."""
+
+    id: str
+    outer: float  # outer, mass [m, kg]: nan where the catalogue does not say
+    mass: float  # [kg]
+    utilisation: float  # largest of the checks that could be judged; nan where none could
+    passed: bool
+    worst: Verdict | None = None  # the check with the largest utilisation
+    missing: tuple[str, ...] = ()  # paths for want of which some checks could not be judged
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Sizing:
+    """The smallest size of a part that passes.
+
+    Attributes
+    ----------
+    part, subject : str
+        What was sized, as ``tube`` and ``shafts[1]``; the subject is empty for all joints alike.
+    exact : mapping of str to float
+        Paths with units -> the values at which the part is just at its limit.
+    values : mapping of str to float, str or None
+        The same as they are made, rounded up; the row of the catalogue of a joint; None where a key is to be left out.
+    before : mapping of str to float or None
+        What the drive says now.
+    limits : tuple of Verdict
+        Of the checks that count, at the exact size; at the chosen one for a joint.
+    made : tuple of Verdict
+        The same for the part as it is made.
+    drive : Drive
+        With the part as it is made.
+    tried : tuple of Tried
+        Sizes of the catalogue, the smallest first.
+    skipped : tuple of str
+        Paths for want of which some checks do not count.
+    series : str
+        What the sizes were rounded up to.
+    """
+
+    part: str
+    subject: str
+    exact: Mapping[str, float]
+    values: Mapping[str, float | str | None]
+    before: Mapping[str, float | str | None]
+    limits: tuple[Verdict, ...]
+    made: tuple[Verdict, ...]
+    drive: Drive
+    tried: tuple[Tried, ...] = ()
+    skipped: tuple[str, ...] = ()
+    series: str = "step"
+
+    @property
+    def governing(self) -> Verdict | None:
+        """The check that decides the size."""
+        return foremost_of(self.limits, used) if self.limits else None
+
+    @property
+    def found(self) -> bool:
+        """Whether any size passes."""
+        return bool(self.values)
+
+
+def used(verdict: Verdict) -> float:
+    """Return the largest utilisation of a verdict."""
+    return float(np.max(verdict.utilisation))

@@ -19,7 +19,7 @@ from cardan.texts import _
 from cardan.units import factor
 
 from .figure import sizing_figures, trade_off_figures
-from .sized import Sizing, Tried
+from .size_search import Sizing, Tried
 from .trade_off import trade_off
 
 

@@ -20,7 +20,7 @@ from cardan.texts import _
 from .drive import Drive
 from .duty import Case, Duty, Harmonic
 from .fields.paths import pose_drives
-from .models.forms import in_form
+from .models.geometry import in_form
 
 ROUNDING = 1e-9
 """What is left of the time by less than this is none."""

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
-from cardan.answers.numbers import significant
+from cardan.answers.reader import raised, significant
 from cardan.maths.arrays import Array
+from cardan.texts import _
 
 from .figure import Axis
+from .palette import DASHES
 
 
 def steps(low: float, high: float, count: int = 5) -> tuple[float, ...]:
@@ -103,3 +106,79 @@ def angle_axis(label: str, stop: float = 360.0) -> Axis:
     """Return the axis of an angle of rotation [°], marked every eighth of a turn."""
     ticks = tuple(float(k) for k in range(0, int(stop) + 1, 45 if stop <= 360.0 else 90))
     return Axis(label=label, unit="deg", dimension="angle", low=0.0, high=stop, ticks=ticks, texts=written(ticks))
+
+
+# Numbers as people read them.
+
+
+def percent(share: float, digits: int = 3) -> str:
+    """Return a share in percent; what is nothing but rounding is 0."""
+    if abs(share) < 1e-13:
+        return "0 %"
+    return f"{significant(100.0 * share, digits)} %"
+
+
+def powers_of_ten(values: Sequence[float]) -> tuple[str, ...]:
+    """Return powers of ten, in full where all of them are short.
+
+    >>> powers_of_ten((0.01, 1.0)), powers_of_ten((1e-6, 1.0))
+    (('0.01', '1'), ('10⁻⁶', '10⁰'))
+    """
+    powers = [round(math.log10(value)) for value in values]
+    if all(-3 < power < 4 for power in powers):
+        return tuple(f"{value:g}" for value in values)
+    return tuple(f"10{raised(power)}" for power in powers)
+
+
+# What figures over the input angle share: the axis, and how shafts and supports are called.
+
+LONG = 24
+"""Letters of a name in a legend."""
+
+
+def across(angle: Array, *, named: bool = False) -> Axis:
+    """Return the axis of the input angle [°]; without name and unit where a panel below carries them.
+
+    angle (p,): input angles [°]; named: write what runs along it.
+    """
+    label = _("input angle φ₁ from the start position") if named else ""
+    stop = float(np.max(angle)) if angle.size else 360.0
+    if float(np.min(angle, initial=0.0)) < 0.0 or stop > 1080.0 or stop < 45.0:
+        made = axis(label, "deg", [angle], dimension="angle", margin=0.0, least=1.0)
+    else:
+        made = angle_axis(label, stop)
+    bare = Axis(low=made.low, high=made.high, ticks=made.ticks, texts=made.texts)
+    return replace(made if named else bare, turning=True)
+
+
+def shaft_name(number: int, count: int) -> str:
+    """Return what a shaft is called in a legend.
+
+    >>> shaft_name(1, 3), shaft_name(2, 3), shaft_name(3, 3)
+    ('shaft 1, input', 'shaft 2', 'shaft 3, output')
+    """
+    if number == 1:
+        return _("shaft 1, input")
+    if number == count:
+        return _("shaft {number}, output").format(number=number)
+    return _("shaft {number}").format(number=number)
+
+
+def support_name(number: int, shaft: int, name: str = "") -> str:
+    """Return what a support is called in a legend.
+
+    >>> support_name(3, 2), support_name(3, 2, "centre bearing")
+    ('support 3 on shaft 2', '3 centre bearing')
+    """
+    if name:
+        return f"{number} {name if len(name) <= LONG else name[: LONG - 1] + '…'}"
+    return _("support {number} on shaft {shaft}").format(number=number, shaft=shaft)
+
+
+def support_dashes(shafts: Sequence[int]) -> tuple[str, ...]:
+    """Return how the curve of every support is drawn: in the colour of its shaft, the second on it dashed, and so on.
+
+    >>> support_dashes([1, 1, 2])
+    ('solid', 'dashed', 'solid')
+    """
+    return tuple(DASHES[list(shafts[:k]).count(shaft) % len(DASHES)] for k, shaft in enumerate(shafts))

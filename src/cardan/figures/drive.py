@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.answers.numbers import fixed, half_turn
+from cardan.answers.reader import fixed, half_turn
 from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.maths.arrays import Array
@@ -21,8 +21,8 @@ from cardan.units import mm
 
 from .axes import steps, written
 from .figure import Axis, Curve, Figure, Mesh, Note, Panel, Row, Series, View
+from .page import onto
 from .palette import shaft as role_of
-from .projection import onto
 
 SIDE = View(right=(1.0, 0.0, 0.0), up=(0.0, 0.0, 1.0))
 PLAN = View(right=(1.0, 0.0, 0.0), up=(0.0, 1.0, 0.0))

@@ -17,8 +17,7 @@ from matplotlib.ticker import NullLocator
 
 from . import palette
 from .figure import Axis, Band, Bars, Cells, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
-from .page import LINE, Box, Entry, Label, Page, labels, laid_out, ranges
-from .projection import facets, onto
+from .page import LINE, Box, Entry, Label, Page, facets, labels, laid_out, onto, ranges
 
 Format: TypeAlias = Literal["png", "pdf"]
 

@@ -12,8 +12,7 @@ from cardan.maths.arrays import Array
 
 from . import palette
 from .figure import Axis, Band, Bars, Cells, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
-from .page import LINE, Box, Entry, Label, Page, labels, laid_out, ranges, share
-from .projection import facets, onto
+from .page import LINE, Box, Entry, Label, Page, facets, labels, laid_out, onto, ranges, share
 
 FONTS = "'Inter', 'Segoe UI', 'Helvetica Neue', Arial, 'DejaVu Sans', sans-serif"
 """Fonts of the words: that of the page they stand in, the widest one last, for which room is left."""

@@ -8,7 +8,7 @@ from enum import IntEnum
 from cardan.drive.models.train import FIT
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
-from cardan.maths.curves.quadrature import mean_between
+from cardan.maths.curves.over_turn import mean_between
 from cardan.maths.kernel.elliptic import complete
 from cardan.texts import _
 

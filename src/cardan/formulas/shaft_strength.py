@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from statistics import NormalDist
 
+from cardan.drive.shaft import Layup
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
+from cardan.maths.linear.laminate import PlyStiffness, laminate_moduli
+from cardan.units import mm
 
 RATED_TWIST = math.radians(9.0)
 """Largest twist of a drive's shafts by the book, p. 228 [rad]."""
@@ -130,3 +134,265 @@ def wall_buckling_torque(outer: ArrayLike, inner: ArrayLike, youngs: ArrayLike, 
     radius, wall = 0.25 * (outer + inner), 0.5 * (outer - inner)
     stress = youngs * (wall / radius) ** 1.5 / (3.0 * math.sqrt(2.0) * (1.0 - poisson**2) ** 0.75)
     return 2.0 * math.pi * radius**2 * wall * stress
+
+
+# Fatigue of a shaft under swinging torque and the bending that turns with it: Marin's factors and Goodman's line.
+
+MPA = 1e6
+
+FINISHES = {
+    "ground": (1.58, -0.085),
+    "machined": (4.51, -0.265),
+    "hot_rolled": (57.7, -0.718),
+    "forged": (272.0, -0.995),
+}
+"""Surface factor k_a = a S_ut^b, S_ut in MPa: Shigley, table 6-2."""
+
+RELIABILITIES = {0.5: 1.0, 0.9: 0.897, 0.95: 0.868, 0.99: 0.814, 0.999: 0.753, 0.9999: 0.702, 0.99999: 0.659}
+"""Reliability factor k_e: Shigley, table 6-5."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Fatigue:
+    """Fatigue of a shaft, arrays (...)."""
+
+    endurance: Array  # (...) [Pa]: S_e, fatigue limit of the part
+    alternating: Array  # alternating, mean (...) [Pa]: equivalent stresses by von Mises
+    mean: Array  # (...) [Pa]
+    safety: Array  # (...): against fatigue, by Goodman
+    yield_safety: Array  # (...): against yielding in the first cycle
+    # (...): life; infinite where the safety is 1 and more, 0 where the mean stress alone breaks the shaft
+    cycles: Array
+
+
+def reliability_factor(reliability: float) -> float:
+    """Return k_e, straight over the normal quantile between the values of the table.
+
+    reliability: share of parts that last, from 0.5 to 0.99999.
+
+    >>> reliability_factor(0.99), round(reliability_factor(0.98), 3)
+    (0.814, 0.836)
+    """
+    if reliability in RELIABILITIES:
+        return RELIABILITIES[reliability]
+    places = [NormalDist().inv_cdf(share) for share in RELIABILITIES]
+    factors = list(RELIABILITIES.values())
+    at = NormalDist().inv_cdf(reliability)
+    right = next((k for k, place in enumerate(places) if place >= at), len(places) - 1)
+    left = max(right - 1, 0)
+    share = (at - places[left]) / (places[right] - places[left])
+    return factors[left] + share * (factors[right] - factors[left])
+
+
+def shaft_fatigue(
+    *,
+    mean_torque: ArrayLike,
+    swinging_torque: ArrayLike,
+    mean_bending: ArrayLike,
+    swinging_bending: ArrayLike,
+    outer: ArrayLike,
+    inner: ArrayLike,
+    ultimate: ArrayLike,
+    yield_strength: ArrayLike,
+    finish: str,
+    bending_notch: ArrayLike = 1.0,
+    torsion_notch: ArrayLike = 1.0,
+    reliability: float = 0.9,
+) -> Fatigue:
+    """Return the fatigue of a round shaft; a secondary couple turns with the shaft and swings fully.
+
+    Parameters
+    ----------
+    mean_torque, swinging_torque, mean_bending, swinging_bending : array (...) [N·m]
+        T_m, T_a, M_m, M_a.
+    outer, inner : array (...) [m]
+    ultimate, yield_strength : array (...) [Pa]
+        S_ut ≥ S_y.
+    finish : str
+        Key of `FINISHES`.
+    bending_notch, torsion_notch : array (...)
+        K_f and K_fs.
+    reliability : float
+        Share of parts that last.
+
+    Notes
+    -----
+    S_e = k_a k_b k_e min(0.5 S_ut, 700 MPa); k_b = 1 below 2.79 mm, 1.24 d^-0.107 up to 51 mm, 1.51 d^-0.157 above.
+    Goodman: n = 1/(σ_a/S_e + σ_m/S_ut). Below 1 the life is (σ_r/A)^(1/B), σ_r = σ_a/(1 - σ_m/S_ut),
+    A = (0.9 S_ut)²/S_e, B = -⅓ lg(0.9 S_ut/S_e). Sources: Shigley, chapter 6.
+
+    Examples
+    --------
+    >>> one = shaft_fatigue(mean_torque=2000.0, swinging_torque=600.0, mean_bending=0.0, swinging_bending=350.0,
+    ...     outer=0.075, inner=0.070, ultimate=410e6, yield_strength=245e6, finish="hot_rolled",
+    ...     bending_notch=1.3, torsion_notch=1.2)
+    >>> round(float(one.safety), 4), round(float(one.cycles))
+    (0.8186, 123411)
+    """
+    t_mean, t_swing, m_mean, m_swing = floats(mean_torque, swinging_torque, mean_bending, swinging_bending)
+    outer, ultimate, strength, kf, kfs = floats(outer, ultimate, yield_strength, bending_notch, torsion_notch)
+    xp = namespace(outer)
+    modulus = torsion_modulus(outer, inner)
+    scale, exponent = FINISHES[finish]
+    wide = outer / mm
+    size = xp.where(wide <= 51.0, 1.24 * wide**-0.107, 1.51 * wide**-0.157)
+    size = xp.where(wide < 2.79, 1.0, size)
+    surface = xp.minimum(scale * (ultimate / MPA) ** exponent, 0.0 * ultimate + 1.0)
+    endurance = surface * size * reliability_factor(reliability) * xp.minimum(0.5 * ultimate, 0.0 * ultimate + 700e6)
+    joint_angle_swing, joint_angle_mean = 2.0 * m_swing / modulus, 2.0 * m_mean / modulus
+    twist_swing, twist_mean = t_swing / modulus, t_mean / modulus
+    alternating = xp.sqrt((kf * joint_angle_swing) ** 2 + 3.0 * (kfs * twist_swing) ** 2)
+    mean = xp.sqrt((kf * joint_angle_mean) ** 2 + 3.0 * (kfs * twist_mean) ** 2)
+    use = alternating / endurance + mean / ultimate
+    most = xp.sqrt(
+        (kf * (xp.abs(joint_angle_mean) + joint_angle_swing)) ** 2
+        + 3.0 * (kfs * (xp.abs(twist_mean) + twist_swing)) ** 2
+    )
+    level = 0.9 * ultimate / endurance
+    rest = xp.where(mean < ultimate, 1.0 - mean / ultimate, 1.0)
+    slope = -xp.log10(level) / 3.0
+    reversed_stress = xp.where(alternating > 0.0, alternating, 1.0) / rest
+    cycles = (reversed_stress / (level * 0.9 * ultimate)) ** (1.0 / slope)
+    cycles = xp.where(use <= 1.0, math.inf, xp.where(mean >= ultimate, 0.0, cycles))
+    unloaded = xp.where(use > 0.0, use, 1.0)
+    stressed = xp.where(most > 0.0, most, 1.0)
+    return Fatigue(
+        endurance=endurance,
+        alternating=alternating,
+        mean=mean,
+        safety=xp.where(use > 0.0, 1.0 / unloaded, math.inf),
+        yield_safety=xp.where(most > 0.0, strength / stressed, math.inf),
+        cycles=cycles,
+    )
+
+
+# Tube of fibre composite: its moduli, mass and the torque at which it buckles.
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompositeTube:
+    """Figures of a thin tube of composite."""
+
+    along: float  # along, around, shear [Pa]: E_x along the axis, E_y around it, G_xy
+    around: float  # [Pa]
+    shear: float  # [Pa]
+    thickness: float  # [m]: of the wall
+    mass_per_length: float  # [kg/m]
+    buckling_torque: float  # [N·m]: torque at which the wall buckles
+
+
+def composite_tube(layup: Layup, mean_diameter: float) -> CompositeTube:
+    """Return the figures of a tube of composite.
+
+    Parameters
+    ----------
+    layup : Layup
+    mean_diameter : float [m]
+        Of the middle of the wall.
+
+    Notes
+    -----
+    T_b = 2π r² t·0.272 (E_x E_y³)^(1/4) (t/r)^(3/2); 0.272 is a figure of the literature, the classical one of an
+    isotropic tube is 0.253. Only stiffness: no ply strength is checked.
+
+    Examples
+    --------
+    >>> from cardan.drive.shaft import Ply
+    >>> ply = Ply(along=135e9, across=10e9, shear=5e9, poisson=0.3)
+    >>> layup = Layup(angles=(0.0, math.pi / 4, -math.pi / 4, math.pi / 2), ply_thickness=0.0005, ply=ply)
+    >>> round(composite_tube(layup, 0.09).buckling_torque, 1)
+    3398.4
+    """
+    plies = len(layup.angles)
+    thickness = plies * layup.ply_thickness
+    stiff = PlyStiffness(layup.ply.along, layup.ply.across, layup.ply.shear, layup.ply.poisson)
+    along, around, shear = laminate_moduli(layup.angles, [layup.ply_thickness] * plies, stiff)
+    radius = 0.5 * mean_diameter
+    buckling = 2.0 * math.pi * radius**2 * thickness * 0.272 * (along * around**3) ** 0.25 * (thickness / radius) ** 1.5
+    return CompositeTube(
+        along=float(along),
+        around=float(around),
+        shear=float(shear),
+        thickness=thickness,
+        mass_per_length=2.0 * math.pi * radius * thickness * layup.ply.density,
+        buckling_torque=float(buckling),
+    )
+
+
+# Torque a vehicle's shaft must carry: what the engine brings, and what the wheels can pass to the road.
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DesignTorque:
+    """Torques at a shaft, arrays (...) [N·m]."""
+
+    drive: Array  # (...): what the engine brings through the gears
+    adhesion: Array | None  # (...): what the wheels can pass on; None where their load, radius or adhesion is not given
+    design: Array  # (...): factor for jerks times the smaller one
+    by_adhesion: Array  # (...) of bool: whether adhesion is the smaller one
+
+
+def design_torque(
+    engine_torque: ArrayLike,
+    *,
+    halfshaft: bool,
+    gear_ratio: ArrayLike,
+    axle_ratio: ArrayLike,
+    efficiency: ArrayLike = 1.0,
+    split_fraction: ArrayLike = 1.0,
+    dynamic_factor: ArrayLike = 1.0,
+    wheel_load: ArrayLike | None = None,
+    friction: ArrayLike | None = None,
+    wheel_radius: ArrayLike | None = None,
+) -> DesignTorque:
+    """Return the design torque of a propeller shaft or a half-shaft.
+
+    Parameters
+    ----------
+    engine_torque : array (...) [N·m]
+        M_e.
+    halfshaft : bool
+        Behind the axle's gear; else before it.
+    gear_ratio, axle_ratio : array (...)
+        i_g and i_0.
+    efficiency, split_fraction, dynamic_factor : array (...)
+        η, share of the torque that this shaft carries, k_d.
+    wheel_load : array (...) [N], optional
+        W on the wheels that this shaft drives.
+    friction : array (...), optional
+        μ of these wheels.
+    wheel_radius : array (...) [m], optional
+        r.
+
+    Notes
+    -----
+    Propeller shaft: T = M_e i_g η split, limited by μ W r/i_0; half-shaft: T = M_e i_g i_0 η split, limited by μ W r.
+
+    Examples
+    --------
+    >>> float(design_torque(162.0, halfshaft=True, gear_ratio=2.75, axle_ratio=4.25, split_fraction=0.5).design)
+    946.6875
+    """
+    torque, gear, axle, efficiency, split, factor = floats(
+        engine_torque, gear_ratio, axle_ratio, efficiency, split_fraction, dynamic_factor
+    )
+    xp = namespace(torque)
+    drive = torque * gear * efficiency * split * (axle if halfshaft else 1.0)
+    if wheel_load is None or friction is None or wheel_radius is None:
+        return DesignTorque(drive=drive, adhesion=None, design=factor * drive, by_adhesion=drive != drive)
+    load, grip, radius = floats(wheel_load, friction, wheel_radius)
+    adhesion = grip * load * radius / (1.0 if halfshaft else axle)
+    smaller = xp.minimum(drive, adhesion)
+    return DesignTorque(drive=drive, adhesion=adhesion, design=factor * smaller, by_adhesion=adhesion < drive)
+
+
+def wheel_load(torque: ArrayLike, friction: ArrayLike, wheel_radius: ArrayLike) -> Array:
+    """Return the load on the wheels that a torque at them needs, T/(μ r) [N].
+
+    Examples
+    --------
+    >>> round(float(wheel_load(946.6875, 0.6, 0.325)), 1)
+    4854.8
+    """
+    torque, friction, wheel_radius = floats(torque, friction, wheel_radius)
+    return torque / (friction * wheel_radius)

@@ -12,7 +12,7 @@ from cardan.reading.fields import Field, fields_of
 from cardan.texts import _
 from cardan.units import DIMENSIONS, label
 
-from .writer import whole
+from .drive_file import whole
 
 MOST = 12
 """Significant digits that count: 20° and 20° calculated otherwise are the same."""

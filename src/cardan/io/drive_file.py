@@ -10,14 +10,13 @@ from typing import Any
 
 from cardan.catalogue import Catalogue, catalogue, completed, shortened, with_files
 from cardan.drive.drive import Drive
-from cardan.drive.fields.tables import tree_of
+from cardan.drive.fields.keys import tree_of
 from cardan.errors import Problem, check, refuse
 from cardan.files import Enclosed, folder_of, refusal
 from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _
 
-from .reader import drive_from_tree
-from .writer import toml_text
+from .reader import drive_from_tree, read_as
 
 MAX_BYTES = 20_000_000
 """Larger files are refused; no more of them is read."""
@@ -177,3 +176,148 @@ def _once(pairs: list[tuple[str, Any]], twice: list[str]) -> dict[str, Any]:
             twice.append(key)
         table[key] = value
     return table
+
+
+# From nested tables to the text of a drive file or mechanism file.
+
+
+def toml_text(tree: Mapping[str, Any]) -> str:
+    """Return nested tables as TOML: values first, then tables, then lists of tables."""
+    lines: list[str] = []
+    _emit(tree, "", lines)
+    return "\n".join(lines).strip() + "\n"
+
+
+def _emit(table: Mapping[str, Any], path: str, lines: list[str]) -> None:
+    for key, value in table.items():
+        if isinstance(value, Mapping) and not path and key in ("input", "output"):
+            lines += [f"{key}.{inner} = {_toml(item)}" for inner, item in value.items()]
+        elif not path and isinstance(value, str) and "\n" in value:
+            lines.append(f"{_key(key)} = {_paragraphs(value)}")
+        elif path or not (isinstance(value, Mapping) or _is_tables(value)):
+            lines.append(f"{_key(key)} = {_toml(value)}")
+    if path:
+        return
+    for key, value in table.items():
+        if isinstance(value, Mapping) and key not in ("input", "output"):
+            lines += ["", f"[{key}]"]
+            _emit(value, key, lines)
+        elif _is_tables(value):
+            for item in value:
+                lines += ["", f"[[{key}]]"]
+                _emit(item, key, lines)
+
+
+def _is_tables(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and isinstance(value[0], Mapping)
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, list):
+        return "[" + ", ".join(_toml(item) for item in value) + "]"
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{_key(key)} = {_toml(item)}" for key, item in value.items()) + " }"
+    return repr(whole(value))
+
+
+def whole(value: Any) -> Any:
+    """Return a whole number without a point, all else as it is."""
+    return int(value) if isinstance(value, float) and value.is_integer() and abs(value) < 1e15 else value
+
+
+def _paragraphs(text: str) -> str:
+    """Return a text of several lines as one that a reader of the file sees as such."""
+    body = "\n".join(_toml(line)[1:-1] for line in text.split("\n"))
+    return f'"""\n{body}"""'
+
+
+def _key(key: str) -> str:
+    plain = key and all(c.isascii() and (c.isalnum() or c in "_-") for c in key)
+    return key if plain else json.dumps(key, ensure_ascii=False)
+
+
+# The mechanism file: links and pairs of any mechanism, load and save as a drive.
+
+
+def load_mechanism(path: str | Path) -> Mechanism:
+    """Return the mechanism a file describes.
+
+    Parameters
+    ----------
+    path : str or Path
+        A ``.toml`` file, or ``.json`` with the same tables.
+
+    Returns
+    -------
+    Mechanism
+        In SI, in its assembled position.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, is no TOML, or describes no mechanism; every problem at once, each with its path.
+
+    See Also
+    --------
+    load, mobility
+
+    Examples
+    --------
+    >>> import cardan
+    >>> cardan.mechanisms.load_mechanism("slider.toml").links  # doctest: +SKIP
+    ('crank', 'rod', 'piston')
+    """
+    where = Path(path)
+    text, form = text_of(where)
+    return loads_mechanism(text, form=form, name=str(where))
+
+
+def loads_mechanism(text: str, *, form: str = "toml", name: str = "file") -> Mechanism:
+    """Return the mechanism a text describes.
+
+    Parameters
+    ----------
+    text : str
+        The mechanism file.
+    form : str
+        ``"toml"`` or ``"json"``.
+    name : str
+        What messages call the text.
+
+    Raises
+    ------
+    InputError
+        Every problem of the text at once.
+
+    Examples
+    --------
+    >>> from cardan.io import dumps
+    >>> from cardan.mechanism.mechanism import Pair
+    >>> hinge = Pair(id="hinge", type="R", links=("wall", "door"), point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0))
+    >>> text = dumps(Mechanism(frame="wall", joints=(hinge,)))
+    >>> loads_mechanism(text).links
+    ('door',)
+    """
+    tree = parsed(text, form, name)
+    if not describes_mechanism(tree):
+        raise refuse(name, _("describes no mechanism: it names neither a frame nor the links of its joints"))
+    mechanism: Mechanism = read_as(Mechanism, tree)
+    return mechanism
+
+
+def load_either(path: str | Path) -> Drive | Mechanism:
+    """Return the drive or the mechanism that a file describes; see `cardan.io.drive_file.load`."""
+    where = Path(path)
+    text, form = text_of(where)
+    return loads_either(text, folder=where.parent, form=form, name=str(where))
+
+
+def loads_either(text: str, *, folder: str | Path = ".", form: str = "toml", name: str = "file") -> Drive | Mechanism:
+    """Return the drive or the mechanism that a text describes; see `cardan.io.drive_file.loads`."""
+    if describes_mechanism(parsed(text, form, name)):
+        return loads_mechanism(text, form=form, name=name)
+    return loads(text, folder=folder, form=form, name=name)

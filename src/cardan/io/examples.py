@@ -8,11 +8,10 @@ from pathlib import Path
 from cardan.drive.drive import Drive
 from cardan.errors import refuse
 from cardan.mechanism.mechanism import Mechanism
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import nearest
 
-from .drive_file import load
-from .mechanism_file import load_mechanism
+from .drive_file import load, load_mechanism
 
 
 @cache
@@ -135,3 +134,89 @@ def example_mechanism(name: str) -> Mechanism:
     ('shaft 1', 'cross', 'shaft 2')
     """
     return load_mechanism(example_file(name))
+
+
+# The file that ``cardan init`` writes.
+
+STARTER = mark("""\
+# A drive file of cardan. Every key carries its unit; any usual one will do (_mm, _m, _in; _deg, _rad; _rpm, _rad_s).
+# Lengths along x run with the power flow, y to the left, z up. Shaft 1 is the input shaft, joints are numbered along
+# the power flow; shaft k lies between joint k-1 and joint k.
+
+format = 1
+name = "my drive"
+
+# --- Geometry by joint centres -------------------------------------------------------------------------------------
+input.point_mm = [-300, 0, 0]       # any point of the input axis before joint 1
+# input.start_phase_deg = 0         # driving yoke of joint 1 from the plane of its two shafts at the start
+output.point_mm = [1900, 40, -260]  # any point of the output axis behind the last joint
+
+[[joints]]
+name = "gearbox"
+centre_mm = [0, 0, 0]
+
+[[joints]]
+name = "axle"
+centre_mm = [1200, 0, -160]
+# move_within_mm = [[1150, 1250], [0, 0], [-180, -120]]   # box in which `cardan phasing --layout` may put this centre
+
+# --- Yokes and splines ---------------------------------------------------------------------------------------------
+[[shafts]]
+number = 2
+yoke_angle_deg = 0                  # FROM the driving TO the driven yoke, about the shaft along the power flow
+# yoke_fixed = true                 # not to be turned by synthesis
+# spline = { teeth = 16, engaged_mm = 90, gap_mm = 40 }
+
+[duty]
+speed_rpm = 3000
+
+# --- Instead of centres: bends and plane twists --------------------------------------------------------------------
+# [[joints]]
+# joint_angle_deg = 7.6                    # angle between the joint's two shafts
+# [[joints]]
+# joint_angle_deg = 5.2
+# plane_twist_deg = 35              # from the plane of the joint before to this one, about the shaft between them
+# [[shafts]]
+# number = 2
+# length_mm = 1200
+
+# --- Or: slopes and lengths, as measured under the vehicle ---------------------------------------------------------
+# [[joints]]
+# [[joints]]
+# [[shafts]]
+# number = 1
+# side_slope_deg = 0                # rising along the power flow is positive
+# plan_slope_deg = 0                # to the left is positive
+# [[shafts]]
+# number = 2
+# side_slope_deg = -7.6
+# length_mm = 1210
+# [[shafts]]
+# number = 3
+# side_slope_deg = -8.1
+# plan_slope_deg = 3.3
+
+# --- How the drive moves, and standing variants --------------------------------------------------------------------
+# [[movements]]
+# kind = "harmonic"                 # hitch, arm, parallel, harmonic, body, table, random
+# moves = ["joints[1]", "output"]
+# amplitude_mm = [0, 0, 60]
+# frequency_Hz = 1.5
+#
+# [[poses]]
+# name = "full load"
+# share_percent = 30
+# set = { "joints[1].centre_mm" = [1200, 0, -110], "output.point_mm" = [1900, 40, -210] }
+""")
+
+
+def starter() -> str:
+    """Return a drive file to start from, with comments in the language spoken here; it loads as it is.
+
+    Examples
+    --------
+    >>> from cardan.io import loads
+    >>> loads(starter()).name
+    'my drive'
+    """
+    return _(STARTER)

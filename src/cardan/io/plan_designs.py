@@ -13,10 +13,9 @@ from cardan.batch.points.axes import SampledAxis
 from cardan.batch.points.distributions import Distribution
 from cardan.batch.points.fields import present
 from cardan.batch.search.boundary import Boundary, boundary
-from cardan.batch.search.goals import Goal, Limit, check_names, goal_of, limit_of
+from cardan.batch.search.goals import Goal, Limit, Progress, check_names, goal_of, limit_of
 from cardan.batch.search.optimise import Global, Local, Optimum, optimise
 from cardan.batch.search.pareto import ParetoSet, pareto_search
-from cardan.batch.search.pieces import Progress
 from cardan.batch.search.sobol import Sensitivity, sensitivity
 from cardan.errors import InputError, Problem, check
 from cardan.reading.table import Table

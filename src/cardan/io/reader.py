@@ -3,28 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import replace
-from functools import partial
+from collections.abc import Iterator, Mapping
+from dataclasses import is_dataclass, replace
+from difflib import SequenceMatcher
+from functools import cache, partial
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import History
-from cardan.drive.fields.duty_validity import bound_problems
 from cardan.drive.fields.keys import KINDS, NAMED, spelled
-from cardan.drive.fields.validity import MAX_JOINTS
+from cardan.drive.fields.validity import MAX_JOINTS, bound_problems
 from cardan.drive.machine import TorqueHistory
 from cardan.drive.movement import Table
 from cardan.drive.shaft import Shaft
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.files import Enclosed
-from cardan.reading.fields import numbers_in, scaled
+from cardan.reading.fields import fields_of, numbers_in, scaled, spellings_of
 from cardan.reading.scalar import as_given
 from cardan.reading.tree import Form, Place, read_table
 from cardan.texts import _
+from cardan.units import DIMENSIONS, label, nearest
 
-from .hints import meant, unknown
 from .shifts import read_shifts, read_torques
 
 
@@ -117,3 +117,150 @@ def _flattened(key: str, table: Mapping[str, Any]) -> str:
     for inner, item in table.items():
         return _flattened(f"{key}.{inner}", item) if isinstance(item, Mapping) else f"{key}.{inner}"
     return key
+
+
+# What to say of a key that a table does not know: the key that was meant, or where it belongs.
+
+OTHER_WORDS = {
+    "alpha": "joint_angle",
+    "joint_angle_angle": "joint_angle",
+    "misalignment": "joint_angle",
+    "deflection": "joint_angle",
+    "beta": "plane_twist",
+    "twist": "plane_twist",
+    "gamma": "yoke_angle",
+    "phasing": "yoke_angle",
+    "clocking": "yoke_angle",
+    "psi": "start_phase",
+    "position": "centre",
+    "center": "centre",
+    "rpm": "speed",
+    "omega": "speed",
+    "joint": "joints",
+    "shaft": "shafts",
+}
+"""Words of other texts for our fields."""
+
+CLOSE = 0.8
+"""Two keys so alike are taken for the same before other tables are looked at."""
+
+
+def meant(cls: type, key: str) -> str:
+    """Return the name of the field that an unknown key most likely meant, or nothing.
+
+    >>> from cardan.drive.joints import Hooke
+    >>> meant(Hooke, "centre"), meant(Hooke, "joint_angle_mm"), meant(Hooke, "colour")
+    ('centre', 'joint_angle', '')
+    """
+    split = _split(cls, key)
+    if split:
+        return split[0]
+    other = _other_word(cls, key)
+    if other:
+        return spellings_of(cls)[other][0]
+    if _owners(cls, key):
+        return ""
+    near = _near(cls, key)
+    return spellings_of(cls)[near][0] if near else ""
+
+
+def unknown(cls: type, key: str) -> str:
+    """Return what to say of a key that the table of a class does not know.
+
+    >>> from cardan.drive.joints import Hooke
+    >>> unknown(Hooke, "plane_twist_dg")
+    'unknown key; the nearest known one is plane_twist_deg'
+    """
+    split = _split(cls, key)
+    if split:
+        name, word, unit = split
+        dimension = fields_of(cls)[name].key.dimension
+        if dimension is None:
+            return _("takes no unit: write {name}").format(name=word)
+        choices = _(" or ").join(f"{word}_{unit}" for unit in DIMENSIONS[dimension])
+        if not unit:
+            return _("needs a unit: write {choices}").format(choices=choices)
+        return _("{unit} is not a unit of this field: write {choices}").format(unit=label(unit), choices=choices)
+    other = _other_word(cls, key)
+    near = other or _near(cls, key, cutoff=CLOSE)
+    owners = [] if other else _owners(cls, key)
+    if owners:
+        text = _("unknown here; it belongs to {owners}").format(owners=_(" or ").join(owners))
+        return text + (_("; the nearest known here is {near}").format(near=near) if near else "")
+    near = near or _near(cls, key)
+    if near:
+        return _("unknown key; the nearest known one is {near}").format(near=near)
+    listed = ", ".join(one.spelling for one in fields_of(cls).values())
+    return _("unknown key; known here: {known}").format(known=listed)
+
+
+def _split(cls: type, key: str) -> tuple[str, str, str] | None:
+    """Return field, word and unit if a key is a field of the class with a wrong unit or none."""
+    words = {word: name for name, one in fields_of(cls).items() for word in (name, one.key.mirror) if word}
+    if key in words:
+        return words[key], key, ""
+    for word in sorted(words, key=len, reverse=True):
+        unit = key.removeprefix(f"{word}_")
+        if unit != key and any(unit in units for units in DIMENSIONS.values()):
+            return words[word], word, unit
+    return None
+
+
+def _other_word(cls: type, key: str) -> str:
+    """Return our key for one that uses a word of other texts, in the same unit where it has one."""
+    for word, name in OTHER_WORDS.items():
+        if name in fields_of(cls) and (key == word or key.startswith(f"{word}_")):
+            same = name + key[len(word) :]
+            return same if same in spellings_of(cls) else fields_of(cls)[name].spelling
+    return ""
+
+
+def _near(cls: type, key: str, cutoff: float = 0.0) -> str:
+    """Return the known key most like an unknown one; letter case does not count."""
+    lower = {known.lower(): known for known in spellings_of(cls)}
+    near = nearest(key.lower(), lower)
+    if near is None or SequenceMatcher(None, key.lower(), near).ratio() < cutoff:
+        return ""
+    return lower[near]
+
+
+def _owners(cls: type, key: str) -> list[str]:
+    """Return the tables that know a key, as a file names them: first those of the same sort."""
+    if cls not in {other for _title, other in tables()}:
+        return []  # of a file that is no drive
+    return [title for title, other in tables() if other is not cls and _knows(other, key)]
+
+
+def _knows(cls: type, key: str) -> bool:
+    return key in spellings_of(cls) or key in fields_of(cls)
+
+
+def tables() -> tuple[tuple[str, type], ...]:
+    """Return every table of a drive file: how the file names it, and its class.
+
+    >>> [title for title, cls in tables()][:5]
+    ['the head of the file', '[settings]', '[input]', '[output]', "[[joints]] kind = 'hooke'"]
+    """
+    return _all_tables(_("the head of the file"))
+
+
+@cache
+def _all_tables(head: str) -> tuple[tuple[str, type], ...]:
+    return ((head, Drive), *list(_tables(Drive, ""))[1:])
+
+
+def _tables(cls: Any, title: str) -> Iterator[tuple[str, Any]]:
+    yield title, cls
+    for one in fields_of(cls).values():
+        inner = next((part for part in (one.type, *get_args(one.type)) if is_dataclass(part)), None)
+        if inner is None:
+            continue
+        many = bool(get_args(one.type))
+        name = f"{title} {one.name}" if title else f"[[{one.name}]]" if many else f"[{one.name}]"
+        if inner not in KINDS:
+            yield from _tables(inner, name)
+            continue
+        kinds, default = KINDS[inner]
+        for kind, variant in kinds.items():
+            alone = kind == default and len(kinds) == 1
+            yield from _tables(variant, name if alone else f"{name} kind = {kind!r}")

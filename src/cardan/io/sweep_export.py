@@ -13,8 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.batch.table.results import Results
-from cardan.batch.table.sql import duckdb, only_select, pyarrow
+from cardan.batch.table.results import Results, duckdb, only_select, pyarrow
 from cardan.batch.work import Column, Rows
 from cardan.errors import refuse
 from cardan.files import refusal, write_bytes

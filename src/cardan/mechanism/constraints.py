@@ -10,8 +10,7 @@ import numpy as np
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames, screws
 
-from .mechanism import Mechanism
-from .pair import freedoms
+from .mechanism import Mechanism, freedoms
 
 FRAME = -1
 """Index of the frame among the links."""

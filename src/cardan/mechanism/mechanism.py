@@ -1,17 +1,19 @@
-"""A mechanism: links joined by pairs, one of the links at rest."""
+"""A mechanism: links joined by pairs, one of the links at rest, and the small motions that pairs leave."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal, TypeAlias
+
+import numpy as np
 
 from cardan.errors import Problem, check
-from cardan.texts import _
-from cardan.units import nearest, plain
-
-from .pair import Pair, pair_problems
+from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames, screws
+from cardan.texts import _, mark
+from cardan.units import nearest, plain, quantity
 
 MAX_JOINTS = 400
 """More joints are refused: their ranks would take minutes."""
@@ -131,3 +133,173 @@ def joined_to(link: str, joints: Iterable[Pair]) -> set[str]:
         if not more:
             return found
         found |= more
+
+
+# Kinematic pairs: which small motions two links that touch leave each other.
+
+Point: TypeAlias = tuple[float, float, float]
+
+Way: TypeAlias = Literal["rot", "trans"]
+
+SQUARE = 1e-3
+"""Cosine up to which two directions that a file writes with a few digits count as square to each other."""
+
+LENGTHS = (1e-100, 1e100)
+"""A direction whose length lies beyond these would lose itself when it is squared."""
+
+PARALLEL = 1e-6
+"""Sine below which two directions count as parallel."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Kind:
+    """A kind of pair, by the motions it leaves."""
+
+    name: str  # in words
+    # about what it lets turn: nothing, ``axis``, ``both`` axes, or ``all`` directions
+    turns: Literal["", "axis", "both", "all"] = ""
+    # along what it lets slide: nothing, ``axis``, or all directions ``across`` it
+    slides: Literal["", "axis", "across"] = ""
+    screw: bool = False  # whether turning and sliding are one motion
+
+    @property
+    def freedoms(self) -> int:
+        """Number of relative freedoms f, the genus of the pair."""
+        turning = {"": 0, "axis": 1, "both": 2, "all": 3}[self.turns]
+        return turning + (0 if self.screw else {"": 0, "axis": 1, "across": 2}[self.slides])
+
+    @property
+    def constraints(self) -> int:
+        """Number of constraints s = 6 - f."""
+        return 6 - self.freedoms
+
+    @property
+    def needs_axis(self) -> bool:
+        """Whether its freedoms have a direction."""
+        return bool(self.slides) or self.turns in ("axis", "both")
+
+    @property
+    def needs_second(self) -> bool:
+        """Whether its freedoms have a second direction."""
+        return self.turns == "both"
+
+
+PAIRS: dict[str, Kind] = {
+    "R": Kind(name=mark("revolute"), turns="axis"),
+    "P": Kind(name=mark("prismatic"), slides="axis"),
+    "H": Kind(name=mark("helical"), turns="axis", slides="axis", screw=True),
+    "C": Kind(name=mark("cylindrical"), turns="axis", slides="axis"),
+    "U": Kind(name=mark("universal (two axes)"), turns="both"),
+    "S": Kind(name=mark("spherical"), turns="all"),
+    "E": Kind(name=mark("planar"), turns="axis", slides="across"),
+    "SG": Kind(name=mark("sphere in cylinder"), turns="all", slides="axis"),
+    "L4": Kind(name=mark("cylinder on plane"), turns="both", slides="across"),
+    "PT": Kind(name=mark("point on plane"), turns="all", slides="across"),
+}
+"""Code -> kind of pair; spec structure, "Kinematic pairs", after tmm Table 1."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Pair:
+    """Two links that touch, where, and which motions that leaves.
+
+    A groove or plane, and ``axis`` with it, belongs to the first link; a ball or cylinder, and ``point`` and ``axis2``
+    with it, to the second. That matters only for motions that are not small.
+    """
+
+    id: str = plain(doc="name of the joint, its own")
+    type: str = plain(doc="kind of pair", choices=tuple(PAIRS))
+    links: tuple[str, str] = plain(doc="the two links it joins")
+    point: Point = quantity("length", doc="a point of its axis, its centre [x, y, z]")
+    axis: Point | None = plain(None, doc="its axis, or the normal of its plane; any length [x, y, z]")
+    axis2: Point | None = plain(None, doc="second axis of a universal pair, axis of the cylinder on a plane [x, y, z]")
+    pitch: float | None = quantity("pitch", None, doc="lead of a helical pair, right-handed positive")
+    misfit: Point = quantity("length", (0.0, 0.0, 0.0), doc="how far its second half is off as built [x, y, z]")
+    misfit_turn: Point = quantity("angle", (0.0, 0.0, 0.0), doc="how far its second half is turned off [x, y, z]")
+
+    @property
+    def kind(self) -> Kind:
+        """What is known of its kind."""
+        return PAIRS[self.type]
+
+    @property
+    def along(self) -> Array:
+        """Unit vector of its axis; that of z where it has none."""
+        return np.asarray([0.0, 0.0, 1.0]) if self.axis is None else frames.unit(np.asarray(self.axis, dtype=float))
+
+    @property
+    def freedoms(self) -> Array:
+        """Motions of the second link against the first, about the origin, orthogonal where they can be; (f, 6)."""
+        second = None if self.axis2 is None else frames.unit(np.asarray(self.axis2, dtype=float))
+        return freedoms(self.kind, np.asarray(self.point, dtype=float), self.along, second, self.pitch or 0.0)
+
+
+def freedoms(kind: Kind, point: Array, axis: Array, second: Array | None = None, pitch: float = 0.0) -> Array:
+    """Return the freedoms of a pair as twists about the origin, array (f, 6).
+
+    point (3,) [m]; axis, second (3,): unit vectors; pitch [m/rad]: how far a helical pair slides per radian.
+    rot(a) at p is (a; p × a), tra(a) is (0; a). Sliding comes first: a groove or plane belongs to the first link, a
+    ball or cylinder, and with it the point, to the second. Of two axes about which a pair turns each link has one.
+
+    >>> freedoms(PAIRS["C"], np.zeros(3), np.asarray([1.0, 0, 0])) + 0.0
+    array([[0., 0., 0., 1., 0., 0.],
+           [1., 0., 0., 0., 0., 0.]])
+    """
+    aside = frames.perpendicular(axis)
+    across = np.stack((aside, frames.cross(axis, aside)))
+    about = {"": [], "axis": [axis], "both": [axis, second], "all": [axis, *across]}[kind.turns]
+    ways = {"": [], "axis": [axis], "across": [*across]}[kind.slides]
+    turning = [screws.rotation(way, point) for way in about]
+    sliding = [screws.translation(way) for way in ways]
+    if kind.screw:
+        return np.stack([turning[0] + pitch * sliding[0]])
+    return np.stack(sliding + turning)
+
+
+def axes(pair: Pair) -> Array:
+    """Return the axes in which a joint is told of: along its axis and two across it, array (3, 3)."""
+    along = pair.along
+    aside = frames.perpendicular(along)
+    return np.stack((along, aside, frames.cross(along, aside)))
+
+
+def pair_problems(pair: Pair) -> Iterator[Problem]:
+    """Yield what is wrong with a joint by itself, fields named from the joint on."""
+    kind = PAIRS.get(pair.type)
+    if kind is None:
+        return
+    if len(set(pair.links)) < 2:
+        yield Problem("links", _("joins {link} with itself").format(link=pair.links[0]), "inconsistent")
+    sound = True
+    for name, wanted in (("axis", kind.needs_axis), ("axis2", kind.needs_second)):
+        value = getattr(pair, name)
+        found = list(_axis_problems(name, value, wanted, kind))
+        sound &= not found and value is not None
+        yield from found
+    if kind.needs_second and sound:
+        yield from _angle_problems(pair)
+    if kind.screw and pair.pitch is None:
+        yield Problem("pitch", _("missing: a helical pair has a pitch"), "missing")
+    if not kind.screw and pair.pitch is not None:
+        yield Problem("pitch", _("of no use: only a helical pair (H) has a pitch"), "inconsistent")
+
+
+def _axis_problems(name: str, value: Point | None, wanted: bool, kind: Kind) -> Iterator[Problem]:
+    if value is None:
+        if wanted:
+            yield Problem(name, _("missing: {kind} has a direction here").format(kind=_(kind.name)), "missing")
+    elif name == "axis2" and not kind.needs_second:
+        yield Problem(name, _("of no use: only U and L4 have a second axis"), "inconsistent")
+    elif not all(map(math.isfinite, value)):
+        yield Problem(name, _("{value} is not finite").format(value=list(value)), "not_finite")
+    elif not LENGTHS[0] < math.hypot(*value) < LENGTHS[1]:
+        yield Problem(name, _("{value} is not a direction").format(value=list(value)), "out_of_range")
+
+
+def _angle_problems(pair: Pair) -> Iterator[Problem]:
+    one, other = (frames.unit(np.asarray(way, dtype=float)) for way in (pair.axis, pair.axis2))
+    if float(frames.norm(frames.cross(one, other))) < PARALLEL:
+        yield Problem("axis2", _("parallel to axis; the two must differ in direction"), "inconsistent")
+    elif pair.type == "L4" and abs(float(frames.dot(one, other))) > SQUARE:
+        text = _("not square to axis: the cylinder has to lie on the plane whose normal is axis")
+        yield Problem("axis2", text, "inconsistent")

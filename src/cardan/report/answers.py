@@ -2,25 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias, cast
 
-from cardan.answers.question import Question
+import numpy as np
+
+from cardan.answers.answer import Tone
+from cardan.answers.quantity import Quantity, say
+from cardan.answers.question import Lacking, Question
 from cardan.answers.reader import reader
 from cardan.catalogue import Catalogue
+from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
-from cardan.drive.models.laws import unmapped
+from cardan.drive.duty import Duty
+from cardan.drive.fields.keys import key_of
+from cardan.drive.models.chain import unmapped
+from cardan.drive.models.geometry import Geometry, geometry
 from cardan.errors import InputError
+from cardan.maths.arrays import Array
 from cardan.questions.gathering import gather, principal
+from cardan.questions.motion.equivalence import SPECK
+from cardan.questions.motion.kinds import kind_name
+from cardan.questions.motion.motion import Motion, motion
+from cardan.questions.motion.motion import followed as by_laws
+from cardan.questions.motion.turning import Swing, swing
 from cardan.register import QUESTIONS
-from cardan.texts import _
+from cardan.texts import _, plural
+from cardan.version import VERSION
 
-from .block import Page
-from .followed import asked_by_laws
-from .lacking import refused, told
-from .page import page
+from .block import Listing, Page, Points, Words, page
 from .subject import Progress, Subject
+from .summary import steep_joints
 
 Choices: TypeAlias = Mapping[str, Any]
 """What the user chose beside the drive."""
@@ -69,3 +82,130 @@ def found_page(
     except InputError as error:
         return refused(question.name, _(question.title), error)
     return None if result is None else page(gather(question, on.drive, question.answer(drive, result)), reader())
+
+
+# What a part of the report says where the drive file does not answer it: what is missing, or why it is refused.
+
+
+def told(lacking: Lacking) -> str:
+    """Return in a sentence what is to be added to the drive file.
+
+    lacking: paths; of each inner tuple any one would do.
+    """
+    either = _(" or ")
+    keys = "; ".join(either.join(map(key_of, some)) for some in lacking)
+    return _("This answer needs more in the drive file: {keys}.").format(keys=keys)
+
+
+def refused(name: str, title: str, error: InputError) -> Page:
+    """Return the page of a question that the drive file does not answer, with what is missing."""
+    left = [f"{one.field}: {one.message}" for one in error.problems]
+    alarm = _("{part} not calculated: {first}").format(part=title, first=left[0])
+    answer = _("Not calculated; the drive file leaves open:")
+    if all(one.code == "unknown_kind" for one in error.problems):
+        answer = _("Not calculated for joints of these kinds:")
+    return Page(
+        name=name,
+        title=title,
+        answer=answer,
+        blocks=[Words(text=text, tone="warning") for text in left],
+        alarms=[Words(text=alarm, tone="warning")],
+    )
+
+
+# The report of a drive with joints that turn by laws of their own, without what a chain of Hooke joints would tell.
+#
+# Motion is followed from joint to joint and its extremes are seen over a turn; there is no single joint that the drive
+# amounts to, and no polygon of yoke angles.
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Followed:
+    """A drive and what is known of its motion; the names are those of `cardan.report.subject.Subject`."""
+
+    drive: Drive
+    place: Geometry
+    seen: Solids
+    found: Motion
+    whole: Swing
+    phase: Array
+    complete: bool = True
+    mixed: bool = True
+    known: Catalogue | None = None
+
+    @property
+    def joint_angle(self) -> Array:
+        """Joint angle of every joint, array (n) [rad]."""
+        return np.asarray(self.place.joint_angle)
+
+    @property
+    def joints(self) -> int:
+        """Number of joints."""
+        return len(self.drive.joints)
+
+
+def asked_by_laws(drive: Drive, duty: Duty | None) -> Followed:
+    """Ask what can be asked about a drive with joints that turn by laws of their own."""
+    whole = drive if duty is None else replace(drive, duty=duty)
+    return Followed(
+        drive=whole,
+        place=geometry(whole),
+        seen=solids(whole),
+        found=motion(whole),
+        whole=swing(whole),
+        phase=by_laws(whole, np.zeros(1))["yoke_rotation"][:, 0],
+    )
+
+
+def judgement_by_laws(on: Followed, pages: Sequence[Page]) -> Words:
+    """Return the one sentence the reader came for."""
+    share = float(on.whole.speed_fluctuation[-1])
+    said = {"name": on.drive.name or _("The drive"), "share": Quantity(share, "share", 3)}
+    text = _("{name} has {share} speed fluctuation.")
+    if share < SPECK:
+        text = _("{name} is uniform, but for {share} that nobody notices.")
+    alarms = [alarm.tone for page in pages for alarm in page.alarms]
+    tone: Tone = "good" if share < SPECK and "warning" not in alarms else "warning"
+    if "failed" in alarms or any(steep_joints(on.drive, on.joint_angle)):
+        tone = "failed"
+    return Words(text=say(text, **said), tone=tone)
+
+
+def warnings_by_laws(on: Followed, pages: Sequence[Page]) -> Iterator[Words]:
+    """Yield what the reader must not overlook."""
+    yield from (alarm for page in pages for alarm in page.alarms)
+    yield from steep_joints(on.drive, on.joint_angle)
+
+
+def changes_by_laws(on: Followed) -> Words:
+    """Return what would make the drive even."""
+    if float(on.whole.speed_fluctuation[-1]) < SPECK:
+        return Words(text=_("Nothing needs to be changed for a uniform output."))
+    own = [str(i) for i, joint in enumerate(on.drive.joints, 1) if not joint.has_map]
+    text = plural(
+        "Joint {own} is uniform where the parts of both its shafts are alike.",
+        "Joints {own} are uniform where the parts of both their shafts are alike.",
+        len(own),
+    ).format(own=", ".join(own))
+    if len(own) < on.joints:
+        text += " " + _("What the other joints add, yoke angles may undo.")
+    return Words(text=text)
+
+
+def method_by_laws(on: Followed, source_text: str | None) -> Page:
+    """Return the page of the method."""
+    own = [f"{k}: {kind_name(joint)}" for k, joint in enumerate(on.drive.joints, start=1)]
+    blocks: list[Words | Points | Listing] = [
+        Words(
+            text=_(
+                "Every joint turns its driven shaft by φ′ = T(φ), φ from the plane of its shafts: a Möbius map of the "
+                "circle, or the law of its contacts. Angles, ratios and accelerations follow from joint to joint by "
+                "the chain rule."
+            )
+        ),
+        Points(title=_("Joints"), items=own),
+    ]
+    if source_text is not None:
+        blocks.append(Listing(title=_("Input file"), text=source_text))
+    answer = _("Calculated by cardan {version}.").format(version=VERSION)
+    return Page(name="method", title=_("Method and evidence"), answer=answer, blocks=blocks)

@@ -22,13 +22,12 @@ from cardan.checks.verdict_table import TONES
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, refuse
 from cardan.io.differences import differences
-from cardan.questions.motion.figures.variants import variants_figure
+from cardan.questions.motion.figures.motion import variants_figure
 from cardan.questions.motion.motion import motion
 from cardan.texts import _, plural
 
 from .answers import answered, subject
-from .block import Block, Cell, Column, Page, Picture, Table, Tone, Words, shown, words
-from .page import key_figures
+from .block import Block, Cell, Column, Page, Picture, Table, Tone, Words, key_figures, shown, words
 from .subject import Progress, Subject
 
 Sense: TypeAlias = Literal["less", "more", ""]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import cast
 
@@ -14,11 +14,11 @@ from cardan.catalogue import Catalogue
 from cardan.drive.bodies.solids import Solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.laws import unmapped
+from cardan.drive.models.chain import unmapped
 from cardan.errors import InputError
 from cardan.figures import Figure
 from cardan.figures.drive import space_figure
-from cardan.questions.gathering import gather
+from cardan.questions.gathering import gather, principal
 from cardan.questions.motion import answer as motion
 from cardan.questions.motion import articulation_answer as articulation
 from cardan.questions.motion.articulation import Articulation
@@ -28,20 +28,19 @@ from cardan.register import QUESTIONS
 from cardan.texts import _
 from cardan.version import VERSION
 
-from .block import Page, Table, Words
-from .description import description
-from .followed import (
+from .answers import (
     Followed,
     asked_by_laws,
     changes_by_laws,
+    found_page,
     judgement_by_laws,
     method_by_laws,
+    refused,
     warnings_by_laws,
 )
-from .lacking import refused
-from .loaded import loaded
+from .block import Page, Table, Words, key_figures, key_table, page
+from .description import description
 from .method import method
-from .page import key_figures, key_table, page
 from .subject import Subject, asked
 from .summary import changes, judgement, warnings
 from .verdicts import Judged, judged
@@ -206,3 +205,18 @@ def _phased_by_laws(drive: Drive) -> Page:
         return phased(drive, yokes.ask(drive))
     except InputError as error:
         return replace(refused("phasing", _("Phasing of the yokes"), error), alarms=())
+
+
+# The parts of the report about a drive under load and as made: each only where the drive file says enough.
+
+ELSEWHERE = ("motion", "classical", "articulation", "phasing", "check")
+"""Questions whose pages have places of their own in the report."""
+
+
+def loaded(on: Subject) -> Iterator[Page]:
+    """Yield the parts that the drive file asks for; none once the reader stopped the work."""
+    asked = (one for one in QUESTIONS.values() if one.report and one.name not in ELSEWHERE)
+    for question in asked if on.complete else ():
+        page = None if question.lacking(principal(question, on.drive)) else found_page(question, on)
+        if page is not None:
+            yield page

@@ -8,10 +8,10 @@ import numpy as np
 
 from cardan.answers import answer
 from cardan.answers.answer import Cell, Column
-from cardan.answers.numbers import half_turn
 from cardan.answers.quantity import Quantity, Text, say
+from cardan.answers.reader import half_turn
 from cardan.drive.body import body_length
-from cardan.drive.joints.common.inside import Inside
+from cardan.drive.joints.joint import Inside
 from cardan.figures.drive import space_figure, views_figure, yoke_figure
 from cardan.figures.palette import colour, shaft
 from cardan.maths.arrays import Array

@@ -8,8 +8,8 @@ import numpy as np
 
 from cardan.answers import answer
 from cardan.answers.answer import Cell, Column
-from cardan.answers.numbers import half_turn
 from cardan.answers.quantity import Quantity, Text, say
+from cardan.answers.reader import half_turn
 from cardan.book.evidence import SelfCheck
 from cardan.questions.motion.kinds import kind_name
 from cardan.texts import _

@@ -18,7 +18,7 @@ from cardan.questions.diagnosis.signals.signal import DIRECTIONS, TURNING, Chann
 from cardan.texts import _
 
 from .block import Page, Points, Words
-from .page import page as page_of
+from .block import page as page_of
 
 Progress: TypeAlias = Callable[[float], object]
 """Told the share done; may answer "stop"."""

@@ -14,16 +14,21 @@ from cardan.catalogue import Catalogue
 from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.chain import Chain, as_hooke, turning_chain
+from cardan.drive.models.chain import Chain, as_hooke, mixed, turning_chain
 from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.laws import mixed
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.questions.motion.articulation import Articulation, articulation
-from cardan.questions.motion.closure import Closure, closure
-from cardan.questions.motion.equivalence import SYNCHRONOUS, EquivalentJoint, after_each_joint, equivalent_joint
+from cardan.questions.motion.equivalence import (
+    SYNCHRONOUS,
+    Closure,
+    EquivalentJoint,
+    after_each_joint,
+    closure,
+    equivalent_joint,
+    is_rounding,
+)
 from cardan.questions.motion.motion import Motion, initial_phases, motion
-from cardan.questions.motion.rounding import is_rounding
 from cardan.questions.phases.phases import Phasing, phases
 from cardan.questions.phases.setting import YokeSetting
 
@@ -149,7 +154,7 @@ class Subject:
         return not self.even and self.rounding(float(self.whole.speed_fluctuation))
 
     def rounding(self, share: float) -> bool:
-        """Tell whether a fluctuation is no more than rounding, see `cardan.questions.motion.rounding.is_rounding`.
+        """Tell whether a fluctuation is no more than rounding, see `cardan.questions.motion.equivalence.is_rounding`.
 
         share: speed fluctuation of this drive at some setting of its yokes.
         """

@@ -8,8 +8,8 @@ import numpy as np
 
 from cardan.answers import answer
 from cardan.answers.answer import Cell, Column
-from cardan.answers.numbers import half_turn
 from cardan.answers.quantity import Joined, Quantity, Text, say
+from cardan.answers.reader import half_turn
 from cardan.drive.drive import Drive
 from cardan.drive.fields.plausibility import doubts
 from cardan.errors import InputError
@@ -22,8 +22,7 @@ from cardan.questions.phases.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg
 
-from .block import Page, Table, Tone, Words, shown, table
-from .page import capital
+from .block import Page, Table, Tone, Words, capital, shown, table
 from .subject import Subject
 
 ILL = 80.0

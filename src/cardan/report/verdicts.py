@@ -14,9 +14,8 @@ from cardan.questions.gathering import gather
 from cardan.register import QUESTIONS
 from cardan.texts import _, plural
 
-from .block import Page, Table, table, verdict_columns
-from .lacking import refused
-from .page import page, row
+from .answers import refused
+from .block import Page, Table, page, row, table, verdict_columns
 from .subject import Subject
 
 

@@ -5,31 +5,38 @@ Lengths in m, turns in rad; a renderer only interpolates between frames and draw
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from cardan.answers.quantity import told
+from cardan.answers.quantity import Quantity, told
 from cardan.answers.reader import reader
 from cardan.catalogue.completion import filled
-from cardan.checks.verdict import Verdict
-from cardan.drive.bodies.assembly import FRAMES, assembled, turns
+from cardan.checks.verdict import AMBER, Verdict
+from cardan.checks.verdict_table import share as used_share
+from cardan.drive.bodies.assembly import FRAMES, assembled, extent, turns
 from cardan.drive.bodies.build import Build, Solid
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import pose_drives
+from cardan.drive.models.chain import mixed
 from cardan.drive.models.geometry import geometry
-from cardan.drive.models.laws import mixed
+from cardan.drive.models.machine_held import machine_held
+from cardan.drive.shapes import floor_frame
 from cardan.errors import InputError, refuse
 from cardan.figures import palette
+from cardan.figures.axes import shaft_name
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames
+from cardan.questions.bending.bending import CriticalSpeeds, bending_speeds
+from cardan.questions.bending.figure import mode_name
+from cardan.questions.forces.forces import forces
 from cardan.questions.motion.moving_points import moving_points
+from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
 from cardan.texts import _
 
 from .lines import drawn_round
-from .loads import loads
-from .modes import shapes
-from .parts import Scene, SceneArrow, SceneBody, SceneMode
-from .utilisation import Use, scale, use_colour, used
+from .parts import Scene, SceneArrow, SceneBody, SceneCurve, SceneGroup, SceneMode
 
 __all__ = ["Scene", "scene"]
 
@@ -193,3 +200,362 @@ def _body(solid: Solid, k: int, uses: Callable[[Solid], Use | None]) -> SceneBod
         utilisation=None if found is None else found[0],
         utilisation_colour=use_colour(None if found is None else found[0]),
     )
+
+
+# How far the bodies of a scene use their limits, and the colours that say so to every reader.
+
+PARTS: dict[str, tuple[str, ...]] = {
+    "bearing_life": ("bearing cap",),
+    "needle_static": ("bearing cap",),
+    "small_oscillation": ("bearing cap",),
+    "lubrication": ("bearing cap",),
+    "contact_pressure": ("bearing cap", "cross"),
+    "journal_strength": ("cross",),
+    "yoke_strength": ("driving yoke", "driven yoke"),
+    "spline_strength": ("spline sleeve", "spline shaft"),
+    "spline_pressure": ("spline sleeve", "spline shaft"),
+    "spline_overlap": ("spline sleeve", "spline shaft"),
+    "acceleration": (),
+    "speed_fluctuation": (),
+    "output_error": (),
+}
+"""Check -> parts of the joint or shaft that it judges; all of a joint, the tube of a shaft where it is not here."""
+
+Use = tuple[float, str]
+
+
+def used(verdicts: Sequence[Verdict]) -> Callable[[Solid], Use | None]:
+    """Return a function from a body to the largest share of a limit it uses, and that in words.
+
+    verdicts: of one drive; rules of thumb and what could not be judged are left out.
+    """
+    worst: dict[tuple[str, str], Use] = {}
+    for one in verdicts:
+        if one.advice or not one.run or not one.subject:
+            continue
+        share = float(np.max(one.utilisation))
+        if math.isnan(share):
+            continue
+        parts = PARTS.get(one.check)
+        if parts is None:
+            parts = ("tube",) if one.subject.startswith("shafts") else ("",)
+        for part in parts:
+            key = one.subject.partition(".")[0], part
+            if key not in worst or share > worst[key][0]:
+                text = _("{share} of the limit of {check}")
+                worst[key] = share, text.format(share=used_share(share).told(reader()), check=one.title)
+
+    def of(solid: Solid) -> Use | None:
+        path = solid.path.partition(".")[0]
+        found = [worst[key] for key in ((path, solid.part), (path, "")) if key in worst]
+        return max(found) if found else None
+
+    return of
+
+
+def scale() -> tuple[tuple[float, str, str], ...]:
+    """Return the colours of utilisation: value, colour and what it means; darker the nearer to the limit."""
+    return (
+        (0.0, use_colour(0.0), _("unused")),
+        (0.5, use_colour(0.5), _("half of the limit")),
+        (AMBER, use_colour(AMBER), _("close to the limit")),
+        (1.0, use_colour(1.0001), _("over the limit")),
+    )
+
+
+def use_colour(share: float | None) -> str:
+    """Return the colour of a share of a limit: pale to blue, amber close to the limit, red beyond it."""
+    if share is None:
+        return palette.ROLES["grid"]
+    if share > 1.0:
+        return palette.ROLES["failed"]
+    if share >= AMBER:
+        return palette.ROLES["warning"]
+    pale, blue = palette.mixed(palette.SHAFTS[5], "#ffffff", 0.72), palette.SHAFTS[1]
+    return palette.mixed(pale, blue, share / AMBER)
+
+
+# Mode shapes in space: shafts that whirl, and shafts that swing in torsion, enlarged to be seen.
+
+MODE_FRAMES = 48
+"""Places of one swing."""
+
+POINTS = 25
+"""Places along a shaft."""
+
+BOW = 0.045
+"""Largest deflection over the size of the whole."""
+
+SWING = math.radians(28.0)
+"""Largest turn of a torsional mode."""
+
+MOST = 5
+"""Torsional modes shown."""
+
+
+def shapes(drive: Drive, build: Build, size: float) -> tuple[tuple[SceneMode, ...], dict[str, str]]:
+    """Return the mode shapes of a drive, and which keys would allow those that are missing.
+
+    size [m].
+    """
+    modes: list[SceneMode] = []
+    missing: dict[str, str] = {}
+    try:
+        modes += _whirls(bending_speeds(drive), build, size)
+    except InputError as error:
+        missing["whirl"] = sentence(error)
+    try:
+        modes += _torsions(torsion_modes(drive), build)
+    except InputError as error:
+        missing["torsion"] = sentence(error)
+    if not modes:
+        missing["modes"] = "; ".join(dict.fromkeys(missing.values()))
+    return tuple(modes), missing
+
+
+def _swing() -> Array:
+    return np.arange(MODE_FRAMES) * (2.0 * np.pi / MODE_FRAMES)
+
+
+def _whirls(found: CriticalSpeeds, build: Build, size: float) -> Iterator[SceneMode]:
+    """Yield the shapes in which shafts whirl: every point of a shaft runs round its axis."""
+    turn = _swing()
+    gravity = np.asarray(build.drive.settings.gravity)
+    for number, speed in enumerate(found.actual, start=1):
+        curves = []
+        for k, (first, last) in enumerate(found.shaft_span, start=1):
+            if math.isnan(first) or not last > first:
+                continue
+            along = np.linspace(first, last, POINTS)
+            off = BOW * size * np.interp(along, found.place, found.deflection[number - 1])
+            _x, side, up = floor_frame(build.axis(k), gravity)
+            start = build.centre(k - 2) if k > 1 else build.centre(0) - (last - first) * build.axis(1)
+            share = (along - first) / (last - first)
+            reach = float(build.place.length[k - 1]) if 1 < k <= build.count else float(last - first)
+            axis = start + share[:, None] * reach * build.axis(k)
+            way = np.cos(turn)[:, None] * up + np.sin(turn)[:, None] * side
+            points = axis + off[:, None] * way[:, None, :]
+            radius = 0.55 * build.body_radius(k)
+            curves.append(SceneCurve(points=points, colour=palette.colour(f"shaft {k}"), radius=radius))
+        said = Quantity(float(speed), "angular_speed").told(reader())
+        text = _("critical speed {number}: {speed}").format(number=number, speed=said)
+        yield SceneMode(
+            name=text, text=mode_name(found.part[number - 1]), kind="whirl", frames=MODE_FRAMES, curves=tuple(curves)
+        )
+
+
+def _torsions(found: TorsionModes, build: Build) -> Iterator[SceneMode]:
+    """Yield the shapes in which the drive swings in torsion: yokes and masses turn, lines along the shafts twist."""
+    train, swing = found.train, np.sin(_swing())
+    for number, (omega, shape) in enumerate(zip(found.omega[:MOST], found.shape[:MOST], strict=True), start=1):
+        angle = dict(_ends(build, train.joints, shape))
+        line = list(train.line)
+        for k, own in build.free.items():
+            angle[own] = k, float(shape[line[0] if k == 1 else line[-1]])
+        for station, own in build.stations.items():
+            k = build.drive.stations[station].shaft
+            angle[own] = k, float(shape[line[0] if k == 1 else line[-1] if k > build.count else line[0]])
+            place = _station_of(found, build, station)
+            if place is not None:
+                angle[own] = k, float(shape[place])
+        turns = {track: _turn(build.axis(k), SWING * value * swing) for track, (k, value) in angle.items()}
+        node = "; ".join(_node_texts(found, number - 1))
+        said = Quantity(float(omega), "frequency", 3).told(reader())
+        name = _("torsional mode {number}: {frequency}").format(number=number, frequency=said)
+        yield SceneMode(
+            name=name,
+            text=node,
+            kind="torsion",
+            frames=MODE_FRAMES,
+            turns=turns,
+            curves=tuple(_lines(found, build, shape, swing)),
+        )
+
+
+def _ends(build: Build, joints: tuple[tuple[int, int], ...], shape: Array) -> Iterator[tuple[int, tuple[int, float]]]:
+    """Yield the tracks at the joints with their shaft and how far they turn."""
+    for i, (driving, driven) in enumerate(joints):
+        yield build.ends[i + 1], (i + 1, float(shape[driving]))
+        yield build.starts[i + 2], (i + 2, float(shape[driven]))
+
+
+def _station_of(found: TorsionModes, build: Build, number: int) -> int | None:
+    """Return the station of the model that carries a station of the file; None where it is not told apart."""
+    name = build.drive.stations[number].name
+    names = found.train.model.names
+    hits = [k for k in found.train.line if name and names[k] == name]
+    return hits[0] if len(hits) == 1 else None
+
+
+def _node_texts(found: TorsionModes, mode: int) -> Iterator[str]:
+    damping = float(found.damping_ratio[mode])
+    names = found.train.model.names
+    for node in found.nodes[mode][:3]:
+        if node.before == node.behind:
+            yield _("{place} stands still").format(place=names[node.before])
+        else:
+            yield _("stands still between {one} and {other}").format(one=names[node.before], other=names[node.behind])
+    if damping > 0.0:
+        yield _("damping ratio {ratio}").format(ratio=reader().number(damping, 2))
+
+
+def _turn(axis: Array, angle: Array) -> Array:
+    """Return turns about an axis as quaternions x y z w, array (p, 4)."""
+    half = 0.5 * angle[:, None]
+    return np.concatenate((np.sin(half) * axis, np.cos(half)), axis=-1)
+
+
+def _lines(found: TorsionModes, build: Build, shape: Array, swing: Array) -> Iterator[SceneCurve]:
+    """Yield lines along the shafts that twist with the mode, four round each."""
+    train = found.train
+    for k in range(2, build.count + 1):
+        own = [s for s in train.line if train.model.shaft[s] == k - 1]
+        if len(own) < 2:
+            continue
+        place = np.asarray(train.position)[own] - float(train.position[own[0]])
+        whole = float(place[-1])
+        if not whole > 0.0:
+            continue
+        length = float(build.place.length[k - 1])
+        low, high = build.reach(k - 2, driving=False), length - build.reach(k - 1, driving=True)
+        along = np.linspace(low, high, POINTS // 2)
+        twist = np.interp(along / length, place / whole, shape[own] - shape[own[0]])
+        angle = SWING * swing[:, None] * twist
+        radius = 1.02 * build.body_radius(k)
+        for quarter in range(4):
+            at = angle + 0.5 * np.pi * quarter
+            points = np.stack((np.broadcast_to(along, at.shape), radius * np.cos(at), radius * np.sin(at)), axis=-1)
+            yield SceneCurve(
+                points=points,
+                colour=palette.ROLES["warning"],
+                radius=0.05 * radius,
+                track=build.starts[k],
+            )
+
+
+# Forces and couples of a drive as arrows over the turn.
+
+LONGEST = 0.16
+"""Length of the largest arrow over the size of the whole."""
+
+LEAST = 1e-9
+"""Forces and couples below this share of the largest are none."""
+
+Loads = tuple[tuple[SceneArrow, ...], tuple[SceneGroup, ...], dict[str, str]]
+
+
+def loads(drive: Drive, build: Build, size: float) -> Loads:
+    """Return arrows of the forces and couples of a drive as drawn, their switches, and why there are none.
+
+    build: its bodies; in a pose or while it moves no arrows are drawn that belong to another place.
+    size [m].
+    """
+    if not np.allclose(build.place.points, geometry(drive).points, rtol=0.0, atol=1e-9 * size):
+        return (), (), _both(_("Forces are shown for the drive as drawn and in its poses, not while it moves."))
+    angle = np.arange(build.frames) * (2.0 * np.pi / build.frames)
+    try:
+        found = forces(drive, angle=angle)
+    except InputError as error:
+        return (), (), _both(sentence(error))
+    missing: dict[str, str] = {}
+    arrows: list[SceneArrow] = []
+    groups: list[SceneGroup] = []
+    pushes: list[tuple[str, Array, Array, str]] = []
+    if found.reaction is None:
+        missing["forces"] = _("supports: missing; forces of bearings and joints need [[supports]] that hold the shafts")
+    else:
+        for number, one in enumerate(machine_held(drive).supports):
+            foot = build.centre(max(one.shaft - 2, 0)) + one.position * build.axis(one.shaft)
+            name = one.name or _("support {number}").format(number=number + 1)
+            pushes.append((name, foot, np.asarray(found.reaction)[number], "accent"))
+        assert found.joint_force is not None
+        for i in range(build.count):
+            text = _("joint {number}, on the driven shaft").format(number=i + 1)
+            pushes.append((text, build.centre(i), np.asarray(found.joint_force)[i], "second order"))
+    whole, text = _scaled(pushes, "forces", "N", LONGEST * size, curl=False)
+    if whole:
+        arrows += whole
+        groups.append(SceneGroup(name="forces", title=_("Forces"), on=True, text=text))
+    turning = list(_torques(build, np.asarray(found.shaft_torque), np.asarray(found.output_torque)))
+    bent = [
+        (
+            _("secondary couple of {shaft}").format(shaft=shaft_name(k, build.count + 1)),
+            _middle(build, k),
+            np.asarray(found.secondary_couple)[k - 1],
+            "first order",
+        )
+        for k in range(1, build.count + 2)
+    ]
+    whole, text = _scaled([*turning, *bent], "couples", "Nm", LONGEST * size, curl=True)
+    if whole:
+        arrows += whole
+        groups.append(SceneGroup(name="couples", title=_("Couples"), on=False, text=text))
+    return tuple(arrows), tuple(groups), missing
+
+
+def _both(text: str) -> dict[str, str]:
+    return {"forces": text, "couples": text}
+
+
+def sentence(error: InputError) -> str:
+    """Return what is missing, with the keys that would allow the answer."""
+    return "; ".join(f"{one.field}: {one.message}" if one.field else one.message for one in error.problems)
+
+
+def _middle(build: Build, k: int) -> Array:
+    low, high = extent(build, k)
+    found: Array = build.centre(max(k - 2, 0)) + 0.5 * (low + high) * build.axis(k)
+    return found
+
+
+def _torques(build: Build, torque: Array, output: Array) -> list[tuple[str, Array, Array, str]]:
+    """Return the torque that drives the input, and the one that resists the output."""
+    last = build.count + 1
+    low, high = extent(build, 1)[0], extent(build, last)[1]
+    return [
+        (
+            _("torque that drives the input"),
+            build.centre(0) + 1.08 * low * build.axis(1),
+            torque[0][:, None] * build.axis(1),
+            "good",
+        ),
+        (
+            _("torque that resists the output"),
+            build.centre(build.count - 1) + 1.08 * high * build.axis(last),
+            -np.broadcast_to(output, torque[0].shape)[:, None] * build.axis(last),
+            "failed",
+        ),
+    ]
+
+
+def _scaled(
+    rows: Sequence[tuple[str, Array, Array, str]], group: str, unit: str, longest: float, *, curl: bool
+) -> tuple[list[SceneArrow], str]:
+    """Return rows of (name, foot, vector over the turn, role) as arrows to one scale, and that scale in words."""
+    sizes = [frames.norm(vector) for _name, _foot, vector, _role in rows]
+    most = max((float(np.max(one)) for one in sizes), default=0.0)
+    if not most > 0.0 or not math.isfinite(most):
+        return [], ""
+    made = []
+    for (name, foot, vector, role), one in zip(rows, sizes, strict=True):
+        low, high = float(np.min(one)), float(np.max(one))
+        if high <= LEAST * most:
+            continue
+        low = low if low > LEAST * high else 0.0
+        text = _("{name}: {low} to {high}") if high - low > 1e-3 * high else _("{name}: {high}")
+        text = text.format(name=name, low=amount(low, unit), high=amount(high, unit))
+        colour = palette.colour(role)
+        made.append(
+            SceneArrow(group=group, text=text, colour=colour, curl=curl, start=foot, vector=longest / most * vector)
+        )
+    return made, _("The longest arrow is {size}; all are drawn to one scale.").format(size=amount(most, unit))
+
+
+def amount(value: float, unit: str) -> str:
+    """Return a force [N] or couple [N·m] as who reads here is told it.
+
+    >>> amount(2314.0, "N"), amount(0.04, "Nm")
+    ('2.31 kN', '0.0400 N·m')
+    """
+    usual = f"k{unit}" if abs(value) >= 1e3 else unit
+    return Quantity(value, "force" if unit == "N" else "torque", 3, unit=usual).told(reader())

@@ -10,11 +10,11 @@ from zipfile import ZipFile
 
 import pytest
 
-from cardan.app.state import papers
+from cardan.app.state import work
+from cardan.app.state.document import Workspace
 from cardan.app.state.question import Question, asked
 from cardan.app.state.session import Session
 from cardan.app.state.work import result
-from cardan.app.state.workspace import Workspace
 from cardan.figures import Figure
 from cardan.io import example_text
 from cardan.report.block import Page, Picture, Table
@@ -38,7 +38,7 @@ def answer(question: Question | None) -> Exported:
 
 def test_a_report_is_in_the_users_units_language_and_sign(session: Session) -> None:
     session.choose(language="ru")
-    made = answer(papers.of_report(session, "html"))
+    made = answer(work.of_report(session, "html"))
     text = made.content.decode()
     assert made.name.endswith(".html")
     assert "<html lang=ru" in text.replace('"', "")
@@ -47,10 +47,10 @@ def test_a_report_is_in_the_users_units_language_and_sign(session: Session) -> N
 
 
 @pytest.mark.parametrize(("form", "begin"), [("pdf", b"%PDF-"), ("interactive", b"<!"), ("json", b"{")])
-def test_every_form_opens(session: Session, form: papers.Form, begin: bytes) -> None:
+def test_every_form_opens(session: Session, form: work.Form, begin: bytes) -> None:
     if form == "pdf":
         pytest.importorskip("typst")
-    made = answer(papers.of_report(session, form))
+    made = answer(work.of_report(session, form))
     assert made.content.startswith(begin)
     assert made.name.startswith("Z-arrangement")
 
@@ -59,7 +59,7 @@ def test_every_form_opens(session: Session, form: papers.Form, begin: bytes) -> 
 def test_a_workbook_holds_numbers_with_points(session: Session) -> None:
     openpyxl = pytest.importorskip("openpyxl")
     pytest.importorskip("xlsxwriter")
-    made = answer(papers.of_report(session, "xlsx"))
+    made = answer(work.of_report(session, "xlsx"))
     assert ZipFile(io.BytesIO(made.content)).testzip() is None
     book = openpyxl.load_workbook(io.BytesIO(made.content))
     said = [cell for sheet in book for row in sheet.iter_rows(values_only=True) for cell in row if cell is not None]
@@ -69,14 +69,14 @@ def test_a_workbook_holds_numbers_with_points(session: Session) -> None:
 
 def test_figures_and_pages_go_as_every_kind_that_fits(session: Session) -> None:
     shown = page_of(session)
-    table = answer(papers.asked_for(session, papers.PART, thing=shown, kind="csv"))
+    table = answer(work.asked_for(session, work.PART, thing=shown, kind="csv"))
     rows = list(csv.reader(io.StringIO(table.content.decode("utf-8-sig"))))
     assert sum(cell.replace(".", "", 1).isdigit() for row in rows for cell in row) > 5
     figure = next(one.figure for one in shown.blocks if isinstance(one, Picture))
     assert isinstance(figure, Figure)
     for kind in ("svg", "json"):
         assert kind in kinds(figure)
-        made = answer(papers.asked_for(session, papers.PART, thing=figure, kind=kind))
+        made = answer(work.asked_for(session, work.PART, thing=figure, kind=kind))
         assert made.name == f"Z-arrangement-motion.{kind}"
     assert json.loads(made.content)
 
@@ -92,7 +92,7 @@ def page_of(session: Session) -> Page:
 def test_variants_are_compared_in_the_users_units(session: Session) -> None:
     assert session.drive is not None
     rows = (("now, 300 mm", session.drive), ("b", session.drive))
-    question = papers.asked_for(session, papers.COMPARE, variants=rows)
+    question = work.asked_for(session, work.COMPARE, variants=rows)
     assert question is not None
     page = result(question)
     assert isinstance(page, Page)
@@ -103,11 +103,11 @@ def test_variants_are_compared_in_the_users_units(session: Session) -> None:
 def test_a_mistake_in_the_file_does_not_hinder_the_report(session: Session) -> None:
     session.rewrite(session.document.text + "\nnonsense = 1\n")
     assert not session.document.valid
-    assert b"nonsense" not in answer(papers.of_report(session, "json")).content
+    assert b"nonsense" not in answer(work.of_report(session, "json")).content
 
 
 def test_without_a_drive_there_is_no_question(tmp_path: Path) -> None:
-    assert papers.of_report(Session(Workspace(tmp_path)), "html") is None
+    assert work.of_report(Session(Workspace(tmp_path)), "html") is None
 
 
 @pytest.mark.parametrize(
@@ -121,4 +121,4 @@ def test_without_a_drive_there_is_no_question(tmp_path: Path) -> None:
     ],
 )
 def test_names_of_files_are_safe(name: str, safe: str) -> None:
-    assert papers.safe(name) == safe
+    assert work.safe(name) == safe

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from cardan.app.state.document import Workspace
 from cardan.app.state.question import asked
 from cardan.app.state.recordings import DIAGNOSIS, MAX_RECORDING
 from cardan.app.state.session import Session
 from cardan.app.state.work import result
-from cardan.app.state.workspace import Workspace
 from cardan.errors import InputError
 from cardan.io import example, example_text
 from cardan.io.signals import write

@@ -8,11 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from cardan.app.state.choices import Choices, choices_of
-from cardan.app.state.document import read
-from cardan.app.state.history import DEPTH, History
-from cardan.app.state.session import Session
-from cardan.app.state.workspace import MAX_UPLOAD, Workspace
+from cardan.app.state.document import DEPTH, MAX_UPLOAD, History, Workspace, read
+from cardan.app.state.session import Choices, Session, choices_of
 from cardan.errors import InputError
 from cardan.files import Enclosed
 from cardan.io import dumps, example, example_text

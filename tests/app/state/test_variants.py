@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from cardan.app.state.document import Workspace
 from cardan.app.state.session import Session
 from cardan.app.state.variants import LONGEST, MOST, Variants
-from cardan.app.state.workspace import Workspace
 from cardan.errors import InputError
 from cardan.io import example, example_text
 from cardan.io.amend import amend

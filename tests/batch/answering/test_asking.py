@@ -28,7 +28,7 @@ from cardan.drive.fields.paths import with_values
 from cardan.io import loads
 from cardan.questions.motion.columns import COLUMNS as MOTION
 from cardan.questions.torsion.transient.answer import largest
-from cardan.questions.torsion.transient.run_up import follow
+from cardan.questions.torsion.transient.run_up_answer import follow
 from cardan.register import QUESTIONS
 from cardan.units import deg, rpm
 

@@ -15,11 +15,11 @@ from types import SimpleNamespace
 
 import pytest
 
-from cardan.batch.chunks import Chunks
 from cardan.batch.engine import cluster
 from cardan.batch.engine.cluster import Cluster
 from cardan.batch.engine.engines import Done
 from cardan.batch.engine.running import run
+from cardan.batch.work import Chunks
 from cardan.errors import InputError, MissingExtraError
 from cardan.version import VERSION
 from tests.batch import works

@@ -8,8 +8,8 @@ import time
 
 import pytest
 
-from cardan.batch.chunks import Chunks
 from cardan.batch.engine.engines import EngineLostError, InProcess, Processes, reason
+from cardan.batch.work import Chunks
 from cardan.errors import InputError, MissingExtraError, refuse
 from tests.batch import works
 

@@ -17,11 +17,11 @@ from functools import partial
 import numpy as np
 import pytest
 
-from cardan.batch.chunks import UNKNOWN, Chunks, rows_for
 from cardan.batch.engine import running
 from cardan.batch.engine.engines import Done, EngineLostError, InProcess, Processes
 from cardan.batch.engine.running import read_sweep, run
-from cardan.batch.table import parquet
+from cardan.batch.table import store
+from cardan.batch.work import UNKNOWN, Chunks, rows_for
 from cardan.errors import InputError
 from tests.batch.truth import same_tables, undisturbed
 from tests.batch.works import Numbers, Summed, Trouble
@@ -228,7 +228,7 @@ def short_of_room(folder, room):
         return Stream(stream) if "x" in mode else stream
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(parquet, "open", opening, raising=False)
+        patch.setattr(store, "open", opening, raising=False)
         yield
 
 

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from cardan import figures
-from cardan.batch.answering.evaluators import Formula
-from cardan.batch.figures.map import heat_figure, histogram_figure
-from cardan.batch.figures.sweep import parallel_figure, pareto_figure
+from cardan.batch.answering.asking import Formula
+from cardan.batch.figures.sweep import heat_figure, histogram_figure, parallel_figure, pareto_figure
 from cardan.batch.points.distributions import Uniform
 from cardan.batch.search.boundary import boundary
 from cardan.batch.search.goals import Goal, Limit

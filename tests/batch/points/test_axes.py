@@ -6,7 +6,7 @@ from scipy import stats
 
 from cardan import InputError
 from cardan.batch.points.axes import Points
-from cardan.batch.points.designs import METHODS, shuffled, uniforms
+from cardan.batch.points.distributions import METHODS, shuffled, uniforms
 from cardan.sweeps import GridAxis, Normal, SampledAxis, TableAxis, Triangular, Truncated, Uniform
 
 

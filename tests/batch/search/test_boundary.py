@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import mathieu_a, mathieu_b
 
-from cardan.batch.answering.asking import evaluator
-from cardan.batch.answering.evaluators import Formula
+from cardan.batch.answering.asking import Formula, evaluator
 from cardan.batch.search.boundary import boundary
 from cardan.batch.search.goals import Limit
 from cardan.drive.fields.paths import with_values

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from cardan.batch.answering.evaluators import Formula
+from cardan.batch.answering.asking import Formula
 from cardan.batch.search.goals import Goal, Limit
 from cardan.batch.search.optimise import Global, Local, optimise
 from cardan.errors import InputError

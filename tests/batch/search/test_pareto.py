@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cardan.batch.answering.evaluators import Formula
+from cardan.batch.answering.asking import Formula
 from cardan.batch.search.goals import Goal, Limit
 from cardan.batch.search.pareto import pareto, pareto_search
 from cardan.errors import InputError

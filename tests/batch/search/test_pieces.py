@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from cardan.batch.answering.evaluators import Formula
-from cardan.batch.search.pieces import FIRST, MOST, answered
+from cardan.batch.answering.asking import Formula
+from cardan.batch.search.goals import FIRST, MOST, answered
 
 ASK = Formula.of(["x"], {"double": lambda x: 2.0 * x, "root": np.sqrt})
 POINTS = np.linspace(-1.0, 100.0, 5 * FIRST + 3)[:, None]

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from cardan.batch.answering.evaluators import Formula
+from cardan.batch.answering.asking import Formula
 from cardan.batch.points.distributions import Uniform
 from cardan.batch.search.sobol import RESAMPLES, _design, sensitivity, swings
 from cardan.errors import InputError

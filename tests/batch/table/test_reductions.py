@@ -10,9 +10,8 @@ import pytest
 from cardan import InputError
 from cardan.batch.points.axes import Points
 from cardan.batch.table import summaries
-from cardan.batch.table.kinds import KINDS
 from cardan.batch.table.reduction import Reduce
-from cardan.batch.table.reductions import at_work, reduce_of
+from cardan.batch.table.reductions import KINDS, at_work, reduce_of
 from cardan.batch.work import Column
 from cardan.sweeps import GridAxis, TableAxis
 

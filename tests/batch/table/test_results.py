@@ -8,8 +8,7 @@ import pytest
 from cardan.batch.engine.running import run
 from cardan.batch.search.goals import Goal, Limit
 from cardan.batch.search.pareto import pareto
-from cardan.batch.table.results import results
-from cardan.batch.table.sql import sql_names
+from cardan.batch.table.results import results, sql_names
 from cardan.errors import InputError
 from tests.batch.tables import COLUMNS, SIZE, Suspension, stored, whole
 

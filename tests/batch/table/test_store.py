@@ -10,10 +10,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import pytest
 
-from cardan.batch.chunks import Chunks
 from cardan.batch.engine.running import read_sweep, run
-from cardan.batch.table.parquet import Label, flaw, rows_of, states_of, write_chunk
-from cardan.batch.table.store import MANIFEST, opened
+from cardan.batch.table.store import MANIFEST, Label, flaw, opened, rows_of, states_of, write_chunk
+from cardan.batch.work import Chunks
 from cardan.errors import InputError, MissingExtraError
 from tests.batch.truth import same_tables, undisturbed
 from tests.batch.works import Numbers

@@ -8,8 +8,8 @@ import pytest
 from matplotlib.path import Path
 
 from cardan import figures
-from cardan.book.figures.mathieu import chart_figure
-from cardan.book.mathieu_reduction import mathieu_reduction
+from cardan.book.figure import chart_figure
+from cardan.book.mathieu_drive import mathieu_reduction
 from cardan.figures.figure import Curve, Shape
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg

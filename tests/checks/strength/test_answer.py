@@ -5,10 +5,9 @@ from dataclasses import replace
 import pytest
 
 from cardan.answers.data import data
-from cardan.answers.numbers import significant
 from cardan.answers.printed import printed
 from cardan.answers.quantity import told
-from cardan.answers.reader import USUAL, Reader
+from cardan.answers.reader import USUAL, Reader, significant
 from cardan.checks.strength.answer import answer, ask, lacking, otherwise
 from cardan.checks.strength.strength import strength
 from cardan.drive.duty import Duty
@@ -16,7 +15,7 @@ from cardan.io import example
 from cardan.questions.forces.forces import forces
 from cardan.questions.torsion.steady.run_stability import Verdict
 from cardan.questions.torsion.steady.torsion_response import torsion_response
-from cardan.report.page import page
+from cardan.report.block import page
 from cardan.texts import speaking
 
 POUNDS = Reader(units={"torque": "lbft", "stress": "psi"}, decimal=",")

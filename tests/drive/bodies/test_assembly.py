@@ -9,7 +9,7 @@ from cardan.drive import joints as kinds
 from cardan.drive.bodies.assembly import assembled
 from cardan.drive.described import Input, Output
 from cardan.drive.drive import Drive
-from cardan.drive.joints.laws.profile_coupling import Circle, profile_contact
+from cardan.drive.joints.clemens import Circle, profile_contact
 from cardan.drive.models.geometry import geometry
 from cardan.drive.shaft import Segment, Shaft, Spline
 from cardan.drive.station import Absorber, Pendulum, Station

@@ -14,9 +14,9 @@ import pytest
 import cardan
 from cardan.drive.joints import JOINTS, Joint
 from cardan.drive.joints.common import inner
-from cardan.drive.joints.common.stance import Stance
+from cardan.drive.joints.common.inner import Stance
 from cardan.drive.joints.joint import REFUSALS
-from cardan.mechanism.pair import PAIRS
+from cardan.mechanism.mechanism import PAIRS
 from cardan.texts import speaking
 from tests.fixtures.toy_joint import TOYS
 

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from cardan.drive.models.columns import columns, table
-from cardan.drive.models.geometry import polyline
+from cardan.drive.models.geometry import columns, polyline, table
 
 
 def lines(joints, count, varied, straight=False):

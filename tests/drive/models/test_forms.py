@@ -10,8 +10,7 @@ import pytest
 
 from cardan import Drive, InputError, equivalent_joint, forces, motion
 from cardan.drive.duty import Duty
-from cardan.drive.models.forms import in_form
-from cardan.drive.models.geometry import geometry
+from cardan.drive.models.geometry import geometry, in_form
 from cardan.drive.pose import Pose
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support

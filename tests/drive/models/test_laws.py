@@ -28,13 +28,12 @@ from cardan.drive.joints import (
     Tripod,
     Weiss,
 )
-from cardan.drive.models.chain import chain, given_chain, turning_chain
+from cardan.drive.models.chain import NEGLIGIBLE, chain, given_chain, left_over, turning_chain
 from cardan.drive.models.geometry import geometry
-from cardan.drive.models.laws import NEGLIGIBLE, left_over
 from cardan.drive.shaft import Shaft
 from cardan.errors import InputError
 from cardan.questions.motion.equivalence import equivalent_joint
-from cardan.questions.motion.joint_by_joint import followed
+from cardan.questions.motion.motion import followed
 from cardan.units import mm
 
 ROUNDING = 1e-13

@@ -9,10 +9,8 @@ from cardan import figures
 from cardan.figures.figure import Curve, Rule
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
-from cardan.formulas.absorber_tuning import absorber_variants, h_infinity
-from cardan.formulas.absorbers import absorber_response
-from cardan.formulas.joint_run_up import joint_run_up
-from cardan.formulas.run_up import run_up
+from cardan.formulas.absorbers import absorber_response, absorber_variants, h_infinity
+from cardan.formulas.run_up import joint_run_up, run_up
 from cardan.units import deg
 
 

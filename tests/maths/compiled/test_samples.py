@@ -6,9 +6,9 @@ from cardan.backends import Compiled, Plain
 from cardan.drive.accuracy import Error, Tolerance
 from cardan.drive.joints import Hooke
 from cardan.methods import MonteCarlo
-from cardan.questions.accuracy import sample_sums
+from cardan.questions.accuracy import sampling
 from cardan.questions.accuracy.accuracy import course, one_turn, sensitivity, transmission_error
-from cardan.questions.accuracy.sample_sums import Exact, Sums
+from cardan.questions.accuracy.sampling import Exact, Sums
 from cardan.sweeps import Drives
 from cardan.units import deg, mm
 
@@ -68,7 +68,7 @@ def test_both_ways_to_compute_give_the_same_band(joints, points):
 
 
 def test_values_are_kept_for_some_samples_only(monkeypatch):
-    monkeypatch.setattr(sample_sums, "KEPT", 1024)
+    monkeypatch.setattr(sampling, "KEPT", 1024)
     drive = drive_of(1)
     found = [
         tolerance(drive, TOLERANCE, method=MonteCarlo(samples=4096, compute=how)).output
@@ -112,7 +112,7 @@ def test_the_largest_error_allowed_stays_in_the_range_of_the_arctangent():
     drive, phi = Drive.from_angles([60 * deg]), one_turn(72)
     table = np.abs(sensitivity(drive, phi))
     limits = np.ones((1, 5))
-    scale = sample_sums.REACH / np.max(np.sum(table * limits, axis=(-2, -1)))
+    scale = sampling.REACH / np.max(np.sum(table * limits, axis=(-2, -1)))
     corners = np.stack(np.meshgrid(*[[-scale, scale]] * 5, indexing="ij"), axis=-1).reshape(-1, 1, 5)
     error = transmission_error(Drives.from_angles([60 * deg]), phi, turns=corners).error
     assert np.max(np.abs(error)) < np.tan(np.pi / 8)

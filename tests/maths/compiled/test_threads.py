@@ -6,7 +6,7 @@ import threading
 
 import pytest
 
-from cardan.maths.compiled.threads import LIMITS, available, processors, share
+from cardan.maths.compiled.method import LIMITS, available, processors, share
 
 
 @pytest.mark.parametrize("rows", [0, 1, 2, 7, 100, 1001])

@@ -9,13 +9,13 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from cardan.maths.compiled import eighth_order as method
-from cardan.maths.compiled import plain_torsion
+from cardan.maths.compiled import plain as plain_torsion
 from cardan.maths.compiled import torsion_forms as forms
+from cardan.maths.compiled import torsion_forms as method
 from cardan.maths.compiled.torsion_line import begin
-from cardan.questions.torsion.model.torques import Asynchronous, Constant, Falling, History, SpeedTable, Swinging
+from cardan.questions.torsion.model.inputs import Asynchronous, Constant, Falling, History, SpeedTable, Swinging
 from cardan.questions.torsion.model.torsional_balance import accelerations, power
-from cardan.questions.torsion.model.torsional_lines import line_of
+from cardan.questions.torsion.model.torsional_layouts import line_of
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
 
 SPEED, DRIVES = 20.0, 11

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from cardan.maths.curves.peaks import peaks
+from cardan.maths.curves.extremes import peaks
 
 
 def test_smooth_peaks_are_found_to_rounding():

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from cardan.maths.curves.series import crossings, turning_points, values_at
+from cardan.maths.curves.extremes import crossings, turning_points, values_at
 
 POLYNOMIAL = np.polynomial.Polynomial([0.3, -1.0, 0.7, 0.9, -0.4, -0.2])
 

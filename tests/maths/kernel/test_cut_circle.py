@@ -4,7 +4,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from cardan.maths.kernel.cut_circle import cut_circle
+from cardan.questions.bending.cracked_rotor import cut_circle
 
 DEPTHS = [1e-6, 1e-3, 0.1, 0.45, 1.0, 1.3, 1.9]
 

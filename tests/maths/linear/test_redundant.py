@@ -2,7 +2,7 @@ import array_api_strict
 import numpy as np
 import pytest
 
-from cardan.maths.linear.redundant import broadcast_shapes, least_energy, surplus
+from cardan.maths.linear.systems import broadcast_shapes, least_energy, surplus
 
 
 def random_system(rng, m, u):

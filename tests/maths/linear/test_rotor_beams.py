@@ -7,9 +7,8 @@ import pytest
 from scipy.linalg import eigvals, expm
 
 from cardan.maths.linear import transfer
-from cardan.maths.linear.beam_elements import matrices
 from cardan.maths.linear.modes import lowest, synchronous
-from cardan.maths.linear.rotor_beams import divided, layout, line, rigid_motions, round_section
+from cardan.maths.linear.rotor_beams import divided, layout, line, matrices, rigid_motions, round_section
 from cardan.maths.linear.transfer import dynamic_stiffness, modes_below, speeds
 
 STEEL = {"youngs": 2.1e11, "density": 7850.0}

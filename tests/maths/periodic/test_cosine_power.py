@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cardan.maths.periodic.cosine_power import hump, hump_coefficients
+from cardan.maths.periodic.turning_spring import hump, hump_coefficients
 
 
 @pytest.mark.parametrize("power", [0, 1, 2, 4, 17, 1000])

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 
-from cardan.maths.curves.waves import extremes, sampled_series, series_at
+from cardan.maths.curves.extremes import extremes, sampled_series, series_at
 from cardan.maths.periodic.harmonics import HarmonicBalance, Linearised, Status, harmonic_balance, solve_blocks
 
 

@@ -3,7 +3,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from cardan.errors import InputError
-from cardan.maths.periodic.mathieu_forced import forced
+from cardan.maths.periodic.mathieu import forced
 
 FORCING = {"order": [0.0, 2.0, 0.5, 6.8], "amplitude": [-0.4, 0.7, 0.2, -0.3], "phase": [1.1, 0.3, -2.0, 0.4]}
 

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from cardan.maths.periodic.cosine_power import hump, hump_coefficients
-from cardan.maths.periodic.turning_spring import energy_slope, matrices, orbit, pull
+from cardan.maths.periodic.turning_spring import energy_slope, hump, hump_coefficients, matrices, orbit, pull
 
 LOSSES = (0.4, 0.1)
 

@@ -15,7 +15,7 @@ from cardan.questions.accuracy.allocation import allocate
 from cardan.questions.accuracy.answer import answer, answer_of_allocation, ask, lacking, otherwise
 from cardan.questions.accuracy.sampling import MonteCarlo
 from cardan.questions.accuracy.tolerance import WorstCase, tolerance
-from cardan.report.page import page
+from cardan.report.block import page
 from cardan.texts import speaking
 from cardan.units import arcmin
 

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
 
-from cardan.questions.accuracy.cheapest import cheapest, single
+from cardan.questions.accuracy.allocation import cheapest, single
 
 
 @given(st.integers(0, 10**6), st.integers(1, 2), st.integers(1, 20))

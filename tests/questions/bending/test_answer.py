@@ -6,17 +6,14 @@ import pytest
 
 from cardan import example
 from cardan.answers.data import data
-from cardan.answers.numbers import significant
 from cardan.answers.quantity import told
-from cardan.answers.reader import USUAL, Reader
+from cardan.answers.reader import USUAL, Reader, significant
 from cardan.drive.duty import Duty
 from cardan.questions.bending.answer import answer, answer_of_map, ask, lacking
-from cardan.questions.bending.bending import bending_speeds
-from cardan.questions.bending.speed_map import critical_speed_map
+from cardan.questions.bending.bending import bending_speeds, critical_speed_map
 from cardan.register import QUESTIONS
 from cardan.report.answers import found_page, subject
-from cardan.report.block import Picture, Table
-from cardan.report.page import page, row
+from cardan.report.block import Picture, Table, page, row
 from cardan.texts import speaking
 from cardan.units import rpm
 

@@ -9,9 +9,9 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
 from cardan.drive.duty import Duty
 from cardan.io import example
+from cardan.questions.bending.balance import balance
 from cardan.questions.bending.balance_answer import answer, ask, lacking
-from cardan.questions.bending.shaft_balance import balance
-from cardan.report.page import page
+from cardan.report.block import page
 from cardan.texts import speaking
 
 CAR = example("car-propshaft")

@@ -16,8 +16,7 @@ from cardan.drive.shaft import Lump, Segment, Shaft, Spline
 from cardan.drive.support import Support
 from cardan.formulas.critical_speed import speed_margin, uniform_speed
 from cardan.maths.linear.rotor_beams import round_section
-from cardan.questions.bending.bending import Running, bending_speeds, wear_factors
-from cardan.questions.bending.speed_map import critical_speed_map
+from cardan.questions.bending.bending import Running, bending_speeds, critical_speed_map, wear_factors
 
 STEEL = Material(youngs=2.1e11, density=7850.0)
 TUBE = {"outer": 0.076, "inner": 0.072, "material": STEEL}

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cardan import InputError
-from cardan.questions.bending.crack import Crack, breathing_law, crack_section
+from cardan.questions.bending.cracked_rotor import Crack, breathing_law, crack_section
 
 
 def test_the_captions_loss_of_the_article_is_that_of_its_depth():

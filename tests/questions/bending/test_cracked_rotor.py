@@ -8,8 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from cardan import InputError
-from cardan.questions.bending.crack import Crack
-from cardan.questions.bending.cracked_rotor import cracked_rotor
+from cardan.questions.bending.cracked_rotor import Crack, cracked_rotor
 from tests.builders.hill import hill_multipliers
 
 MASS, STIFFNESS = 0.617, 18875.154225936596

@@ -7,8 +7,7 @@ import pytest
 
 from cardan import InputError
 from cardan.maths.periodic.oscillator import stepped
-from cardan.questions.bending.crack import Crack
-from cardan.questions.bending.cracked_rotor import cracked_rotor
+from cardan.questions.bending.cracked_rotor import Crack, cracked_rotor
 from cardan.questions.bending.cracked_run import cracked_run
 
 LIGHT = Crack(loss_xi=0.1, loss_eta=0.02)

@@ -8,8 +8,7 @@ from scipy.integrate import solve_ivp
 
 from cardan import InputError
 from cardan.formulas.unbalance_behind_joint import unbalance_behind_joint
-from cardan.questions.bending.crack import Crack
-from cardan.questions.bending.cracked_rotor import cracked_rotor
+from cardan.questions.bending.cracked_rotor import Crack, cracked_rotor
 from cardan.questions.bending.cracked_shafts import WhirlingShaft, cracked_shafts
 from cardan.units import deg
 

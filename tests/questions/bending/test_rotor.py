@@ -13,8 +13,7 @@ from cardan.drive.machine import RunUp
 from cardan.drive.shaft import Lump, Shaft, Unbalance
 from cardan.io import example
 from cardan.questions.bending.cracked_rotor import cracked_rotor
-from cardan.questions.bending.rotor import rotor
-from cardan.questions.bending.rotor_response import joined_rotors, rotor_response, rotor_run
+from cardan.questions.bending.rotor import joined_rotors, rotor, rotor_response, rotor_run
 from cardan.units import deg, mm, rpm
 
 LENGTH = 1.5

@@ -9,9 +9,9 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
 from cardan.drive.crack import ShaftCrack
 from cardan.io import example
+from cardan.questions.bending.rotor import rotor_response
 from cardan.questions.bending.rotor_answer import answer, ask, lacking
-from cardan.questions.bending.rotor_response import rotor_response
-from cardan.report.page import page
+from cardan.report.block import page
 from cardan.texts import speaking
 
 CAR = example("car-propshaft")

@@ -9,7 +9,7 @@ import pytest
 from cardan import Drive, InputError, check
 from cardan.drive.duty import Block, Duty
 from cardan.drive.shaft import Shaft, Unbalance
-from cardan.questions.bending.shaft_balance import balance
+from cardan.questions.bending.balance import balance
 from cardan.units import mm, rpm
 
 PLANES = (

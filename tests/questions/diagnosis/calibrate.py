@@ -20,8 +20,7 @@ import numpy as np
 from cardan.io import example
 from cardan.questions.diagnosis.expected import FAULTS
 from cardan.questions.diagnosis.features import NAMES
-from cardan.questions.diagnosis.findings import SURE, diagnose, relied_on
-from cardan.questions.diagnosis.model import Model, fitted, shipped
+from cardan.questions.diagnosis.findings import SURE, Model, diagnose, fitted, relied_on, shipped
 from cardan.questions.diagnosis.signals.signal import Signal
 from cardan.questions.diagnosis.simulate import simulate_fault
 from tests.questions.diagnosis.recorded_faults import CALIBRATION, EVALUATION, case, shown

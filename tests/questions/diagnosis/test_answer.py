@@ -16,8 +16,8 @@ from cardan.questions.diagnosis.fault_answer import by_torque, grows
 from cardan.questions.diagnosis.findings import diagnose
 from cardan.questions.diagnosis.match import Signs
 from cardan.questions.diagnosis.simulate import TestSchedule, simulate_fault
+from cardan.report.block import page as page_of
 from cardan.report.content import Excerpt
-from cardan.report.page import page as page_of
 from cardan.report.render.renderer import RENDERERS
 
 SHORT = TestSchedule(run_up=5.0, hold=2.0, rate=1024.0)

@@ -5,10 +5,8 @@ import pytest
 
 from cardan import Drive, InputError, equivalent_joint
 from cardan.io import example
-from cardan.questions.bending.crack import Crack
-from cardan.questions.bending.cracked_rotor import cracked_rotor
-from cardan.questions.diagnosis.expected import FAULTS, expected_orders
-from cardan.questions.diagnosis.fault_orders import LOSSES
+from cardan.questions.bending.cracked_rotor import Crack, cracked_rotor
+from cardan.questions.diagnosis.expected import FAULTS, LOSSES, expected_orders
 from cardan.questions.diagnosis.plant import plant
 from cardan.units import deg
 

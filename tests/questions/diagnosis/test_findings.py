@@ -9,9 +9,8 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.io import example
 from cardan.questions.diagnosis.features import NAMES
-from cardan.questions.diagnosis.findings import BY_SIGNS, diagnose
+from cardan.questions.diagnosis.findings import BY_SIGNS, diagnose, fitted, shipped
 from cardan.questions.diagnosis.match import Signs, likely_causes
-from cardan.questions.diagnosis.model import fitted, shipped
 from cardan.questions.diagnosis.signals.signal import Channel, Signal
 from cardan.questions.diagnosis.simulate import TestSchedule, simulate_fault
 from tests.questions.diagnosis.calibrate import JUDGED, PAGE, RESULT, judged, named, tables

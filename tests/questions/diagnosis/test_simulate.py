@@ -4,7 +4,7 @@ import pytest
 from cardan import InputError
 from cardan.io import example
 from cardan.questions.diagnosis.expected import expected_orders
-from cardan.questions.diagnosis.signals.order_tracks import tracked_orders
+from cardan.questions.diagnosis.signals.orders import tracked_orders
 from cardan.questions.diagnosis.signals.turning import estimate_rotation
 from cardan.questions.diagnosis.simulate import TestSchedule, simulate_fault
 

@@ -15,7 +15,7 @@ from cardan.io import example
 from cardan.maths.kernel import frames
 from cardan.questions.forces.assembly import assembly
 from cardan.questions.forces.assembly_answer import answer, ask, lacking, otherwise
-from cardan.report.page import page
+from cardan.report.block import page
 from cardan.texts import speaking
 
 POUNDS = Reader(units={"force": "lbf", "displacement": "mil"}, decimal=",")

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError, forces, motion
-from cardan.book.double_joint_forces import double_joint_forces
-from cardan.book.single_joint_forces import single_joint_forces
+from cardan.book.joint_forces import double_joint_forces, single_joint_forces
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty, Harmonic
 from cardan.drive.joints import Hooke

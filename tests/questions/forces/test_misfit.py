@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 
 from cardan.maths.kernel import frames
-from cardan.questions.forces.held import Layout, actions
-from cardan.questions.forces.misfit import conditions, crosses, joint_gap, misfit, sliding
+from cardan.questions.forces.held import Layout, actions, conditions, crosses, joint_gap, misfit, sliding
 
 JOINT_ANGLES = np.deg2rad([0.0, 12.0, 35.0])
 ANGLES = np.linspace(0.0, 2 * np.pi, 13)

@@ -15,7 +15,7 @@ from cardan.drive.models.geometry import geometry
 from cardan.drive.movement import Harmonic as Swing
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.support import Support
-from cardan.questions.forces.swing_couple import parallel_ends, swing_couple
+from cardan.questions.forces.kinetostatics import parallel_ends, swing_couple
 from cardan.questions.motion.moving_chain import moving_centres
 from cardan.questions.motion.moving_points import moving_path
 

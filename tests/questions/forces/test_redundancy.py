@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from cardan import InputError
+from cardan.questions.forces.elastic import redundancy
 from cardan.questions.forces.held import Layout, actions, balance
-from cardan.questions.forces.redundancy import redundancy
 
 AXIS = np.asarray([[1.0, 0, 0], [0.8, 0.6, 0], [0.8, 0.0, 0.6]])
 

@@ -10,7 +10,7 @@ from cardan.drive.cross import Cross
 from cardan.drive.joints import Hooke
 from cardan.drive.support import Support
 from cardan.questions.forces.held import Layout, actions, balance
-from cardan.questions.forces.solving_order import reaction_groups, solving_order
+from cardan.questions.forces.reactions import reaction_groups, solving_order
 
 FULL, SIDE, ALONG = ("radial", "axial"), ("radial",), ("axial",)
 RNG = np.random.default_rng(5)

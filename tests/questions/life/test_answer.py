@@ -5,15 +5,14 @@ from dataclasses import replace
 import pytest
 
 from cardan.answers.data import data
-from cardan.answers.numbers import fixed
 from cardan.answers.quantity import told
-from cardan.answers.reader import USUAL, Reader
+from cardan.answers.reader import USUAL, Reader, fixed
 from cardan.drive.duty import History
 from cardan.io import example
 from cardan.questions.life.answer import answer, ask, lacking
 from cardan.questions.life.life import life
 from cardan.questions.life.lives import METHODS
-from cardan.report.page import page, row
+from cardan.report.block import page, row
 from cardan.texts import speaking
 
 HOUR = 3600.0

@@ -6,15 +6,14 @@ import numpy as np
 import pytest
 
 from cardan import InputError, forces, motion
-from cardan.book.single_joint_forces import couple_frames, cross_loads
+from cardan.book.joint_forces import couple_frames, cross_loads
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Duty, Harmonic, History
 from cardan.drive.joint_parts import Needles, Rating
 from cardan.drive.joints import Hooke
 from cardan.drive.shaft import Shaft
-from cardan.formulas.joint_rating import book_life
-from cardan.formulas.needle_bearing import needle_rating
+from cardan.formulas.joint_rating import book_life, needle_rating
 from cardan.questions.life.bearing_life import bearing_life, maker_life
 from cardan.questions.life.duty_cycle import combined_life, equivalent_torque
 from cardan.questions.life.life import life

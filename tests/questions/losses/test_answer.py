@@ -14,7 +14,7 @@ from cardan.drive.joints import Hooke
 from cardan.io import example
 from cardan.questions.losses.answer import answer, ask, lacking
 from cardan.questions.losses.losses import loss_map, losses
-from cardan.report.page import page
+from cardan.report.block import page
 from cardan.texts import speaking
 
 INCHES = Reader(units={"torque": "lbft", "power": "kW"}, decimal=",")

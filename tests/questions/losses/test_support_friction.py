@@ -9,8 +9,8 @@ from cardan.drive.models.train import train
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.support import Support
 from cardan.questions.forces.forces import kinetostatics
-from cardan.questions.losses.support_friction import response, trouble
-from cardan.questions.losses.torque_flow import torque_flow
+from cardan.questions.losses.loss_model import torque_flow
+from cardan.questions.losses.loss_parts import response, trouble
 from cardan.units import mm
 
 PLACES = np.linspace(0.0, 2 * np.pi, 37)

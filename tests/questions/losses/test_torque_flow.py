@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cardan import Drive, motion
-from cardan.questions.losses.torque_flow import torque_flow
+from cardan.questions.losses.loss_model import torque_flow
 from cardan.sweeps import Drives
 from tests.builders.drives import plans
 from tests.builders.friction_model import torques

@@ -14,8 +14,8 @@ from cardan.drive.support import Support
 from cardan.io import example_names
 from cardan.questions.forces.kinetostatics import standing
 from cardan.questions.mobility.drive_mechanism import marks, mechanism_of
+from cardan.questions.mobility.finite_mobility import mobility_over_turn
 from cardan.questions.mobility.mobility import mobility
-from cardan.questions.mobility.mobility_turn import mobility_over_turn
 from cardan.questions.mobility.repair import repairs
 from cardan.reading.fields import fields_of
 

@@ -12,12 +12,11 @@ from cardan.figures.for_reader import for_reader
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.io import mechanism_names
-from cardan.mechanism.pair import PAIRS
+from cardan.mechanism.mechanism import PAIRS
 from cardan.mechanisms import example_mechanism
 from cardan.questions.mobility.figure import graph_figure
-from cardan.questions.mobility.finite_mobility import finite_mobility
+from cardan.questions.mobility.finite_mobility import finite_mobility, mobility_over_turn
 from cardan.questions.mobility.mobility import mobility
-from cardan.questions.mobility.mobility_turn import mobility_over_turn
 from tests.builders.mechanisms import anyhow
 
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from cardan.io import example_mechanism
-from cardan.questions.mobility.mobility_turn import mobility_over_turn
+from cardan.questions.mobility.finite_mobility import mobility_over_turn
 from tests.builders.mechanisms import hooke
 
 

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from cardan import InputError
 from cardan.questions.mobility.mobility import mobility
-from cardan.questions.mobility.release import release
+from cardan.questions.mobility.repair import release
 from tests.builders.mechanisms import anyhow, hooke
 
 

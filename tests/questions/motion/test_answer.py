@@ -11,8 +11,8 @@ from cardan.drive.joints import PinCoupling
 from cardan.io import example
 from cardan.questions.motion.answer import answer, ask
 from cardan.questions.motion.equivalence import equivalent_joint
-from cardan.questions.motion.swing import swing
-from cardan.report.page import page
+from cardan.questions.motion.turning import swing
+from cardan.report.block import page
 from cardan.texts import speaking
 from cardan.units import deg
 

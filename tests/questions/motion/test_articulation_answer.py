@@ -10,7 +10,7 @@ from cardan.answers.reader import USUAL, Reader
 from cardan.drive.drive import Drive
 from cardan.io import example
 from cardan.questions.motion.articulation_answer import answer, ask, lacking
-from cardan.report.page import page
+from cardan.report.block import page
 from cardan.texts import speaking
 from cardan.units import deg
 

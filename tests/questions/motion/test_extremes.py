@@ -17,7 +17,7 @@ from cardan.maths.compiled.method import Compiled, Plain
 from cardan.questions.motion import extremes as module
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.extremes import LARGE, Extremes, extremes
-from cardan.questions.motion.traces import traces
+from cardan.questions.motion.many_drives import traces
 from tests.builders import recurrence
 from tests.questions.motion.test_traces import METHODS, drives
 

@@ -21,8 +21,8 @@ from cardan.drive.joints import (
     Tripod,
     Weiss,
 )
-from cardan.questions.motion.joint_inside import joint_inside
 from cardan.questions.motion.joint_law import joint_over_angles, joint_turn, types_of
+from cardan.questions.motion.kinds import joint_inside
 from cardan.units import deg, mm
 
 UNEVEN = (

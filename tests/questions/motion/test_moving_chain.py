@@ -8,9 +8,9 @@ from cardan.drive.models.geometry import geometry
 from cardan.maths.curves import paths
 from cardan.maths.kernel import frames
 from cardan.questions.motion.equivalence import equivalent_joint
+from cardan.questions.motion.instants import acceleration_range, speed_range
 from cardan.questions.motion.motion import motion
 from cardan.questions.motion.moving_chain import harmonic_points, moving_axes, moving_centres, moving_shafts
-from cardan.questions.motion.spin_range import acceleration_range, speed_range
 
 CASE = {
     "points": [[-1, 0, 0], [0, 0, 0], [1.5, 0.1, -0.25], [2.0, 0.1, -0.25]],

@@ -18,8 +18,8 @@ from cardan.drive.duty import Duty
 from cardan.errors import InputError, MissingExtraError
 from cardan.maths.compiled import method
 from cardan.maths.compiled.method import Compiled, Plain
+from cardan.questions.motion.many_drives import LARGE, Traces, traces
 from cardan.questions.motion.motion import motion
-from cardan.questions.motion.traces import LARGE, Traces, traces
 from tests.builders import recurrence
 
 METHODS = [Plain(), Compiled()]
@@ -234,7 +234,7 @@ def test_a_number_of_threads_below_one_is_refused():
 
 
 def test_large_jobs_are_compiled_and_small_ones_are_not(monkeypatch):
-    from cardan.questions.motion import traces as module
+    from cardan.questions.motion import many_drives as module
 
     used = []
     monkeypatch.setattr(module, "_plain", lambda *job: used.append("plain"))
@@ -258,7 +258,7 @@ def test_a_single_drive_does_not_import_numba(monkeypatch):
 
 
 def test_without_numba_everything_still_works(monkeypatch):
-    from cardan.questions.motion import traces as module
+    from cardan.questions.motion import many_drives as module
 
     monkeypatch.setattr(module, "LARGE", 100)
     monkeypatch.setattr(method, "has_numba", lambda: False)

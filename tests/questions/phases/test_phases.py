@@ -11,7 +11,7 @@ from cardan import Drive, InputError, example, phases
 from cardan.drive.fields.paths import pose_drives
 from cardan.drive.joints import Hooke
 from cardan.drive.shaft import Shaft
-from cardan.questions.phases.goal import NEAREST, SYNCHRONOUS, LeastIntermediate
+from cardan.questions.phases.setting import NEAREST, SYNCHRONOUS, LeastIntermediate
 from cardan.units import deg
 from tests.builders import closing
 from tests.builders.drives import plans

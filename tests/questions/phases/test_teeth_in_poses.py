@@ -11,7 +11,7 @@ from cardan.drive.fields.paths import pose_drives
 from cardan.drive.pose import Pose
 from cardan.drive.shaft import Shaft, Spline
 from cardan.questions.motion.equivalence import equivalent_joint
-from cardan.questions.phases import poses as module
+from cardan.questions.phases import phases as module
 from cardan.questions.phases.phases import phases
 from cardan.units import deg
 

@@ -18,7 +18,7 @@ from cardan.errors import InputError
 from cardan.questions.torsion.answer import answer, ask, lacking
 from cardan.questions.torsion.model.answer import answer as answer_of_modes
 from cardan.questions.torsion.model.answer import modes_said
-from cardan.report.page import page
+from cardan.report.block import page
 from cardan.texts import speaking
 
 OTHER = Reader(units={"torque": "lbft", "angular_speed": "rad_s", "length": "in"}, decimal=",")

@@ -9,7 +9,7 @@ import numpy as np
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule
 from cardan.report.block import Page, Picture
 from cardan.report.content import Excerpt
-from cardan.report.render.plain import figure_csv
+from cardan.report.render.exports import figure_csv
 from cardan.report.render.workbook import excerpt
 
 from .test_workbook import CHART, opened, parts

@@ -17,13 +17,13 @@ from cardan.errors import CardanError, InputError
 from cardan.io.edit import edit
 from cardan.register import QUESTIONS, groups
 from cardan.report.answers import subject
-from cardan.report.applying import Applicable, settings
 from cardan.report.block import Page
+from cardan.report.lights import Applicable, settings
 from cardan.texts import _, speaking
 
-from . import toasts
+from . import widgets
 from .blocks import Export, PageView
-from .timers import Timer
+from .widgets import Timer
 
 AT_ONCE = ("motion",)
 """Answers so quick that they are made while the edit is worked on."""
@@ -341,9 +341,9 @@ def applied(session: Session, change: Applicable) -> None:
     try:
         session.change(lambda text: edit(text, change.values, folder=session.workspace.enclosed))
     except InputError as error:
-        toasts.refused(error)
+        widgets.refused(error)
     else:
-        toasts.done(_("{change}: applied").format(change=change.label))
+        widgets.done(_("{change}: applied").format(change=change.label))
 
 
 def _answer(question: Question) -> tuple[Page, tuple[Applicable, ...]] | str:

@@ -16,11 +16,10 @@ from cardan.io import recording_names
 from cardan.report.recorded import SUFFIXES, WAYS, Recorded, Sensor
 from cardan.texts import _
 
-from . import toasts
+from . import widgets
 from .answers import Sheet
 from .blocks import Export, PageView
-from .dialogs import sending
-from .menus import drop_down
+from .widgets import drop_down, sending
 
 MOST_PULSES = 10_000
 """Pulses that a tacho gives in a turn at most."""
@@ -106,7 +105,7 @@ class Diagnosis(Sheet):
             try:
                 opening()
             except InputError as error:
-                toasts.refused(error)
+                widgets.refused(error)
                 return
             self._sensors, self._tacho = (), ""
             self.view.element.delete()  # what it shows is of another recording

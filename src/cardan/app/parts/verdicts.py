@@ -13,14 +13,12 @@ from cardan.app.state.session import Session
 from cardan.app.state.work import REMEDIES, VERDICTS, result
 from cardan.errors import CardanError
 from cardan.report.answers import subject
-from cardan.report.applying import Applicable, synchronous
 from cardan.report.block import SIGNS
-from cardan.report.lights import MOST, Light, sentence
+from cardan.report.lights import MOST, Applicable, Light, sentence, synchronous
 from cardan.texts import _
 
 from .answers import applied
-from .live import Live
-from .timers import Timer
+from .widgets import Live, Timer
 
 QUIET = 0.4
 """Seconds without an edit after which cures are looked for."""

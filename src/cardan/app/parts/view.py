@@ -18,8 +18,7 @@ from cardan.errors import CardanError
 from cardan.scene.scene import Scene, scene
 from cardan.texts import _
 
-from .menus import drop_down
-from .timers import Timer
+from .widgets import Timer, drop_down
 
 TURNING = -1
 """In place of the index of a mode shape: the drive turns."""

@@ -2,20 +2,105 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, refuse
-from cardan.files import Enclosed
+from cardan.files import Enclosed, write_text
 from cardan.io import dumps, loads
-from cardan.io.drive_file import parsed
+from cardan.io.drive_file import parsed, text_of
 from cardan.texts import _
 
 from .form import tree_of
-from .workspace import MAX_UPLOAD
+
+# Undo and redo: every text that the drive file was.
+
+DEPTH = 200
+"""Steps kept."""
+
+ROOM = 20_000_000
+"""Characters kept at most, of long files fewer steps."""
+
+
+@dataclass(frozen=True, slots=True)
+class History:
+    """The texts before and after the present one."""
+
+    before: tuple[str, ...] = ()
+    behind: tuple[str, ...] = ()
+
+    def after(self, text: str) -> History:
+        """Return the history once ``text`` gave way to a new one; what was undone is forgotten."""
+        steps = (*self.before, text)[-DEPTH:]
+        while len(steps) > 1 and sum(map(len, steps)) > ROOM:
+            steps = steps[1:]
+        return History(steps, ())
+
+    def undone(self, text: str) -> tuple[str, History]:
+        """Return the text before ``text``, and the history there; the text itself where there is none before."""
+        if not self.before:
+            return text, self
+        return self.before[-1], History(self.before[:-1], (text, *self.behind))
+
+    def redone(self, text: str) -> tuple[str, History]:
+        """Return the text that was undone last, and the history there; the text itself where there is none."""
+        if not self.behind:
+            return text, self
+        return self.behind[0], History((*self.before, text), self.behind[1:])
+
+
+# The folder a user works in: no path outside it is read or written.
+
+MAX_UPLOAD = 2_000_000
+"""Bytes of a file that a user may send."""
+
+MAX_LISTED = 200
+"""Files that are listed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Workspace:
+    """A folder with drive files."""
+
+    folder: Path  # where they are
+
+    @property
+    def enclosed(self) -> Enclosed:
+        """The folder, such that no name leads out of it."""
+        return Enclosed(self.folder)
+
+    def names(self) -> tuple[str, ...]:
+        """Return the drive files of the folder, the one changed last first."""
+        found = [path for path in self.folder.glob("*.toml") if path.is_file() and not path.name.startswith(".")]
+        found.sort(key=lambda path: -path.stat().st_mtime)
+        return tuple(path.name for path in found[:MAX_LISTED])
+
+    def read(self, name: str) -> str:
+        """Return the text of a file.
+
+        Raises InputError: there is none of that name in the folder, or it is no text.
+        """
+        return text_of(self.place(name))[0]
+
+    def write(self, name: str, text: str) -> str:
+        """Write a file and return its name, with .toml at its end.
+
+        Raises InputError: the name is none, leads out of the folder, or the file cannot be written.
+        """
+        full = name if name.endswith(".toml") or not name else f"{name}.toml"
+        write_text(self.place(full), text)
+        return full
+
+    def place(self, name: str) -> Path:
+        """Return where the file of a name is."""
+        if not re.fullmatch(r"[^/\\\x00-\x1f:*?\"<>|.][^/\\\x00-\x1f:*?\"<>|]{0,120}", name):
+            raise refuse("name", _("{name} is not a file name").format(name=repr(name)))
+        return self.enclosed / name
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -20,7 +20,7 @@ from cardan.io.signals import SIGNAL_FORMATS
 from cardan.report.recorded import Recorded, Said, recorded
 from cardan.texts import _
 
-from .workspace import MAX_LISTED, Workspace
+from .document import MAX_LISTED, Workspace
 
 MAX_RECORDING = 100_000_000
 """Bytes of a recording that a user may send."""

@@ -3,29 +3,76 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from cardan.answers.sweepable import SweepQuestion
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.batch.points.fields import TEXT_STATUS, Maker, Spot, spots_of
 from cardan.batch.work import STATUS, Column, Rows, Status
 from cardan.catalogue import Catalogue, catalogue
 from cardan.drive.drive import Drive
-from cardan.drive.models.laws import unmapped
+from cardan.drive.models.chain import mixed, unmapped
 from cardan.errors import CardanError, InputError, MissingExtraError, Problem, check
 from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.method import Compiled, Method, Plain, has_numba
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .many import Many, many, one
 from .questions import asked
 
-gpu = later("cardan.batch.answering.gpu")
+# Answers by plain functions: for formulas of one's own beside the questions of a drive.
+
+
+@dataclass(frozen=True, kw_only=True)
+class Formula:
+    """Functions of the fields, each an answer; where one is not finite there is none.
+
+    Attributes
+    ----------
+    points, answers : tuple of Column
+        Fields and answers.
+    functions : tuple of callable
+        One for each answer; takes an array (n,) for each field and returns one.
+    """
+
+    points: tuple[Column, ...]
+    answers: tuple[Column, ...]
+    functions: tuple[Callable[..., Any], ...]
+
+    @classmethod
+    def of(cls, fields: Sequence[str], answers: Mapping[str, Callable[..., Any]]) -> Formula:
+        """Return formulas over fields without units.
+
+        Parameters
+        ----------
+        fields : sequence of str
+            Their names.
+        answers : mapping of str to callable
+            Name and function of each answer.
+        """
+        return cls(
+            points=tuple(Column(name=name, unit="", role="point", text=name) for name in fields),
+            answers=tuple(Column(name=name, unit="", role="answer", text=name) for name in answers),
+            functions=tuple(answers.values()),
+        )
+
+    def __call__(self, points: Array) -> Rows:
+        """Return the answers at points (n, d)."""
+        columns = np.asarray(points, dtype=float).T
+        with np.errstate(all="ignore"):
+            values = [np.broadcast_to(one(*columns), columns.shape[1:]).astype(float) for one in self.functions]
+        rows: Rows = {column.name: value for column, value in zip(self.answers, values, strict=True)}
+        known = np.all(np.isfinite(np.stack(values)), axis=0) if values else np.ones(columns.shape[1:], dtype=bool)
+        rows[STATUS] = np.where(known, int(Status.ANSWERED), int(Status.NO_ANSWER)).astype(np.int8)
+        return rows
+
+
+gpu = later("cardan.batch.answering.asking")
 
 Device: TypeAlias = Literal["cpu", "gpu"]
 """What computes questions about motion: NumPy and the kernels, or JAX on its default device."""
@@ -281,3 +328,71 @@ def evaluator(
         problems.append(Problem("device", text))
     check(problems)
     return made
+
+
+# Motion of many drives by JAX: the same formulas on its arrays, compiled as one, on its default device.
+
+jax = later("jax", mark("computing on a GPU needs JAX: pip install 'cardan[gpu]'"))
+numpy = later("jax.numpy")
+
+PIECES = (2**10, 2**15, 2**20)
+"""Points that the device is given at a time: the least of these that holds them, filled up.
+
+Each size is compiled once, which takes seconds; a piece of the largest takes about a gigabyte.
+"""
+
+
+def jax_numpy() -> tuple[Any, Any]:
+    """Return JAX and its array library, set to 64 bits.
+
+    Raises MissingExtraError: it is not installed.
+    """
+    jax().config.update("jax_enable_x64", True)
+    return jax(), numpy()
+
+
+def answered(
+    drive: Drive, questions: tuple[str, ...], si: Mapping[str, Array], count: int
+) -> tuple[list[tuple[str, Array]], Array]:
+    """Return answers to questions about motion, and which points are drives.
+
+    drive: the drive in which places and angles vary; questions: names of questions about motion.
+    si, mapping of str to array (count,): path without unit -> values in SI.
+    Returns list of (str, array (count,)), array of bool (count,).
+    """
+    _jax, xp = jax_numpy()
+    piece = next((size for size in PIECES if size >= count), PIECES[-1])
+    run = _program(drive, questions, piece)
+    parts: dict[str, list[Array]] = {}
+    reals: list[Array] = []
+    for start in range(0, count, piece):
+        rows = slice(start, min(start + piece, count))
+        held = rows.stop - start
+        filled = {
+            path: np.concatenate((one[rows], np.repeat(one[rows][-1:], piece - held))) for path, one in si.items()
+        }
+        columns, real = run({path: xp.asarray(one) for path, one in filled.items()})
+        for name, column in columns.items():
+            parts.setdefault(name, []).append(np.asarray(column)[:held])
+        reals.append(np.asarray(real)[:held])
+    if not count:
+        return [(told.name, np.empty(0)) for told in _told(drive, questions)], np.empty(0, dtype=bool)
+    return [(name, np.concatenate(column)) for name, column in parts.items()], np.concatenate(reals)
+
+
+@lru_cache(maxsize=16)
+def _program(drive: Drive, questions: tuple[str, ...], piece: int) -> Callable[[dict[str, Array]], Any]:
+    """Return what answers so many points at once, compiled where it does not look at what it computes."""
+    jax, xp = jax_numpy()
+
+    def program(values: dict[str, Array]) -> tuple[dict[str, Array], Array]:
+        found, real = many(drive, values, piece, xp=xp)
+        answers = (column for one in asked(questions) if one.of_many for column in one.of_many(found))
+        pairs = zip(_told(drive, questions), answers, strict=True)
+        return {told.name: xp.broadcast_to(column / told.factor, (piece,)) for told, column in pairs}, real
+
+    return program if mixed(drive.joints) else jax.jit(program)
+
+
+def _told(drive: Drive, questions: tuple[str, ...]) -> list[OutputColumn]:
+    return [told for one in asked(questions) for told in one.columns(drive)]

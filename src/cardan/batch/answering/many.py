@@ -12,16 +12,14 @@ import numpy as np
 from cardan.checks.angles.acceleration import swings
 from cardan.drive.drive import Drive
 from cardan.drive.fields.validity import COINCIDENT, TINY, axis_points
-from cardan.drive.models.chain import Chain, given_chain, turning
-from cardan.drive.models.columns import Number, Vector, columns, table
-from cardan.drive.models.geometry import geometry, polyline
-from cardan.drive.models.laws import mixed, unmapped
+from cardan.drive.models.chain import Chain, given_chain, mixed, turning, unmapped
+from cardan.drive.models.geometry import Number, Vector, columns, geometry, polyline, table
 from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.method import Method
 from cardan.questions.motion.equivalence import after_each_joint
 from cardan.questions.motion.extremes import Extremes, extremes
-from cardan.questions.motion.swing import Evenness, Swing, swing
+from cardan.questions.motion.turning import Evenness, Swing, swing
 from cardan.texts import _
 
 RIGHT = 1e-15

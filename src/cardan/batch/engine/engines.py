@@ -18,10 +18,10 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from typing import Any, Generic, Protocol, TypeVar
 
-from cardan.batch.chunks import Chunk
+from cardan.batch.work import Chunk
 from cardan.errors import CardanError, InputError, MissingExtraError, refuse
 from cardan.files import refusal
-from cardan.maths.compiled.threads import processors
+from cardan.maths.compiled.method import processors
 from cardan.texts import _, language, plural, speaking
 
 T = TypeVar("T")
@@ -74,7 +74,7 @@ class InProcess:
 
     Examples
     --------
-    >>> from cardan.batch.chunks import Chunks
+    >>> from cardan.batch.work import Chunks
     >>> [done.value for done in InProcess().run(lambda chunk: chunk.size, Chunks("a sweep", size=5, rows=2))]
     [2, 2, 1]
     """

@@ -10,10 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
-from cardan.batch.chunks import Chunk, Chunks, chunks_of, made, rows_for
 from cardan.batch.table.store import Folder, Store, opened
 from cardan.batch.table.swept import Ending, Missing, Sweep, ranges, read_sweep
-from cardan.batch.work import Reduction, Rows, State, Work
+from cardan.batch.work import Chunk, Chunks, Reduction, Rows, State, Work, chunks_of, made, rows_for
 from cardan.errors import refuse
 from cardan.files import refusal
 from cardan.texts import _

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cardan.answers.numbers import significant
+from cardan.answers.reader import significant
 from cardan.batch.search.boundary import Boundary
 from cardan.batch.search.optimise import Optimum
 from cardan.batch.search.pareto import ParetoSet
@@ -18,8 +18,7 @@ from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule, S
 from cardan.maths.arrays import Array
 from cardan.texts import _, plural
 
-from .sweep import pareto_figure
-from .words import amount, axis_of, counted, name_of, title_of
+from .sweep import amount, axis_of, counted, name_of, pareto_figure, title_of
 
 BARS = 14
 """Fields with a bar of their own, the weightiest."""

@@ -1,18 +1,21 @@
-"""The points of a sweep on paper: each as a line across all columns, or as a dot between goals."""
+"""The points of a sweep on paper: lines across columns, dots between goals, maps, how often a value occurs."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
+from cardan.answers.reader import significant
 from cardan.batch.search.goals import Goal
 from cardan.batch.work import Column, Rows
-from cardan.figures.figure import Axis, Curve, Figure, Note, Panel, Row, Series
+from cardan.figures.axes import axis, written
+from cardan.figures.figure import Axis, Bars, Cells, Curve, Figure, Note, Panel, Row, Rule, Series
 from cardan.maths.arrays import Array
+from cardan.maths.ties import NOTHING, foremost, tidied
 from cardan.texts import _, plural
-
-from .words import amount, axis_of, counted, ends, levels, name_of, shortened, title_of
+from cardan.units import label, thousands
 
 FINER = (0.4, 0.65, 0.8, 0.9, 0.96, 1.0)
 """Shares of the lines below each shade, from the worst to the best: few are dark."""
@@ -224,4 +227,250 @@ def _choice(across: Column, up: Column, goals: Sequence[Goal], x: Array, y: Arra
         second=amount(up, float(y[one])),
         third=amount(across, float(x[two])),
         fourth=amount(up, float(y[two])),
+    )
+
+
+# How columns of a sweep are called on axes, and how their values are written.
+
+LONG = 34
+"""Letters of a name on an axis."""
+
+
+def name_of(column: Column) -> str:
+    """Return what a column is called: an answer by its meaning, what stands in the file by its path.
+
+    >>> name_of(Column(name="alpha_eq_deg", unit="deg", role="answer", text="equivalent angle"))
+    'equivalent angle'
+    >>> name_of(Column(name="joints[1].centre_mm[2]", unit="mm", role="point", text="joint centre"))
+    'joints[1].centre_mm[2]'
+    """
+    if column.role == "answer" and column.text and "[" not in column.name:
+        return shortened(_(column.text))
+    return shortened(column.name)
+
+
+def shortened(text: str, most: int = LONG) -> str:
+    """Return a text that is not too long: of words the first, of a path the last.
+
+    >>> shortened("shafts[1].spline.mean_diameter_mm", 20), shortened("speed_fluctuation of the output", 20)
+    ('…ne.mean_diameter_mm', 'speed_fluctuation o…')
+    """
+    if len(text) <= most:
+        return text
+    return text[: most - 1].rstrip() + "…" if " " in text else "…" + text[1 - most :]
+
+
+def unit_of(column: Column) -> str:
+    """Return the printed unit of a column, empty for a plain number."""
+    return label(column.unit) if column.unit else ""
+
+
+def title_of(column: Column) -> str:
+    """Return what a column is called, with its unit where the name has none: paths have theirs.
+
+    >>> title_of(Column(name="alpha_eq_deg", unit="deg", role="answer", text="equivalent angle"))
+    'equivalent angle [°]'
+    """
+    unit = unit_of(column) if column.role == "answer" else ""
+    return f"{name_of(column)} [{unit}]" if unit else name_of(column)
+
+
+def amount(column: Column, value: Any, digits: int = 3) -> str:
+    """Return a value with its unit.
+
+    >>> amount(Column(name="alpha_eq_deg", unit="deg", role="answer", text=""), 1.25)
+    '1.25°'
+    """
+    if isinstance(value, str) or value is None:
+        return value or "–"
+    unit = unit_of(column)
+    told = float(value) if unit else tidied(float(value))
+    return f"{significant(told, digits)}{'' if unit in ('', '°', '′') else ' '}{unit}"
+
+
+def levels(values: Array) -> tuple[Array, tuple[str, ...]]:
+    """Return values as numbers, and the words that stand for 0, 1, 2 … where they are words."""
+    column = np.asarray(values)
+    if column.dtype.kind in "fiub":
+        return column.astype(float), ()
+    words, place = np.unique(column.astype(str), return_inverse=True)
+    return place.astype(float), tuple(shortened(str(word), 18) for word in words)
+
+
+def axis_of(column: Column, values: Array, *, margin: float = 0.05, count: int = 5) -> Axis:
+    """Return the axis of a column: round ticks, or its words.
+
+    values (n,); margin: share of the range left free at both ends; count: about how many ticks.
+    """
+    numbers, words = levels(values)
+    if words:
+        places = tuple(float(k) for k in range(len(words)))
+        return Axis(label=name_of(column), low=-0.5, high=len(words) - 0.5, ticks=places, texts=words)
+    return axis(title_of(column), "", [numbers], margin=margin, count=count)
+
+
+def ends(values: Array) -> tuple[str, str]:
+    """Return the least and the greatest of values, as short as tells them apart."""
+    known = values[np.isfinite(values)]
+    if not known.size:
+        return "–", "–"
+    low, high = float(np.min(known)), float(np.max(known))
+    if abs(low) < NOTHING * high:
+        low = 0.0
+    told = written((low, high)) if high > low else (significant(low, 4),) * 2
+    if max(map(len, told)) > 7:
+        told = significant(low, 3), significant(high, 3)
+    return told[0], told[1]
+
+
+def counted(count: int) -> str:
+    """Return a number of points with thin grouping.
+
+    >>> counted(100000)
+    '100\u202f000'
+    """
+    return thousands(count)
+
+
+# The answers of a sweep on paper: over two fields as a map, or how often each value occurs.
+
+WIDE = 0.02
+"""Width of a bar of colours beside a map, a share of the map's."""
+
+
+def heat_figure(
+    across: Column,
+    up: Column,
+    value: Column,
+    x: Array,
+    y: Array,
+    values: Array,
+    *,
+    how: str = "",
+    lines: Sequence[Array] = (),
+) -> Figure:
+    """Return a column over two fields as a map, the darker the greater.
+
+    across, up, value: what runs to the right and upwards, and what is shown.
+    x, y (m,), (k,): middles of the columns and rows of the map, rising, or words; values (k, m): nan leaves a hole.
+    how: what was made of points that share a cell: a word for the sentence below.
+    lines, sequence of array (p, 2): lines over the map: boundaries.
+    """
+    places = [levels(one)[0] for one in (x, y)]
+    known = values[np.isfinite(values)]
+    low, high = (float(np.min(known)), float(np.max(known))) if known.size else (0.0, 1.0)
+    cells = Cells(x=_edges(places[0]), y=_edges(places[1]), values=values, low=low, high=high)
+    series: list[Series] = [cells, *(Curve(x=one[:, 0], y=one[:, 1], role="ink", width=1.2) for one in lines)]
+    shades = np.linspace(low, high, 65) if high > low else np.asarray([low - 0.5, low + 0.5])
+    middle = 0.5 * (shades[1:] + shades[:-1])
+    bar = Cells(x=np.asarray([0.0, 1.0]), y=shades, values=middle[:, None], low=low, high=high)
+    panels = (
+        Panel(series=tuple(series), x=_fitted(across, x, cells.x), y=_fitted(up, y, cells.y), title=title_of(up)),
+        Panel(
+            series=(bar,),
+            x=Axis(low=0.0, high=1.0, grid=False),
+            y=axis(title_of(value), "", [shades], margin=0.0, count=6),
+            title=unit_of(value) or " ",
+        ),
+    )
+    return Figure(
+        name="sweep-map",
+        title=_("{value} over {up} and {across}").format(
+            value=_capital(name_of(value)), up=name_of(up), across=name_of(across)
+        ),
+        sentence=_extremes_sentence(across, up, value, x, y, values),
+        source=how or _("one cell for each point"),
+        rows=(Row(panels=panels, height=3.4, widths=(1.0, WIDE)),),
+        legend=False,
+    )
+
+
+def _extremes_sentence(across: Column, up: Column, value: Column, x: Array, y: Array, values: Array) -> str:
+    if not np.any(np.isfinite(values)):
+        return _("No point has an answer.")
+    least, most = (
+        np.unravel_index(int(foremost(values.ravel(), least=least)), values.shape) for least in (True, False)
+    )
+    text = _("Least is {low} at {low_x} and {low_y}, greatest {high} at {high_x} and {high_y}.")
+
+    def at(column: Column, where: Array, k: int) -> str:
+        one = where[k]
+        return str(one) if np.asarray(where).dtype.kind not in "fiub" else amount(column, float(one))
+
+    return text.format(
+        low=amount(value, float(values[least])),
+        low_x=at(across, x, int(least[1])),
+        low_y=at(up, y, int(least[0])),
+        high=amount(value, float(values[most])),
+        high_x=at(across, x, int(most[1])),
+        high_y=at(up, y, int(most[0])),
+    )
+
+
+def _edges(middles: Array) -> Array:
+    """Return the edges between middles, and beyond the first and the last."""
+    if len(middles) < 2:
+        return np.asarray([middles[0] - 0.5, middles[0] + 0.5]) if len(middles) else np.asarray([0.0, 1.0])
+    between = 0.5 * (middles[1:] + middles[:-1])
+    first, last = 2.0 * middles[0] - between[0], 2.0 * middles[-1] - between[-1]
+    return np.concatenate([[first], between, [last]])
+
+
+def _fitted(column: Column, values: Array, edges: Array) -> Axis:
+    """Return the axis of a column from edge to edge."""
+    found = axis_of(column, values, margin=0.0, count=7)
+    low, high = float(edges[0]), float(edges[-1])
+    kept = [k for k, tick in enumerate(found.ticks) if low <= tick <= high]
+    return Axis(
+        label=found.label,
+        unit=found.unit,
+        low=low,
+        high=high,
+        ticks=tuple(found.ticks[k] for k in kept),
+        texts=tuple(found.texts[k] for k in kept),
+        grid=False,
+    )
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:] if "[" not in text and "." not in text else text
+
+
+def histogram_figure(
+    column: Column, edges: Array, counts: Array, *, marks: Mapping[str, float] | None = None, unknown: int = 0
+) -> Figure:
+    """Return how often values of a column occur.
+
+    column: what is counted; edges (m + 1,): between the bars; counts (m,): points in each.
+    marks: word -> value ruled in: a mean, a limit; unknown: points without an answer.
+    """
+    middle = 0.5 * (edges[1:] + edges[:-1])
+    bars = Bars(at=middle, size=np.asarray(counts, dtype=float), thick=float(0.94 * (edges[1] - edges[0])))
+    rules = [Rule(value=value, upright=True, text=text, role="ink") for text, value in (marks or {}).items()]
+    total = int(np.sum(counts))
+    panel = Panel(
+        series=(bars, *rules),
+        x=axis(title_of(column), "", [edges], margin=0.0, count=8),
+        y=axis(_("Points"), "", [counts], include=(0.0,), margin=0.12),
+    )
+    peak = int(np.argmax(counts))
+    text = _("Most points, {share} % of {total}, lie between {low} and {high}.")
+    said = text.format(
+        share=significant(100.0 * float(counts[peak]) / max(total, 1), 3),
+        total=counted(total),
+        low=amount(column, float(edges[peak])),
+        high=amount(column, float(edges[peak + 1])),
+    )
+    source = _("all points with an answer")
+    if unknown:
+        source = plural("{count} point has no answer", "{count} points have no answer", unknown).format(
+            count=counted(unknown)
+        )
+    return Figure(
+        name="sweep-histogram",
+        title=_("How often: {name}").format(name=name_of(column)),
+        sentence=said if total else _("No point has an answer."),
+        source=source,
+        rows=(Row(panels=(panel,), height=2.4),),
+        legend=False,
     )

@@ -20,8 +20,7 @@ from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .designs import METHODS, uniforms
-from .distributions import Distribution, correlated
+from .distributions import METHODS, Distribution, correlated, uniforms
 
 MOST = 10**12
 """More points than this are refused: at ten million a second they would take a day."""

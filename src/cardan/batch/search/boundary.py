@@ -13,9 +13,8 @@ from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .goals import Evaluator, Limit, check_names, excess
+from .goals import Evaluator, Limit, Progress, StoppedError, answered, check_names, excess
 from .optimise import Bounds, check_bounds
-from .pieces import Progress, StoppedError, answered
 
 MOST = 2**24
 """Places of the finest grid at most: each has room for a number."""
@@ -115,7 +114,7 @@ def boundary(
 
     Examples
     --------
-    >>> from cardan.batch.answering.evaluators import Formula
+    >>> from cardan.batch.answering.asking import Formula
     >>> ask = Formula.of(["x", "y"], {"r": lambda x, y: (x * x + y * y) ** 0.5})
     >>> found = boundary(ask, [(-2.0, 2.0), (-2.0, 2.0)], [Limit(name="r", high=1.0)])
     >>> radius = np.hypot(*found.lines[0].T)

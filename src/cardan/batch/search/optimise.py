@@ -10,14 +10,13 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import scipy
 
-from cardan.batch.points.designs import uniforms
+from cardan.batch.points.distributions import uniforms
 from cardan.batch.work import STATUS, Column, Rows
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .goals import Evaluator, Goal, Limit, check_names, excess
-from .pieces import Progress, StoppedError, tell
+from .goals import Evaluator, Goal, Limit, Progress, StoppedError, check_names, excess, tell
 
 KEPT = 1e-9
 """A limit is kept if it is passed by no more than this share of it."""
@@ -246,7 +245,7 @@ def optimise(
 
     Examples
     --------
-    >>> from cardan.batch.answering.evaluators import Formula
+    >>> from cardan.batch.answering.asking import Formula
     >>> ask = Formula.of(["x", "y"], {"z": lambda x, y: (x - 1.0) ** 2 + (y + 2.0) ** 2})
     >>> found = optimise(ask, [(-5.0, 5.0), (-5.0, 5.0)], Goal(name="z"))
     >>> print(found.status, found.point.round(4))

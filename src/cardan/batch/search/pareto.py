@@ -15,9 +15,8 @@ from cardan.maths.arrays import Array
 from cardan.maths.curves.fronts import front
 from cardan.texts import _, mark
 
-from .goals import Evaluator, Goal, Limit, check_names, excess
+from .goals import Evaluator, Goal, Limit, Progress, StoppedError, check_names, excess, tell
 from .optimise import KEPT, UNANSWERED, Bounds, check_bounds
-from .pieces import Progress, StoppedError, tell
 
 MISSING = mark("a search for several goals needs pymoo: pip install 'cardan[pareto]'")
 nsga2 = later("pymoo.algorithms.moo.nsga2", MISSING)
@@ -127,7 +126,7 @@ def pareto_search(
 
     Examples
     --------
-    >>> from cardan.batch.answering.evaluators import Formula
+    >>> from cardan.batch.answering.asking import Formula
     >>> ask = Formula.of(["x"], {"one": lambda x: x**2, "two": lambda x: (x - 2.0) ** 2})
     >>> found = pareto_search(ask, [(-5.0, 5.0)], [Goal(name="one"), Goal(name="two")], generations=20)
     >>> found.status, bool(found.points.min() > -0.05), bool(found.points.max() < 2.05)

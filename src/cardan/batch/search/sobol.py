@@ -8,16 +8,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.batch.points.designs import uniforms
-from cardan.batch.points.distributions import Distribution
+from cardan.batch.points.distributions import Distribution, uniforms
 from cardan.batch.work import STATUS, Column
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import nearest
 
-from .goals import Evaluator
-from .pieces import Progress, answered
+from .goals import Evaluator, Progress, answered
 
 RESAMPLES = 400
 """Samples drawn anew from the samples, for the ranges of the indices."""
@@ -130,7 +128,7 @@ def sensitivity(
     Examples
     --------
     >>> from cardan.batch.points.distributions import Uniform
-    >>> from cardan.batch.answering.evaluators import Formula
+    >>> from cardan.batch.answering.asking import Formula
     >>> ask = Formula.of(["x", "y"], {"z": lambda x, y: 3.0 * x + y})
     >>> found = sensitivity(ask, [Uniform(low=0.0, high=1.0)] * 2, samples=512)
     >>> print(found.first.round(2), found.total.round(2))
@@ -308,7 +306,7 @@ def swings(ask: Evaluator, here: Sequence[float], low: Sequence[float], high: Se
 
     Examples
     --------
-    >>> from cardan.batch.answering.evaluators import Formula
+    >>> from cardan.batch.answering.asking import Formula
     >>> ask = Formula.of(["x", "y"], {"z": lambda x, y: 3.0 * x + y})
     >>> found = swings(ask, [0.0, 0.0], [-1.0, -1.0], [1.0, 1.0])
     >>> print(found.at_low, found.at_high)

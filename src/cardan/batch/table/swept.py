@@ -9,13 +9,11 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
-from cardan.batch.chunks import Chunks
-from cardan.batch.work import Column, Rows
+from cardan.batch.work import Chunks, Column, Rows
 from cardan.errors import refuse
 from cardan.texts import _
 
-from .parquet import SUFFIX, rows_of
-from .store import SUMMARY, manifest_of, names_in, read_json
+from .store import SUFFIX, SUMMARY, manifest_of, names_in, read_json, rows_of
 
 Ending: TypeAlias = Literal["done", "cancelled", "incomplete"]
 

@@ -14,8 +14,7 @@ from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .results import TABLE, Results
-from .sql import condition, quoted
+from .results import TABLE, Results, condition, quoted
 
 FINEST = 160
 """Columns and rows of a map at most; what is finer is put together."""

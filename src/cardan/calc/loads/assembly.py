@@ -12,11 +12,10 @@ from cardan.calc.motion.kinematics import START, YOKES, between, points
 from cardan.drive.models.train import train_of_points
 from cardan.errors import Problem
 from cardan.maths.arrays import Array
-from cardan.maths.curves.peaks import peaks
+from cardan.maths.curves.extremes import peaks
 from cardan.maths.kernel import frames
 from cardan.questions.forces.forces import kinetostatics
-from cardan.questions.forces.held import Hold, Layout, actions, shaft_flexibility
-from cardan.questions.forces.misfit import Crosses, crosses, joint_gap, misfit
+from cardan.questions.forces.held import Crosses, Hold, Layout, actions, crosses, joint_gap, misfit, shaft_flexibility
 from cardan.reading.given import at_least_zero, flag, given, joint_angle, positive, rows, word
 from cardan.texts import _
 from cardan.units import mm

@@ -8,9 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.book.double_joint_forces import double_joint_forces, largest_middle_couple
-from cardan.book.single_joint_forces import single_joint_forces
-from cardan.book.spline_thrust import spline_thrust
+from cardan.book.joint_forces import double_joint_forces, largest_middle_couple, single_joint_forces, spline_thrust
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.calc.motion.kinematics import ACCELERATION, ANGLE, START, between, points
 from cardan.drive.models.train import Hold, Train, spline_grip, train_of_points
@@ -19,7 +17,7 @@ from cardan.maths.curves import paths
 from cardan.maths.kernel import frames
 from cardan.questions.forces.forces import kinetostatics
 from cardan.questions.forces.gap_closure import gap_closure
-from cardan.questions.forces.swing_couple import parallel_ends, swing_couple
+from cardan.questions.forces.kinetostatics import parallel_ends, swing_couple
 from cardan.reading.given import RIGHT, at_least_zero, flag, given, joint_angle, positive, rows, whole, word
 from cardan.texts import _
 

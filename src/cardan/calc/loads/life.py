@@ -7,21 +7,24 @@ from typing import Any
 
 import numpy as np
 
-from cardan.book.single_joint_forces import cross_loads
+from cardan.book.joint_forces import cross_loads
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.errors import Problem
 from cardan.formulas.joint_rating import (
     LIFE_RANGE,
     SPEED_ANGLE_RANGE,
     book_life,
+    book_load,
+    critical_swing,
     life_factor,
+    needle_contact,
+    needle_rating,
     nominal_torque,
     rated_joint_angle,
     rated_torque,
     speed_angle_factor,
     within,
 )
-from cardan.formulas.needle_bearing import book_load, critical_swing, needle_contact, needle_rating
 from cardan.questions.life.bearing_life import CONVENTIONS, bearing_life, maker_life
 from cardan.questions.life.duty_cycle import WHOLE, combined_life
 from cardan.questions.life.life_cautions import clamped, extrapolated

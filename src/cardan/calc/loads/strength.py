@@ -13,13 +13,20 @@ from cardan.calc.bores import bores, segment_bores
 from cardan.calc.calculation import Calculation, Formulas, Problems, Values
 from cardan.drive.models.train import spline_grip
 from cardan.drive.shaft import Layup, Ply
-from cardan.formulas.composite_tube import composite_tube
 from cardan.formulas.critical_speed import uniform_speed
-from cardan.formulas.design_torque import design_torque, wheel_load
-from cardan.formulas.fatigue import FINISHES, RELIABILITIES, shaft_fatigue
-from cardan.formulas.joint_strength import journal_stress, yoke_stress
-from cardan.formulas.shaft_strength import RATED_TWIST, shaft_diameter, shaft_stress, shaft_twist
-from cardan.formulas.spline_strength import spline_stress
+from cardan.formulas.part_strength import journal_stress, spline_stress, yoke_stress
+from cardan.formulas.shaft_strength import (
+    FINISHES,
+    RATED_TWIST,
+    RELIABILITIES,
+    composite_tube,
+    design_torque,
+    shaft_diameter,
+    shaft_fatigue,
+    shaft_stress,
+    shaft_twist,
+    wheel_load,
+)
 from cardan.reading.given import at_least_zero, given, gives, positive, record, rows, word
 from cardan.texts import _
 

@@ -6,8 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from cardan.book.comparison import book_comparison, book_series, collinear_joint_angle, rule_of_practice
-from cardan.book.forms import OutputMotion, arrangement_phase, blokh, double_joint, double_joint_law
+from cardan.book.comparison import (
+    OutputMotion,
+    arrangement_phase,
+    blokh,
+    book_comparison,
+    book_series,
+    collinear_joint_angle,
+    double_joint,
+    double_joint_law,
+    rule_of_practice,
+)
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.reading.given import given, joint_angle, whole, word
 from cardan.texts import _

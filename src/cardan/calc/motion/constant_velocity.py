@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.drive.joints.laws import offset_grooves, pilot_lever, tilted_plane, tracta, tripod
+from cardan.drive.joints import rzeppa, tracta, tripod, weiss
+from cardan.drive.joints.common import laws
 from cardan.errors import InputError, refuse
-from cardan.formulas.groove_offset import groove_offset
-from cardan.formulas.pilot_lever import lever_choice
+from cardan.formulas.joint_geometry import groove_offset, lever_choice
 from cardan.reading.given import RIGHT, at_least_zero, given, joint_angle, positive, whole, word
 from cardan.texts import _
 from cardan.units import deg
@@ -68,8 +68,8 @@ ANGLE = given("phi1_deg", "input angle from the inner side of the plane of the s
 )
 def _rzeppa_lever(v: Values) -> Any:
     alpha, b, c = (v[name] for name in ("alpha12", "b_over_a", "c_over_a"))
-    error = pilot_lever.plane_error(alpha, b, c)
-    return pilot_lever.cage_tilt(alpha, b, c), error, tilted_plane.speed_fluctuation(alpha, error)
+    error = rzeppa.plane_error(alpha, b, c)
+    return rzeppa.cage_tilt(alpha, b, c), error, laws.speed_fluctuation(alpha, error)
 
 
 @formula(
@@ -79,7 +79,7 @@ def _rzeppa_lever(v: Values) -> Any:
     "c_over_a: distance of the fixed ball end over the part of the lever beside the other",
 )
 def _rzeppa_lever_ratio(v: Values) -> Any:
-    found = float(pilot_lever.even_length(v.alpha12, v.b_over_a))
+    found = float(rzeppa.even_length(v.alpha12, v.b_over_a))
     if math.isnan(found):
         text = _("{value:.6g} is too much: a lever halves this joint angle only where b cos α_12 is less than a")
         raise refuse("b_over_a", text.format(value=v.b_over_a), "out_of_range")
@@ -123,8 +123,8 @@ def _rzeppa_lever_optimum(v: Values) -> Any:
 )
 def _ball_plane_error(v: Values) -> Any:
     joint_angle, tilt = v.alpha, v.plane_tilt
-    found = tilted_plane.ball_demands(v.phi1, joint_angle, tilt, v.balls)
-    return found.mean, found.spread, found.largest, tilted_plane.speed_fluctuation(joint_angle, tilt)
+    found = laws.ball_demands(v.phi1, joint_angle, tilt, v.balls)
+    return found.mean, found.spread, found.largest, laws.speed_fluctuation(joint_angle, tilt)
 
 
 @formula(
@@ -141,13 +141,13 @@ def _ball_plane_error(v: Values) -> Any:
 )
 def _offset_groove_plane(v: Values) -> Any:
     joint_angle, one, two, radius = (v[name] for name in ("alpha", "c1", "c2", "groove_radius"))
-    angle_error = np.asarray(offset_grooves.deviation(v.phi1, joint_angle, one, two, radius))
+    angle_error = np.asarray(weiss.deviation(v.phi1, joint_angle, one, two, radius))
     if np.any(np.isnan(angle_error)):
         text = _("{value:.6g} mm is too small: grooves so far off the centre do not meet at this joint angle")
         raise refuse("groove_radius", text.format(value=1e3 * radius), "singular")
     return (
-        0.0 - offset_grooves.plane_tilt(joint_angle, one, two),
-        offset_grooves.plane_offset(joint_angle, one, two),
+        0.0 - weiss.plane_tilt(joint_angle, one, two),
+        weiss.plane_offset(joint_angle, one, two),
         angle_error + 0.0,
     )
 

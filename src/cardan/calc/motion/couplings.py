@@ -7,10 +7,9 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
-from cardan.drive.joints.laws import double_cardan, offset_cross, pin_coupling, profile_coupling
+from cardan.drive.joints import clemens, double_cardan, offset_cross, pin_coupling
 from cardan.errors import refuse
-from cardan.formulas.centring import best_centring
-from cardan.formulas.pin_geometry import MARGIN, best_pins
+from cardan.formulas.joint_geometry import MARGIN, best_centring, best_pins
 from cardan.reading.given import RIGHT, Given, at_least_zero, given, gives, joint_angle, positive, record, whole, word
 from cardan.texts import _
 from cardan.units import deg
@@ -216,8 +215,8 @@ def _pin_geometry(v: Values) -> Any:
     FORCE,
 )
 def _profile_coupling(v: Values) -> Any:
-    first, second = (profile_coupling.Circle(**v[name]) for name in ("circle1", "circle2"))
-    found = profile_coupling.profile_contact(np.asarray(v.phi1, dtype=float), v.alpha, first, second)
+    first, second = (clemens.Circle(**v[name]) for name in ("circle1", "circle2"))
+    found = clemens.profile_contact(np.asarray(v.phi1, dtype=float), v.alpha, first, second)
     if not np.all(np.isfinite(found.deviation)):
         raise refuse("circle2", _("the profile does not meet that of shaft 1 all the way round"), "singular")
     return found.deviation, found.ratio, found.height1, found.radius1, found.height2, found.radius2, found.force

@@ -7,9 +7,16 @@ from typing import Any
 import numpy as np
 
 from cardan.book.axles import cascade_ratios, cascade_shares, wind_up
-from cardan.book.disc_integrator import roller_speed, roller_turn
-from cardan.book.friction_drive import least_press, press, speed_ratio
-from cardan.book.slot_cam import Contact, SlotCam, cam_forces
+from cardan.book.instruments import (
+    Contact,
+    SlotCam,
+    cam_forces,
+    least_press,
+    press,
+    roller_speed,
+    roller_turn,
+    speed_ratio,
+)
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.errors import refuse
 from cardan.reading.given import RIGHT, at_least_zero, given, gives, positive, whole, word

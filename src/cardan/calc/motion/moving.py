@@ -8,8 +8,7 @@ import numpy as np
 
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
-from cardan.book.random_joint_angle import random_joint_angle
-from cardan.book.varying_joint_angle import swinging_chain, swinging_joint
+from cardan.book.varying_joint_angle import random_joint_angle, swinging_chain, swinging_joint
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.drive.drives import Drives
 from cardan.drive.duty import Limits

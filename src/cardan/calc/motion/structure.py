@@ -8,13 +8,11 @@ import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.errors import InputError, Problem, check
-from cardan.mechanism.groups import MOST, group, minus_groups, zero_groups
-from cardan.mechanism.mechanism import Mechanism
-from cardan.mechanism.pair import PAIRS, Pair, pair_problems
-from cardan.mechanism.partition import Join, partition
+from cardan.mechanism.counting import MOST, Join, group, minus_groups, partition, zero_groups
+from cardan.mechanism.mechanism import PAIRS, Mechanism, Pair, pair_problems
 from cardan.questions.mobility.finite_mobility import CLOSED, finite_mobility
 from cardan.questions.mobility.mobility import mobility
-from cardan.questions.mobility.release import release
+from cardan.questions.mobility.repair import release
 from cardan.reading.given import given, gives, positive, record, rows, vector, whole, word
 from cardan.texts import _
 

@@ -7,8 +7,16 @@ from typing import Any
 from cardan.calc.calculation import Formulas, Values
 from cardan.errors import Problem, check
 from cardan.formulas.unbalance_behind_joint import unbalance_behind_joint
-from cardan.questions.bending.crack import MOST_POWER, Crack, breathing_law, crack_section
-from cardan.questions.bending.cracked_rotor import GRAVITY, SLOWEST, CrackedRotor, cracked_rotor
+from cardan.questions.bending.cracked_rotor import (
+    GRAVITY,
+    MOST_POWER,
+    SLOWEST,
+    Crack,
+    CrackedRotor,
+    breathing_law,
+    crack_section,
+    cracked_rotor,
+)
 from cardan.questions.bending.cracked_shafts import WhirlingShaft, cracked_shafts
 from cardan.reading.given import Given, at_least_zero, given, joint_angle, positive, whole, word
 from cardan.texts import _

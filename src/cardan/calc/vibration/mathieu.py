@@ -9,14 +9,19 @@ from typing import Any
 
 import numpy as np
 
-from cardan.book.dynamic_book import TRUCK, book_beta, book_half_trace, book_zone, truck_example, validity
-from cardan.book.engineering_torque import engineering_torque
-from cardan.book.massless_joints import steady_twist
-from cardan.book.mathieu_reduction import mathieu_reduction
+from cardan.book.dynamic_book import (
+    TRUCK,
+    book_beta,
+    book_half_trace,
+    book_zone,
+    engineering_torque,
+    truck_example,
+    validity,
+)
+from cardan.book.mathieu_drive import mathieu_reduction, steady_twist
 from cardan.calc.calculation import Calculation, Formulas, Problems, Values
 from cardan.errors import InputError, refuse
-from cardan.maths.periodic.mathieu import LARGEST_A, LARGEST_Q, LEAST_A, boundaries, damped_zone, exponents
-from cardan.maths.periodic.mathieu_forced import forced
+from cardan.maths.periodic.mathieu import LARGEST_A, LARGEST_Q, LEAST_A, boundaries, damped_zone, exponents, forced
 from cardan.reading.given import Given, at_least_zero, given, gives, joint_angle, positive, rows, whole
 from cardan.texts import _
 from cardan.units import rpm

@@ -11,11 +11,9 @@ import numpy as np
 from cardan.book.straight_line import line_modes, line_response
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.errors import Problem, check
-from cardan.formulas.absorber_tuning import Tuning, den_hartog, h_infinity, viscous_optimum
-from cardan.formulas.absorbers import absorber_response
-from cardan.formulas.joint_run_up import joint_run_up
+from cardan.formulas.absorbers import Tuning, absorber_response, den_hartog, h_infinity, viscous_optimum
 from cardan.formulas.pendulum import pendulum
-from cardan.formulas.run_up import run_up
+from cardan.formulas.run_up import joint_run_up, run_up
 from cardan.reading.given import Given, at_least_zero, given, gives, joint_angle, positive, whole, word
 from cardan.texts import _
 

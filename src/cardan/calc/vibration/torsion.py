@@ -11,8 +11,8 @@ from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.errors import Problem
 from cardan.maths.arrays import Array
 from cardan.maths.periodic.harmonics import Status
-from cardan.questions.torsion.model.torques import Asynchronous, Constant, Falling, History, Law, SpeedTable, Swinging
-from cardan.questions.torsion.model.torsional_batch import repeating
+from cardan.questions.torsion.model.inputs import Asynchronous, Constant, Falling, History, Law, SpeedTable, Swinging
+from cardan.questions.torsion.model.torsional_layouts import repeating
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
 from cardan.questions.torsion.steady.run_stability import Floquet, Kind, Verdict, floquet
 from cardan.questions.torsion.steady.steady import periodic_response

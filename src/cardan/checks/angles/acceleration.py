@@ -10,13 +10,12 @@ from cardan.catalogue.rows import AngleNorm
 from cardan.checks.case import Case
 from cardan.checks.check import Check
 from cardan.checks.design import Design
-from cardan.checks.told import as_drawn, at_top_speed, joined
-from cardan.checks.verdict import Verdict
+from cardan.checks.verdict import Verdict, as_drawn, at_top_speed, joined
 from cardan.drive.models.chain import Chain
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import mobius
 from cardan.questions.motion.equivalence import after_each_joint, largest_acceleration
-from cardan.questions.motion.swing import Swing
+from cardan.questions.motion.turning import Swing
 from cardan.texts import _, mark
 
 

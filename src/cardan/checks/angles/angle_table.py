@@ -9,8 +9,7 @@ import numpy as np
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.moving import at_its_most
-from cardan.checks.told import at_top_speed, bendable, joined
-from cardan.checks.verdict import Verdict
+from cardan.checks.verdict import Verdict, at_top_speed, bendable, joined
 from cardan.maths.arrays import Array
 from cardan.questions.motion.angle_limits import TABLE_TORSIONAL, angle_limits
 from cardan.texts import _, mark

@@ -10,8 +10,7 @@ from cardan.catalogue.rows import MaxJointAngle, sureness
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.moving import at_its_most
-from cardan.checks.told import bendable, joined
-from cardan.checks.verdict import Verdict
+from cardan.checks.verdict import Verdict, bendable, joined
 from cardan.maths.arrays import Array
 from cardan.texts import mark
 

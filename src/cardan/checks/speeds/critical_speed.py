@@ -9,8 +9,7 @@ import numpy as np
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.checks.check import Check
 from cardan.checks.design import Design
-from cardan.checks.told import turning
-from cardan.checks.verdict import Verdict
+from cardan.checks.verdict import Verdict, turning
 from cardan.formulas.critical_speed import ARTICLE, CATALOGUE, SEPARATION
 from cardan.texts import _, mark
 

@@ -11,8 +11,7 @@ from cardan.checks.case import Case, blocks
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.speeds.shaft_inertia import shaft_inertia
-from cardan.checks.told import joined
-from cardan.checks.verdict import Verdict
+from cardan.checks.verdict import Verdict, joined
 from cardan.drive.models.chain import Chain
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost

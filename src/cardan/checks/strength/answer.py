@@ -19,9 +19,8 @@ from cardan.drive.fields.keys import key_of
 from cardan.texts import _, mark, plural
 
 from .figure import strength_figures
-from .left_out import LITTLE, left_out
 from .omitted import LeftOut
-from .strength import Strength, strength
+from .strength import LITTLE, Strength, left_out, strength
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 

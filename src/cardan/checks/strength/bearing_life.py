@@ -15,8 +15,7 @@ from cardan.checks.moving import stands
 from cardan.checks.verdict import Verdict
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
-from cardan.formulas.joint_rating import POWER
-from cardan.formulas.needle_bearing import needle_rating
+from cardan.formulas.joint_rating import POWER, needle_rating
 from cardan.maths.arrays import Array
 from cardan.questions.life.bearing_life import swing_damage
 from cardan.questions.life.life import life

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.formulas.needle_bearing import STATIC_PRESSURE, Contact, needle_contact
+from cardan.formulas.joint_rating import STATIC_PRESSURE, Contact, needle_contact
 from cardan.texts import _, mark
 
-from .journal_load import journal_load
+from .journal_strength import journal_load
 from .needle_static import sizes_of
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.formulas.design_torque import design_torque
+from cardan.formulas.shaft_strength import design_torque
 from cardan.texts import _, mark
 
 VEHICLE = "duty.vehicle"

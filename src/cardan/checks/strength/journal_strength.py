@@ -7,10 +7,20 @@ from collections.abc import Iterator
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.formulas.joint_strength import PartStress, journal_stress
+from cardan.formulas.part_strength import PartStress, journal_stress
+from cardan.maths.arrays import Array
 from cardan.texts import _, mark
 
-from .journal_load import journal_load
+# The load that a cross puts on its journals, and through them on needles and yokes.
+
+
+def journal_load(design: Design, i: int) -> tuple[Array, str]:
+    """Return the largest load of the journals of a joint, shocks counted (...) [N], and what decides it in a sentence.
+
+    design: under torque, and with the span of this joint's cross; i: joint, counted from 0.
+    """
+    couple, note = design.most(lambda case: case.couple[..., i])
+    return couple * design.shock / design.value(f"joints[{i}].cross.span"), note
 
 
 def lacking(design: Design, i: int) -> tuple[str, ...]:

@@ -9,12 +9,12 @@ import numpy as np
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.formulas.needle_bearing import book_load, needle_rating
+from cardan.formulas.joint_rating import book_load, needle_rating
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.texts import _, mark
 
-from .journal_load import journal_load
+from .journal_strength import journal_load
 
 
 def sizes_of(i: int) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.formulas.needle_bearing import critical_swing
+from cardan.formulas.joint_rating import critical_swing
 from cardan.texts import _, mark
 
 

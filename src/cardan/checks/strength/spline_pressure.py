@@ -9,7 +9,7 @@ import numpy as np
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.formulas.spline_strength import SplineStress, spline_stress
+from cardan.formulas.part_strength import SplineStress, spline_stress
 from cardan.texts import _, mark
 
 SIZES = ("outer", "root", "teeth", "tooth_width", "length")

@@ -9,8 +9,7 @@ import numpy as np
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.formulas.composite_tube import composite_tube
-from cardan.formulas.shaft_strength import wall_buckling_torque
+from cardan.formulas.shaft_strength import composite_tube, wall_buckling_torque
 from cardan.maths.arrays import Array
 from cardan.texts import _, mark
 

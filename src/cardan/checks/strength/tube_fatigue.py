@@ -11,7 +11,7 @@ from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
 from cardan.drive.shaft import Notch
-from cardan.formulas.fatigue import Fatigue, shaft_fatigue
+from cardan.formulas.shaft_strength import Fatigue, shaft_fatigue
 from cardan.maths.arrays import ArrayLike
 from cardan.texts import _, mark
 

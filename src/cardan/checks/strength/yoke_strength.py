@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.formulas.joint_strength import PartStress, yoke_stress
+from cardan.formulas.part_strength import PartStress, yoke_stress
 from cardan.texts import _, mark
 
-from .journal_load import journal_load
+from .journal_strength import journal_load
 
 SIZES = ("bending_arm", "torsion_arm", "section")
 

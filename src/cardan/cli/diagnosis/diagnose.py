@@ -14,11 +14,10 @@ from cardan.answers.reader import reader
 from cardan.catalogue import catalogue
 from cardan.catalogue.catalogue import with_files
 from cardan.cli.shared.failure import about
-from cardan.cli.shared.options import AsCsv, AsJson, MoreRows, Plot
 from cardan.cli.shared.output import check_common, check_target
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.recording import FullScale, Places, Pulses, Rate, Reading, Tacho, Titles, placed, read_both
-from cardan.cli.shared.source import STDIN
+from cardan.cli.shared.source import STDIN, AsCsv, AsJson, MoreRows, Plot
 from cardan.cli.shared.tell import tell
 from cardan.cli.torsion.torsion_band import band_of
 from cardan.errors import InputError, Problem, refuse
@@ -29,8 +28,8 @@ from cardan.questions.diagnosis.answer import answer, answer_of_signs
 from cardan.questions.diagnosis.examination import Examination, examine
 from cardan.questions.diagnosis.findings import diagnose as causes_of
 from cardan.questions.diagnosis.match import Signs, symptoms
+from cardan.report.block import page
 from cardan.report.content import Excerpt
-from cardan.report.page import page
 from cardan.report.render.renderer import Renderer, form_of
 from cardan.texts import _
 from cardan.units import nearest

@@ -8,10 +8,9 @@ from typing import Annotated
 
 import typer
 
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Force, Plot
 from cardan.cli.shared.output import check_common, check_new
 from cardan.cli.shared.progress import watching
-from cardan.cli.shared.source import read
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Force, Plot, read
 from cardan.cli.shared.tell import tell
 from cardan.errors import InputError, Problem
 from cardan.io.saving import save

@@ -13,11 +13,9 @@ from cardan.calc import CALCULATIONS, find
 from cardan.calc import calc as compute
 from cardan.calc.answer import answer, answer_of_all, answer_of_keys
 from cardan.cli.shared.failure import RefusedError, about
-from cardan.cli.shared.options import AsCsv, AsJson
 from cardan.cli.shared.output import check_common
-from cardan.cli.shared.source import STDIN, stdin_text
+from cardan.cli.shared.source import STDIN, AsCsv, AsJson, stdin_text, value_of
 from cardan.cli.shared.tell import tell
-from cardan.cli.shared.values import value_of
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.texts import _
 

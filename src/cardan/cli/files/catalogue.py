@@ -13,8 +13,8 @@ from cardan.catalogue.catalogue import Catalogue, with_files
 from cardan.catalogue.catalogue import catalogue as shipped
 from cardan.catalogue.rows import TABLES, Grade, Row
 from cardan.cli.shared.failure import about
-from cardan.cli.shared.options import AsCsv, AsJson, MoreRows
 from cardan.cli.shared.output import check_common
+from cardan.cli.shared.source import AsCsv, AsJson, MoreRows
 from cardan.cli.shared.tell import tell
 from cardan.errors import InputError, refuse
 from cardan.texts import _

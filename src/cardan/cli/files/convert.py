@@ -9,12 +9,11 @@ import typer
 
 from cardan import io
 from cardan.answers.answer import Answer
-from cardan.cli.shared.options import AsJson, DriveFile
 from cardan.cli.shared.output import SUFFIXES, check_new, print_text
-from cardan.cli.shared.source import STDIN, read
+from cardan.cli.shared.source import STDIN, AsJson, DriveFile, read
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
-from cardan.drive.models.forms import in_form
+from cardan.drive.models.geometry import in_form
 from cardan.errors import refuse
 from cardan.files import write_bytes
 from cardan.io.saving import save

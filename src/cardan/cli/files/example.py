@@ -8,9 +8,8 @@ from typing import Annotated
 import typer
 
 from cardan.answers.answer import Answer, Column, Remark, Table
-from cardan.cli.shared.options import AsCsv, AsJson
 from cardan.cli.shared.output import check_common, check_new, print_text, write_text
-from cardan.cli.shared.source import STDIN
+from cardan.cli.shared.source import STDIN, AsCsv, AsJson
 from cardan.cli.shared.tell import tell
 from cardan.io import example_names, example_text, mechanism_names, recording_names
 from cardan.io.examples import example_file

@@ -8,9 +8,8 @@ from typing import Annotated
 import typer
 
 from cardan.answers.answer import Answer, Remark
-from cardan.cli.shared.options import AsJson
 from cardan.cli.shared.output import check_new, print_text, write_text
-from cardan.cli.shared.source import STDIN
+from cardan.cli.shared.source import STDIN, AsJson
 from cardan.cli.shared.tell import tell
 from cardan.io import starter
 from cardan.texts import _

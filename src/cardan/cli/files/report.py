@@ -12,14 +12,13 @@ import typer
 from cardan.answers.answer import Answer, Remark
 from cardan.answers.quantity import Quantity, say
 from cardan.answers.reader import reader
-from cardan.cli.shared.options import AsJson, DriveFile, SpeedRpm
 from cardan.cli.shared.output import check_speed, check_target
 from cardan.cli.shared.progress import watching
-from cardan.cli.shared.source import STDIN, read_with_text
+from cardan.cli.shared.source import STDIN, AsJson, DriveFile, SpeedRpm, read_with_text
 from cardan.cli.shared.tell import tell
 from cardan.io.drive_file import known_to
 from cardan.questions.motion.answer import sentence
-from cardan.questions.motion.swing import each_shaft
+from cardan.questions.motion.turning import each_shaft
 from cardan.report.render.renderer import renderer_for
 from cardan.report.report import report as write
 from cardan.texts import _

@@ -9,8 +9,8 @@ import typer
 
 from cardan.answers.answer import Answer
 from cardan.answers.data import as_json
-from cardan.cli.shared.options import AsJson
 from cardan.cli.shared.output import check_target, print_text, write_text
+from cardan.cli.shared.source import AsJson
 from cardan.cli.shared.tell import tell
 from cardan.io import mechanism_schema
 from cardan.io import schema as drive_schema

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from cardan.cli.motion.motion import check_positions, positions
 from cardan.cli.shared.asked import CurveAngle, CurveStep, keys_of
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot
 from cardan.cli.shared.output import check_common
-from cardan.cli.shared.source import read
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, read
 from cardan.cli.shared.tell import tell
 from cardan.questions.forces.assembly import assembly as question
 from cardan.questions.forces.assembly_answer import answer

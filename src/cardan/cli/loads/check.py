@@ -11,9 +11,8 @@ import typer
 from cardan.checks.checks import CHECKS
 from cardan.choices.check_answer import answer, answer_of_list, checked
 from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
-from cardan.cli.shared.options import AsCsv, AsJson, MoreRows, Plot, SpeedRpm
 from cardan.cli.shared.progress import watching
-from cardan.cli.shared.source import STDIN, read
+from cardan.cli.shared.source import STDIN, AsCsv, AsJson, MoreRows, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.errors import Problem, refuse
 from cardan.errors import check as refuse_all

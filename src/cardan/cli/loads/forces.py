@@ -9,9 +9,8 @@ import typer
 
 from cardan.cli.motion.motion import check_positions, positions
 from cardan.cli.shared.asked import CurveAngle, CurveStep, TorqueNm, check_options, keys_of, on_duty
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 from cardan.cli.shared.progress import watching
-from cardan.cli.shared.source import read
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
 from cardan.drive.movement import Movement

@@ -10,12 +10,10 @@ from typing import Annotated, Any
 import typer
 
 from cardan.catalogue import Catalogue, catalogue, with_files
-from cardan.choices.selection import JointDuty
+from cardan.choices.selection import JointDuty, joint_duty
 from cardan.choices.selection_answer import answer, selected
-from cardan.choices.selection_reasons import joint_duty
 from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
-from cardan.cli.shared.options import AsCsv, AsJson, MoreRows, SpeedRpm
-from cardan.cli.shared.source import STDIN, read
+from cardan.cli.shared.source import STDIN, AsCsv, AsJson, MoreRows, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, check

@@ -10,14 +10,13 @@ import typer
 from cardan.checks.strength.answer import answer
 from cardan.checks.strength.strength import strength as ask
 from cardan.choices import sizing_answer
-from cardan.choices.sized import Sizing
+from cardan.choices.size_search import Sizing
 from cardan.choices.sizing import size
 from cardan.cli.shared.apply import check_copy
 from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Force, MoreRows, Plot, SpeedRpm
 from cardan.cli.shared.output import write_text
 from cardan.cli.shared.progress import watching
-from cardan.cli.shared.source import STDIN, read_with_text
+from cardan.cli.shared.source import STDIN, AsCsv, AsJson, DriveFile, Force, MoreRows, Plot, SpeedRpm, read_with_text
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import with_values

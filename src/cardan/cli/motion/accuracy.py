@@ -12,10 +12,9 @@ import typer
 
 from cardan.cli.shared.asked import keys_of
 from cardan.cli.shared.changed import write_changed
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot
 from cardan.cli.shared.output import check_common, check_target
 from cardan.cli.shared.progress import watching
-from cardan.cli.shared.source import read_with_text
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, read_with_text
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, check, refuse

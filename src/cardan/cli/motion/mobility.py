@@ -9,10 +9,9 @@ import typer
 
 from cardan.cli.shared.asked import keys_of
 from cardan.cli.shared.failure import about
-from cardan.cli.shared.options import AsCsv, AsJson, Plot
 from cardan.cli.shared.output import check_common
 from cardan.cli.shared.progress import watching
-from cardan.cli.shared.source import STDIN, form_of, stdin_text
+from cardan.cli.shared.source import STDIN, AsCsv, AsJson, Plot, form_of, stdin_text
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
 from cardan.io import load_either, loads_either

@@ -8,9 +8,8 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 from cardan.cli.shared.output import check_common, check_speed
-from cardan.cli.shared.source import read
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.errors import Problem, check
 from cardan.questions.motion.answer import answer, ask

@@ -12,10 +12,9 @@ import typer
 
 from cardan.answers.answer import Answer
 from cardan.cli.shared.apply import check_copy, named, written
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Force, Plot
 from cardan.cli.shared.output import check_common
 from cardan.cli.shared.progress import watching
-from cardan.cli.shared.source import read_with_text
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Force, Plot, read_with_text
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, check, refuse

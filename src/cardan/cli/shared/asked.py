@@ -22,10 +22,9 @@ from cardan.texts import _
 from cardan.units import rpm
 
 from .failure import about
-from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 from .output import check_common, check_speed, print_text
 from .progress import watching
-from .source import STDIN, read
+from .source import STDIN, AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from .tell import tell
 
 TorqueNm: TypeAlias = Annotated[

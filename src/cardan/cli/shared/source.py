@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import json
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Annotated, Any, TypeAlias
+
+import typer
 
 from cardan.drive.drive import Drive
 from cardan.errors import refuse
@@ -12,6 +17,48 @@ from cardan.io import load, loads
 from cardan.texts import _
 
 from .failure import about
+
+# Options that mean the same in every command.
+
+DriveFile: TypeAlias = Annotated[
+    Path,
+    typer.Argument(metavar="FILE", help=_("Drive file, TOML or JSON; - reads standard input."), show_default=False),
+]
+AsJson: TypeAlias = Annotated[
+    bool, typer.Option("--json", help=_("Print everything as JSON, errors (on stderr) too."), show_default=False)
+]
+AsCsv: TypeAlias = Annotated[bool, typer.Option("--csv", help=_("Print the full table as CSV."), show_default=False)]
+Plot: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        "--plot",
+        metavar="PATH",
+        help=_("Draw the figure into PATH: .svg, .png, .pdf or .html."),
+        show_default=False,
+    ),
+]
+SpeedRpm: TypeAlias = Annotated[
+    float | None,
+    typer.Option(
+        "--speed-rpm",
+        metavar="RPM",
+        help=_("Input speed, instead of the one in the file."),
+        show_default=False,
+    ),
+]
+MoreRows: TypeAlias = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--catalogue",
+        metavar="FILE",
+        help=_("Catalogue file with more sizes, types, grades or standards; may be repeated."),
+        show_default=False,
+    ),
+]
+Force: TypeAlias = Annotated[
+    bool, typer.Option("--force", help=_("Overwrite PATH where it is not FILE itself."), show_default=False)
+]
+
 
 STDIN = Path("-")
 
@@ -53,3 +100,21 @@ def stdin_text() -> str:
         return stream.read().decode("utf-8-sig") if stream else sys.stdin.read()
     except UnicodeDecodeError as error:
         raise refuse("", _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from error
+
+
+# Values that stand behind ``key=`` on the command line.
+
+PLAIN = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
+"""Numbers as people write them; JSON takes no leading point or plus, no point at the end."""
+
+
+def value_of(text: str) -> Any:
+    """Return a value: JSON, any usual number, or else the word as it stands.
+
+    >>> value_of("[1, 2]"), value_of("true"), value_of(".35"), value_of("+3."), value_of("exact")
+    ([1, 2], True, 0.35, 3.0, 'exact')
+    """
+    try:
+        return json.loads(text)
+    except ValueError:
+        return float(text) if re.fullmatch(PLAIN, text) else text

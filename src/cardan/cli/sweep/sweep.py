@@ -13,9 +13,9 @@ from cardan.batch.engine.engines import Engine, InProcess, Processes
 from cardan.batch.engine.running import run
 from cardan.batch.table.swept import read_sweep
 from cardan.cli.shared.failure import about
-from cardan.cli.shared.options import AsCsv, AsJson, MoreRows, Plot
 from cardan.cli.shared.output import check_common
 from cardan.cli.shared.progress import ended, keeping
+from cardan.cli.shared.source import AsCsv, AsJson, MoreRows, Plot
 from cardan.cli.shared.tell import tell
 from cardan.errors import Problem, check, refuse
 from cardan.io.plan_file import Plan, read_plan

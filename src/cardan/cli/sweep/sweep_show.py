@@ -8,12 +8,11 @@ from typing import Annotated
 
 import typer
 
-from cardan.batch.asked import Asked
 from cardan.batch.search.goals import goal_of, limit_of
-from cardan.batch.show_answer import SHOWN, answer
+from cardan.batch.show_answer import SHOWN, Asked, answer
 from cardan.batch.table.results import results as read
-from cardan.cli.shared.options import AsCsv, AsJson, Plot
 from cardan.cli.shared.output import check_common, check_target
+from cardan.cli.shared.source import AsCsv, AsJson, Plot
 from cardan.cli.shared.tell import tell
 from cardan.errors import Problem, check
 from cardan.io.sweep_export import export

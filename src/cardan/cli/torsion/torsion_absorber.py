@@ -8,11 +8,10 @@ from typing import Annotated
 import typer
 
 from cardan.cli.shared.asked import TorqueNm, check_options, on_duty
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Force, Plot, SpeedRpm
 from cardan.cli.shared.progress import ended, keeping
-from cardan.cli.shared.source import read_with_text
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Force, Plot, SpeedRpm, read_with_text
 from cardan.cli.shared.tell import tell
-from cardan.io.stations import put_station, station_text
+from cardan.io.edit import put_station, station_text
 from cardan.questions.torsion.absorber.answer import answer, ask
 from cardan.texts import _
 from cardan.units import mm

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from cardan.cli.shared.asked import check_options, keys_of, on_duty
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
-from cardan.cli.shared.source import read
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.questions.torsion.model.answer import answer, ask
 

@@ -8,13 +8,12 @@ from typing import Annotated
 import typer
 
 from cardan.cli.shared.asked import TorqueNm, check_options, on_duty
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Force, Plot, SpeedRpm
 from cardan.cli.shared.progress import ended, keeping
-from cardan.cli.shared.source import read_with_text
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Force, Plot, SpeedRpm, read_with_text
 from cardan.cli.shared.tell import tell
 from cardan.errors import Problem, check
 from cardan.io.edit import edit
-from cardan.maths.curves.evolution import Evolution
+from cardan.maths.curves.search import Evolution
 from cardan.questions.torsion.calm.answer import answer
 from cardan.questions.torsion.calm.calm import Grid, calm
 from cardan.texts import _

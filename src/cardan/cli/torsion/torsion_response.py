@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 from cardan.cli.shared.progress import ended, keeping
-from cardan.cli.shared.source import read
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.questions.torsion.steady.answer import answer
 from cardan.questions.torsion.steady.torsion_response import torsion_response as question

@@ -8,9 +8,8 @@ from typing import Annotated
 import typer
 
 from cardan.cli.shared.asked import TorqueNm, check_options, on_duty
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 from cardan.cli.shared.progress import ended, keeping
-from cardan.cli.shared.source import read
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.errors import refuse
 from cardan.questions.torsion.transient.answer import answer

@@ -7,9 +7,8 @@ from typing import Annotated, Any
 import typer
 
 from cardan.cli.shared.asked import check_options, keys_of, on_duty
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 from cardan.cli.shared.progress import ended, keeping
-from cardan.cli.shared.source import read
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.errors import refuse
 from cardan.questions.torsion.stability.answer import answer

@@ -7,8 +7,7 @@ from typing import Annotated
 import typer
 
 from cardan.cli.shared.asked import check_options, keys_of, on_duty
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, MoreRows, SpeedRpm
-from cardan.cli.shared.source import STDIN, read
+from cardan.cli.shared.source import STDIN, AsCsv, AsJson, DriveFile, MoreRows, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.errors import InputError
 from cardan.io.drive_file import known_to

@@ -7,14 +7,12 @@ from typing import Annotated
 import typer
 
 from cardan.cli.shared.asked import keys_of
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot
 from cardan.cli.shared.output import check_common
-from cardan.cli.shared.source import read
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, read
 from cardan.cli.shared.tell import tell
 from cardan.errors import refuse
 from cardan.questions.bending.answer import answer, answer_of_map, ask
-from cardan.questions.bending.bending import MOST
-from cardan.questions.bending.speed_map import critical_speed_map
+from cardan.questions.bending.bending import MOST, critical_speed_map
 from cardan.texts import _
 
 

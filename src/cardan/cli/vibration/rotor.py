@@ -7,14 +7,13 @@ from typing import Annotated
 import typer
 
 from cardan.cli.shared.asked import check_options, keys_of
-from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot
 from cardan.cli.shared.progress import watching
-from cardan.cli.shared.source import read
+from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, read
 from cardan.cli.shared.tell import tell
 from cardan.cli.torsion.torsion_parts import Speeds, values
 from cardan.errors import InputError, Problem
+from cardan.questions.bending.rotor import joined_rotors, rotor_run
 from cardan.questions.bending.rotor_answer import answer, answer_of_joined, answer_of_run, ask
-from cardan.questions.bending.rotor_response import joined_rotors, rotor_run
 from cardan.texts import _
 from cardan.units import rpm
 

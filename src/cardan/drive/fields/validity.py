@@ -7,19 +7,24 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Any
 
+from cardan.drive.body import FITS
+from cardan.drive.cross import Cross
 from cardan.drive.described import Described
+from cardan.drive.duty import Vehicle
+from cardan.drive.joint_parts import Needles
+from cardan.drive.line import is_elastic, line_length, shaft_places
+from cardan.drive.machine import MachineTorque, TorqueHistory
+from cardan.drive.material import Material
 from cardan.drive.movement import Movement
-from cardan.drive.shaft import Shaft
+from cardan.drive.shaft import Shaft, Spline
 from cardan.errors import Problem
 from cardan.reading.ranges import HUGE
 from cardan.texts import _
+from cardan.units import mm, nearest
 
-from .duty_validity import duty_problems
-from .line_validity import line_problems
-from .parts import part_problems
+from .parts import ROUNDING, known_lengths, part_problems, place_problems
 from .paths import pose_problems
 from .ranges import range_problems
-from .size_validity import size_problems
 
 MAX_JOINTS = 1000
 """More joints than this are refused: no drive has them, and a report could not show them."""
@@ -271,3 +276,288 @@ def movement_problems(movements: Sequence[Movement], n: int) -> Iterator[Problem
             yield Problem(f"movements[{k}].axis", _("[0, 0, 0] has no direction"))
         for problem in movement.problems():
             yield Problem(f"movements[{k}].{problem.field}", problem.message)
+
+
+# What a duty must satisfy to be a duty cycle, and what a maker's rating must say.
+
+WHOLE = 1e-4
+"""Shares of a duty cycle may miss the whole time by this, 0.01 %."""
+
+SLACK = 1e-12
+"""What sums of decimal fractions may be off beside that."""
+
+
+def duty_problems(drive: Described) -> Iterator[Problem]:
+    """Yield what contradicts itself in the duty cycle of a drive, and keys of a rating that is not there."""
+    duty = drive.duty
+    if duty.blocks:
+        whole = sum(block.share for block in duty.blocks)
+        if abs(whole - 1.0) > WHOLE + SLACK:
+            text = _("the shares of the blocks add up to {whole:.6g} %, not to 100 %")
+            yield Problem("duty.blocks", text.format(whole=100.0 * whole), "inconsistent")
+    yield from _case_problems(drive)
+    history = duty.torque_history
+    if history is not None:
+        if duty.blocks:
+            yield Problem("duty.torque_history", _("blocks give the duty cycle already"), "inconsistent")
+        if any(case.share is not None or case.cycles is not None for case in duty.cases):
+            yield Problem("duty.torque_history", _("cases give the duty cycle already"), "inconsistent")
+        if history.times or history.torques:
+            law = TorqueHistory(file=history.file, times=history.times, torques=history.torques)
+            for problem in law.problems():
+                yield Problem("duty.torque_history", problem.message)
+    for i, joint in enumerate(drive.joints):
+        rating = joint.rating
+        if rating is not None and rating.torque is None and rating.convention != "Tc":
+            yield Problem(f"joints[{i}].rating.convention", _("belongs to the rated torque, which is not given"))
+
+
+def _case_problems(drive: Described) -> Iterator[Problem]:
+    """Yield what contradicts itself in the load cases of a drive."""
+    duty = drive.duty
+    names: set[str] = set()
+    for k, case in enumerate(duty.cases):
+        path = f"duty.cases[{k}]"
+        if case.name in names:
+            yield Problem(f"{path}.name", _("{name} names two load cases").format(name=repr(case.name)))
+        names.add(case.name)
+        if case.share is not None and case.cycles is not None:
+            yield Problem(f"{path}.cycles", _("a load case has a share or cycles, not both"), "inconsistent")
+        if case.speed is not None and case.speed_range is not None:
+            yield Problem(f"{path}.speed_range", _("a load case has a speed or a range, not both"), "inconsistent")
+        if case.cycles is not None and duty.life is None:
+            yield Problem("duty.life", _("missing; load case {name} counts its turns in it").format(name=case.name))
+        if case.cycles is not None and not (case.speed or case.speed_range or duty.speed):
+            yield Problem(f"{path}.speed", _("missing; how long its cycles last depends on it"), "missing")
+    if duty.cases and duty.blocks:
+        yield Problem("duty.cases", _("blocks give the duty cycle already"), "inconsistent")
+    shares = [case.share for case in duty.cases if case.share is not None]
+    whole = sum(shares)
+    least = 0.0 if duty.torque is not None else 1.0
+    if shares and not least - WHOLE - SLACK <= whole <= 1.0 + WHOLE + SLACK:
+        text = _("the shares of the load cases add up to {whole:.6g} %, not to 100 %")
+        yield Problem("duty.cases", text.format(whole=100.0 * whole), "inconsistent")
+
+
+def bound_problems(drive: Described) -> Iterator[Problem]:
+    """Yield load cases of a file bound to poses or movements that it has not; a drive in a pose has no others."""
+    known = {"pose": [pose.name for pose in drive.poses], "movement": [one.name for one in drive.movements]}
+    what = {"pose": _("pose"), "movement": _("movement")}
+    text = _("there is no {what} {name}; there are: {known}")
+    for k, case in enumerate(drive.duty.cases):
+        for field, others in known.items():
+            name = getattr(case, field)
+            if name and name not in others:
+                there = ", ".join(filter(None, others)) or _("none")
+                message = text.format(what=what[field], name=repr(name), known=there)
+                yield Problem(f"duty.cases[{k}].{field}", message)
+
+
+# What a drive must satisfy to be a torsional line: its stations, its play and damping, and the torques on it.
+
+ENDS = ("input", "output")
+"""Words for the two ends of a drive; no station may be called so."""
+
+
+def line_problems(drive: Described) -> Iterator[Problem]:
+    """Yield what contradicts itself in the stations and torques of a drive, and keys that nothing can use in it."""
+    lengths = _lengths(drive)
+    yield from _station_problems(drive, lengths)
+    for shaft in drive.shafts:
+        if shaft.number <= len(drive.joints) + 1:
+            yield from _twist_problems(drive, shaft, lengths)
+    for i, joint in enumerate(drive.joints):
+        if joint.backlash and not any(is_elastic(drive, k, lengths.get(k)) for k in (i + 1, i + 2)):
+            text = _("shafts {one} and {two} are rigid; play counts beside a shaft that twists")
+            yield Problem(f"joints[{i}].backlash", text.format(one=i + 1, two=i + 2))
+    yield from _torque_problems(drive)
+
+
+def _lengths(drive: Described) -> dict[int, float]:
+    """Return the lengths of the shafts by their number, of end shafts too, as far as the drive says them [m]."""
+    known = known_lengths(drive)
+    found = {k: line_length(drive, k, known.get(k)) for k in range(1, len(drive.joints) + 2)}
+    return {k: length for k, length in found.items() if length is not None}
+
+
+def _station_problems(drive: Described, lengths: dict[int, float]) -> Iterator[Problem]:
+    names: set[str] = set()
+    known = known_lengths(drive)
+    for k, station in enumerate(drive.stations):
+        path = f"stations[{k}]"
+        yield from place_problems(station.shaft, station.position, len(drive.joints), known, path)
+        length = lengths.get(station.shaft)
+        reach = 0.0 if station.shaft in known or length is None else abs(station.position or 0.0)
+        if length is not None and reach > length * (1.0 + ROUNDING):
+            text = _("is beyond the end of shaft {number}, which is {length:.6g} mm long")
+            yield Problem(f"{path}.position", text.format(number=station.shaft, length=length / mm))
+        if station.position is not None and station.end is not None:
+            yield Problem(f"{path}.position", _("end says where it is already"))
+        if station.absorber is not None and station.pendulum is not None:
+            yield Problem(f"{path}.pendulum", _("an absorber is there already; put it on a station of its own"))
+        if station.absorber is not None and not (station.absorber.stiffness or station.absorber.damping):
+            text = _("missing; or damping, for a damper without spring: nothing holds the mass")
+            yield Problem(f"{path}.absorber.stiffness", text)
+        if station.name in names or station.name in ENDS:
+            text = _("{name} names an end of the drive") if station.name in ENDS else _("{name} names two stations")
+            yield Problem(f"{path}.name", text.format(name=repr(station.name)))
+        names |= {station.name} - {""}
+    for number in range(1, len(drive.joints) + 2):
+        own = [(k, one) for k, one in enumerate(drive.stations) if one.shaft == number]
+        loose = [k for k, one in own if one.end is None and one.position is None]
+        placed = any(one.position is not None for _k, one in own)
+        for k in loose if placed else ():
+            text = _("missing; other stations of shaft {number} have theirs")
+            yield Problem(f"stations[{k}].position", text.format(number=number))
+        if not (loose and placed):
+            yield from _order_problems(drive, number, lengths.get(number))
+
+
+def _order_problems(drive: Described, number: int, length: float | None) -> Iterator[Problem]:
+    """Yield elements that lead nowhere, and two of them from one place."""
+    for place in (places := shaft_places(drive, number, length)):
+        leading = [k for k in place.stations if drive.stations[k].to_next is not None]
+        for k in leading if place is places[-1] else leading[1:]:
+            text = _("there is no further station on shaft {number}")
+            other = _("the element to the next station is given at another station of this place")
+            message = text.format(number=number) if place is places[-1] else other
+            yield Problem(f"stations[{k}].to_next", message)
+
+
+def _twist_problems(drive: Described, shaft: Shaft, lengths: dict[int, float]) -> Iterator[Problem]:
+    path = f"shafts[{shaft.number - 1}]"
+    spline = shaft.spline
+    if spline is not None and spline.stiffness is not None and shaft.stiffness is not None:
+        yield Problem(f"{path}.spline.stiffness", _("the stiffness of the shaft includes it already"))
+    if is_elastic(drive, shaft.number, lengths.get(shaft.number)):
+        return
+    text = _("the shaft is rigid; give its stiffness, or a body of known length")
+    for name, there in (
+        ("damping", shaft.damping is not None),
+        ("loss_factor", shaft.loss_factor is not None),
+        ("spline.backlash", spline is not None and spline.backlash > 0.0),
+    ):
+        if there:
+            yield Problem(f"{path}.{name}", text)
+
+
+def _torque_problems(drive: Described) -> Iterator[Problem]:
+    duty = drive.duty
+    known = (*ENDS, *(station.name for station in drive.stations if station.name))
+    given: list[tuple[str, MachineTorque]] = [
+        (f"duty.{name}", one) for name, one in (("motor", duty.motor), ("load", duty.load)) if one is not None
+    ]
+    given += [(f"duty.torques[{k}]", one) for k, one in enumerate(duty.torques)]
+    for path, one in given:
+        for problem in one.problems():
+            yield Problem(f"{path}.{problem.field}", problem.message)
+        if one.station and one.station not in known:
+            near = nearest(one.station, known)
+            text = _("there is no station {name}; the stations are {known}")
+            message = text.format(name=repr(one.station), known=", ".join(known))
+            yield Problem(f"{path}.station", message + (_("; the nearest is {near}").format(near=near) if near else ""))
+        elif not one.station and path.startswith("duty.torques"):
+            yield Problem(f"{path}.station", _("missing; one of {known}").format(known=", ".join(known)))
+    if duty.engine is not None:
+        for problem in duty.engine.problems():
+            yield Problem(f"duty.engine.{problem.field}", problem.message)
+    if duty.input == "uniform":
+        driving = [name for name in ("engine", "motor") if getattr(duty, name) is not None]
+        driving += [f"torques[{k}]" for k, one in enumerate(duty.torques) if one.station == "input"]
+        for name in driving:
+            text = _('the input turns evenly whatever acts on it; write input = "free", or leave this out')
+            yield Problem(f"duty.{name}", text)
+    if duty.run_up is not None and duty.run_up.start == duty.run_up.end:
+        yield Problem("duty.run_up.end", _("is the speed before; a run-up needs two"))
+
+
+# What the sizes, materials and figures must satisfy that strength and upkeep go by.
+
+SPLINE_ROUNDING = 1e-9
+"""Sizes that differ by this share are the same."""
+
+
+ROOM = 0.02
+"""More needles than fit by this share are a matter of rounded diameters."""
+
+
+def size_problems(drive: Described) -> Iterator[Problem]:
+    """Yield sizes that do not go together, and keys that nothing can use beside the others."""
+    for i, joint in enumerate(drive.joints):
+        if joint.cross is not None:
+            yield from _cross(joint.cross, f"joints[{i}].cross")
+            yield from _needles(joint.cross, joint.needles, f"joints[{i}].needles")
+        if joint.yoke is not None:
+            yield from _material(joint.yoke.material, f"joints[{i}].yoke.material")
+    for shaft in drive.shafts:
+        path = f"shafts[{shaft.number - 1}]"
+        yield from _material(shaft.material, f"{path}.material")
+        for k, segment in enumerate(shaft.segments):
+            yield from _material(segment.material, f"{path}.segments[{k}].material")
+        yield from _layup(shaft, path)
+        if shaft.spline is not None:
+            yield from _spline(shaft.spline, f"{path}.spline")
+        if not shaft.has_body:
+            for name, there in (("notch", shaft.notch is not None), ("finish", shaft.finish != "machined")):
+                if there:
+                    yield Problem(f"{path}.{name}", _("belongs to a body, and its outer diameter is not given"))
+    if drive.duty.vehicle is not None:
+        yield from _vehicle(drive.duty.vehicle, "duty.vehicle")
+
+
+def _cross(cross: Cross, path: str) -> Iterator[Problem]:
+    if cross.journal is not None and cross.journal_bore >= cross.journal:
+        text = _("{bore:.6g} mm is not less than the diameter of the journal, {journal:.6g} mm")
+        yield Problem(f"{path}.journal_bore", text.format(bore=cross.journal_bore / mm, journal=cross.journal / mm))
+    yield from _material(cross.material, f"{path}.material")
+
+
+def _needles(cross: Cross, needles: Needles | None, path: str) -> Iterator[Problem]:
+    """Yield a row of needles that has no room around its journal: z asin(d/(D + d)) ≤ π."""
+    if needles is None or needles.count is None or needles.diameter is None or cross.journal is None:
+        return
+    most = math.pi / math.asin(needles.diameter / (cross.journal + needles.diameter))
+    if needles.count > most * (1.0 + ROOM):
+        text = _("{count} needles of {diameter:.6g} mm have no room around a journal of {journal:.6g} mm; {most} have")
+        said = text.format(
+            count=needles.count, diameter=needles.diameter / mm, journal=cross.journal / mm, most=math.floor(most)
+        )
+        yield Problem(f"{path}.count", said, "inconsistent")
+
+
+def _material(material: Material | None, path: str) -> Iterator[Problem]:
+    if material is None or material.yield_strength is None or material.ultimate_strength is None:
+        return
+    if material.ultimate_strength < material.yield_strength:
+        yield Problem(f"{path}.ultimate_strength", _("is below the yield strength"), "inconsistent")
+
+
+def _layup(shaft: Shaft, path: str) -> Iterator[Problem]:
+    layup = shaft.layup
+    if layup is None:
+        return
+    if shaft.outer is None:
+        yield Problem(f"{path}.layup", _("belongs to a tube, and its outer diameter is not given"))
+    elif 2.0 * len(layup.angles) * layup.ply_thickness > shaft.outer * (1.0 - FITS):
+        yield Problem(f"{path}.layup.ply_thickness", _("the plies are thicker than half the outer diameter"))
+    if not layup.angles:
+        yield Problem(f"{path}.layup.angles", _("holds no ply"), "empty")
+    for name in ("material", "wall", "inner"):
+        if getattr(shaft, name) is not None:
+            yield Problem(f"{path}.{name}", _("layup gives the same already"))
+
+
+def _spline(spline: Spline, path: str) -> Iterator[Problem]:
+    if spline.outer is None or spline.root is None:
+        return
+    if spline.root >= spline.outer:
+        yield Problem(f"{path}.root", _("is not less than the outer diameter of the teeth"))
+    elif spline.outer - spline.root <= 4.0 * spline.chamfer * (1.0 + SPLINE_ROUNDING):
+        yield Problem(f"{path}.chamfer", _("leaves no flank of the teeth to bear"), "out_of_range")
+
+
+def _vehicle(vehicle: Vehicle, path: str) -> Iterator[Problem]:
+    if vehicle.engine_torque is not None:
+        for name in ("engine_power", "engine_speed"):
+            if getattr(vehicle, name) is not None:
+                yield Problem(f"{path}.{name}", _("engine_torque gives the torque already"))

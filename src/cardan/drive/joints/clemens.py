@@ -9,19 +9,18 @@ from typing import ClassVar
 
 import numpy as np
 
-from cardan.drive.shapes.ring import ring
+from cardan.drive.shapes import ring
 from cardan.errors import Problem
-from cardan.maths.arrays import Array
+from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import Surface, ball, joined, placed, revolved
 from cardan.texts import _, mark
 from cardan.units import plain, quantity
 
-from .common.inner import InnerPair, touching
+from .common.inner import InnerPair, Stance, touching
 from .common.site import Site
-from .common.stance import Stance
 from .joint import REFUSALS, Joint
-from .laws import profile_coupling
+from .pin_coupling import wrapped
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -64,10 +63,9 @@ class Clemens(Joint):
         if self.driving is None or self.driven is None:
             return 0.0 * angle, 1.0 + 0.0 * angle, 0.0 * angle
         one, other = (
-            profile_coupling.Circle(axial=side.axial, radial=side.radial, radius=side.radius)
-            for side in (self.driving, self.driven)
+            Circle(axial=side.axial, radial=side.radial, radius=side.radius) for side in (self.driving, self.driven)
         )
-        return profile_coupling.course(angle, joint_angle, one, other)
+        return course(angle, joint_angle, one, other)
 
     def inner(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the contact of its arms."""
@@ -116,3 +114,228 @@ def _link(length: float) -> Surface:
         ring(0.5 * thin, 1.7 * thin, 2.4 * thin, 16), np.asarray([(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)])
     )
     return joined(bar, eye, placed(ball(1.3 * thin, 12), None, (length, 0.0, 0.0)))
+
+
+# Couplings whose touching profiles are circles: Clemens, curved Weiss and offset Rzeppa grooves.
+#
+# Axes, angles and the plane that halves them as in `pin_coupling`. A profile lies in the meridian plane of its shaft:
+# heights h along e_i from O, radii r from the axis. It is a circle about (h0, r0) of radius R: the end of an arm R
+# hinged there about the tangential axis, or the middle line of a groove in which a ball runs. Profiles alike touch in
+# the halving plane and run evenly at any bend.
+
+CELLS = 90
+"""Pieces in which the circle of shaft 1 is searched; at most four contacts lie on it."""
+
+START = -math.pi + 0.003
+"""Where the search begins: off the places at which a drawing would put a contact."""
+
+DENSEST = 0.02
+"""Least spacing of the pieces over an even one."""
+
+NEWTON = 7
+"""Steps from a straight line between the ends of a piece to rounding."""
+
+STEP = 2e-5
+"""Step of the difference quotient of the ratio [rad]: its error of second order is at that of rounding."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Circle:
+    """A circular profile in the meridian plane of its shaft.
+
+    Attributes
+    ----------
+    axial : array (...) [m]
+        Height h0 of its centre along the shaft from O.
+    radial : array (...) [m]
+        Distance r0 of its centre from the axis.
+    radius : array (...) [m]
+        Radius R.
+    """
+
+    axial: ArrayLike
+    radial: ArrayLike
+    radius: ArrayLike
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ProfileContact:
+    """Where two profiles touch, and what they pass on; not a number where they do not meet."""
+
+    deviation: Array  # (...) [rad]: how far the output runs ahead of the input, φ2 - φ1, in (-π, π]
+    ratio: Array  # (...): speed ratio dφ2/dφ1
+    # height1, radius1, height2, radius2 (...) [m]: where the contact stands in the meridian plane of each shaft
+    height1: Array
+    radius1: Array  # (...) [m]
+    height2: Array  # (...) [m]
+    radius2: Array  # (...) [m]
+    force: Array  # (...) [1/m]: contact force without friction for each unit of input torque
+
+
+def profile_contact(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> ProfileContact:
+    """Return where two circular profiles touch.
+
+    angle (...) [rad]: input angle φ1, from the inner side of the bend.
+    joint_angle (...) [rad]: bend α of the shafts in [0, π/2); first, second: profiles of shaft 1 and shaft 2.
+    Returns ProfileContact: arrays (...).
+    A = h e1 + r u1 on circle 1 is seen by shaft 2 at h2 = A·e2, r2 = |A - h2 e2|; the scalar equation
+    (h2 - h02)² + (r2 - r02)² = R2² is solved along circle 1 to rounding. Of its solutions with r > 0 the one with φ2
+    nearest to φ1 counts. The ratio is that of velocities along the common normal of both profiles.
+    """
+    phi, alpha, one, two = _arrays(angle, joint_angle, first, second)
+    return _at(_place(phi, alpha, one, two), phi, alpha, one, two)
+
+
+def _at(place: Array, phi: Array, alpha: Array, first: Circle, second: Circle) -> ProfileContact:
+    """Return the contact that stands at a place of circle 1."""
+    xp = namespace(place, phi, alpha)
+    ca, sa, cf, sf = xp.cos(alpha), xp.sin(alpha), xp.cos(phi), xp.sin(phi)
+    h, r = first.axial + first.radius * xp.cos(place), first.radial + first.radius * xp.sin(place)
+    x, y, z = h, r * cf, r * sf
+    h2, inward = -x * ca + y * sa, x * sa + y * ca
+    r2 = xp.sqrt(inward * inward + z * z)
+    cg, sg = inward / r2, z / r2
+    t1 = -xp.sin(place), xp.cos(place) * cf, xp.cos(place) * sf
+    back, out = second.radial - r2, h2 - second.axial
+    t2 = -back * ca + out * cg * sa, back * sa + out * cg * ca, out * sg
+    n = t1[1] * t2[2] - t1[2] * t2[1], t1[2] * t2[0] - t1[0] * t2[2], t1[0] * t2[1] - t1[1] * t2[0]
+    one = y * n[2] - z * n[1]  # (e1 × A)·N
+    two = inward * n[2] - z * (sa * n[0] + ca * n[1])  # -(e2 × A)·N
+    size = xp.sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
+    return ProfileContact(
+        deviation=wrapped(xp.atan2(z, inward) - phi),
+        ratio=one / two,
+        height1=h,
+        radius1=r,
+        height2=h2,
+        radius2=r2,
+        force=size / xp.abs(one),
+    )
+
+
+def _arrays(
+    angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle
+) -> tuple[Array, Array, Circle, Circle]:
+    """Return everything as arrays of one shape."""
+    given = (angle, joint_angle, *(getattr(c, name) for c in (first, second) for name in ("axial", "radial", "radius")))
+    made = floats(*given)
+    none = 0.0 * sum(made)
+    phi, alpha, *sizes = (one + none for one in made)
+    one, two = (Circle(axial=h, radial=r, radius=rho) for h, r, rho in (sizes[:3], sizes[3:]))
+    return phi, alpha, one, two
+
+
+def _widened(circle: Circle) -> Circle:
+    """Return the circle with one more axis at the end."""
+    return Circle(axial=circle.axial[..., None], radial=circle.radial[..., None], radius=circle.radius[..., None])
+
+
+def _miss(place: Array, angle: Array, joint_angle: Array, first: Circle, second: Circle) -> tuple[Array, Array]:
+    """Return by how much a point of circle 1 misses circle 2, and the slope of that along it."""
+    xp = namespace(place, angle, joint_angle)
+    ca, sa, cf, sf = xp.cos(joint_angle), xp.sin(joint_angle), xp.cos(angle), xp.sin(angle)
+    dr, dh = first.radius * xp.cos(place), -first.radius * xp.sin(place)
+    h, r = first.axial + dr, first.radial - dh
+    h2, inward, up = r * cf * sa - h * ca, h * sa + r * cf * ca, r * sf
+    r2 = xp.sqrt(inward * inward + up * up)
+    dh2 = dr * cf * sa - dh * ca
+    dr2 = (inward * (dh * sa + dr * cf * ca) + up * dr * sf) / r2
+    value = (h2 - second.axial) ** 2 + (r2 - second.radial) ** 2 - second.radius**2
+    slope = 2.0 * ((h2 - second.axial) * dh2 + (r2 - second.radial) * dr2)
+    return value, slope
+
+
+def _away(place: Array, angle: Array, joint_angle: Array, first: Circle) -> tuple[Array, Array]:
+    """Return φ2 - φ1 of a point of circle 1, and its distance from the axis."""
+    xp = namespace(place, angle, joint_angle)
+    h, r = first.axial + first.radius * xp.cos(place), first.radial + first.radius * xp.sin(place)
+    inward = h * xp.sin(joint_angle) + r * xp.cos(angle) * xp.cos(joint_angle)
+    return wrapped(xp.atan2(r * xp.sin(angle), inward) - angle), r
+
+
+def _better(place: Array, angle: Array, joint_angle: Array, first: Circle, second: Circle) -> Array:
+    """Return a place of circle 1 after a step of Newton's method."""
+    miss, slope = _miss(place, angle, joint_angle, first, second)
+    xp = namespace(miss, slope)
+    return place - miss / xp.where(slope == 0.0, xp.inf, slope)
+
+
+def _grid(circle: Circle) -> Array:
+    """Return ends of the pieces of a circle, array (..., CELLS + 1), closer together where it passes the joint centre.
+
+    Evenly spaced angles u about the direction to the centre go to 2 arctan(k tan(u/2)), k four times the least distance
+    over the radius: a circle so large that it is nearly a pin is looked at where it is used.
+    """
+    xp = namespace(circle.axial, circle.radial, circle.radius)
+    far = xp.sqrt(circle.axial * circle.axial + circle.radial * circle.radial)
+    k = xp.minimum(xp.maximum(4.0 * xp.abs(far - circle.radius) / circle.radius, DENSEST + 0.0 * far), 1.0 + 0.0 * far)
+    half = 0.5 * (START + 2.0 * math.pi / CELLS * xp.arange(CELLS + 1, dtype=xp.float64))
+    toward = xp.atan2(-circle.radial, -circle.axial)
+    return toward[..., None] + 2.0 * xp.atan2(k[..., None] * xp.sin(half), xp.cos(half))
+
+
+def _place(angle: Array, joint_angle: Array, first: Circle, second: Circle) -> Array:
+    """Return where on circle 1 the contact stands, as the angle about its centre, array (...)."""
+    xp = namespace(angle, joint_angle)
+    wide = angle[..., None], joint_angle[..., None], _widened(first), _widened(second)
+    grid = _grid(first)
+    value = _miss(grid, *wide)[0]
+    low, high = value[..., :-1], value[..., 1:]
+    crossed = (low < 0.0) != (high < 0.0)
+    begin, end = grid[..., :-1], grid[..., 1:]
+    start = begin - (end - begin) * low / xp.where(crossed, high - low, xp.inf)
+    away, radius = _away(start, *wide[:3])
+    cost = xp.where(crossed & (radius > 0.0), xp.abs(away), xp.inf)
+    best, least = xp.nan * angle, xp.inf + xp.zeros_like(angle)
+    for _piece in range(2):  # two pieces may look equally near until they are solved
+        chosen = xp.arange(CELLS) == xp.argmin(cost, axis=-1)[..., None]
+        there = xp.isfinite(xp.min(cost, axis=-1))
+        floor, place, ceiling = (xp.sum(xp.where(chosen, one, 0.0), axis=-1) for one in (begin, start, end))
+        for _step in range(NEWTON):
+            place = _better(place, angle, joint_angle, first, second)
+            place = xp.minimum(xp.maximum(place, floor), ceiling)
+        away = xp.abs(_away(place, angle, joint_angle, first)[0])
+        nearer = there & (away < least)
+        best, least = xp.where(nearer, place, best), xp.where(nearer, away, least)
+        cost = xp.where(chosen, xp.inf, cost)
+    return best
+
+
+def deviation(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> Array:
+    """Return how far the output of a coupling with circular profiles runs ahead [rad]; see `profile_contact`."""
+    return profile_contact(angle, joint_angle, first, second).deviation
+
+
+def ratio(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> Array:
+    """Return the speed ratio dφ2/dφ1 of a coupling with circular profiles; see `profile_contact`."""
+    return profile_contact(angle, joint_angle, first, second).ratio
+
+
+def course(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> tuple[Array, Array, Array]:
+    """Return how a coupling with circular profiles turns, with two derivatives; see `profile_contact`.
+
+    angle (...) [rad]: input angle φ1, from the inner side of the bend.
+    joint_angle (...) [rad]: bend α of the shafts in [0, π/2); first, second: profiles of shaft 1 and shaft 2.
+    Returns deviation, ratio, slope (...) [rad, 1, 1/rad]: φ2 - φ1, dφ2/dφ1 and d²φ2/dφ1²; the last by a central
+    difference of the exact ratio.
+
+    >>> one = Circle(axial=0.06, radial=0.01, radius=0.075)
+    >>> other = Circle(axial=0.062, radial=0.011, radius=0.074)
+    >>> print([f"{part:.6f}" for part in course(math.radians(130.0), math.radians(30.0), one, other)])
+    ['0.014375', '0.994057', '-0.028502']
+    """
+    phi, alpha, one, two = _arrays(angle, joint_angle, first, second)
+    place = _place(phi, alpha, one, two)
+    found = _at(place, phi, alpha, one, two)
+    beside = []
+    for turned in (phi - STEP, phi + STEP):
+        near = place
+        for _step in range(3):
+            near = _better(near, turned, alpha, one, two)
+        beside.append(_at(near, turned, alpha, one, two).ratio)
+    return found.deviation, found.ratio, (beside[1] - beside[0]) / (2.0 * STEP)
+
+
+def ratio_slope(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> Array:
+    """Return the derivative of `ratio` by the input angle [1/rad]; see `course`."""
+    return course(angle, joint_angle, first, second)[2]

@@ -9,18 +9,17 @@ from typing import ClassVar
 
 import numpy as np
 
-from cardan.drive.shapes.yoke import caps, cross_body, fork
-from cardan.maths.arrays import Array, namespace
+from cardan.drive.shapes import caps, cross_body, fork
+from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import ball, placed, revolved
 from cardan.texts import _, mark
 from cardan.units import plain
 
-from .common import drawn
-from .common.inside import Inside
+from .common import laws as tilted_plane
+from .common import site as drawn
 from .common.site import BACK, Site
-from .joint import Joint
-from .laws import double_cardan as law
+from .joint import Inside, Joint
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -52,7 +51,7 @@ class DoubleCardan(Joint):
         if self.centring_ratio is None:
             return mobius.turn(0.0 * joint_angle)
         xp = namespace(joint_angle)
-        pair = law.pair(joint_angle, xp.asarray(self.centring_ratio, dtype=xp.float64))
+        pair = centred_pair(joint_angle, xp.asarray(self.centring_ratio, dtype=xp.float64))
         return pair if self.ball_on == "driving" else mobius.inverse(pair)
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
@@ -60,7 +59,7 @@ class DoubleCardan(Joint):
         ratio = self.centring_ratio
         if ratio is None:
             return
-        joint_angles = law.split(joint_angle, ratio)
+        joint_angles = split(joint_angle, ratio)
         first, second = joint_angles if self.ball_on == "driving" else joint_angles[::-1]
         yield Inside(
             key="driving_joint_angle", meaning=_("joint angle of the joint on the driving side"), value=float(first)
@@ -69,7 +68,7 @@ class DoubleCardan(Joint):
             key="driven_joint_angle", meaning=_("joint angle of the joint on the driven side"), value=float(second)
         )
         text = _("way of the ball along the other shaft, over the distance of both joint centres")
-        way = float(law.slide(joint_angle, ratio) - law.slide(0.0, ratio))
+        way = float(slide(joint_angle, ratio) - slide(0.0, ratio))
         yield Inside(key="ball_way", meaning=text, value=way, dimension=None)
 
     def half_length(self, apart: float) -> float:
@@ -113,5 +112,217 @@ class DoubleCardan(Joint):
             half = 0.5 * apart / math.cos(0.5 * joint_angle)
             return half, half
         fixed = self.centring_ratio * apart
-        free = float(law.slide(joint_angle, self.centring_ratio)) * apart
+        free = float(slide(joint_angle, self.centring_ratio)) * apart
         return (fixed, free) if self.ball_on == "driving" else (free, fixed)
+
+
+# Double cardan joints whose middle is held by a centring device: two joints that share one bend.
+#
+# The joint centres O1 and O3 stand at the distance l; the axes of the outer shafts meet at O under the joint angle α,
+# the first joint bends α12, the second α23, and α12 + α23 = α. A lever with a slotted sphere at O, or a slotted frame,
+# halves the bend exactly. A ball on one shaft does so nearly: |OO1| = λl is fixed, |OO3| = x slides. All three axes lie
+# in one plane and the inner yokes too, so that the whole is one map of the circle, see `cardan.maths.kernel.mobius`.
+
+
+def lag(joint_angle: ArrayLike, share: ArrayLike) -> Array:
+    """Return by how much a ball on one shaft misses half the joint angle, Δ = (α23 - α12)/2.
+
+    Parameters
+    ----------
+    joint_angle : array (...) [rad]
+        Whole bend α in [0, π/2).
+    share : array (...)
+        Centring ratio λ in (0, 1): distance of the ball from the first centre over that of the two centres.
+
+    Returns
+    -------
+    array (...) [rad]
+
+    Notes
+    -----
+    Δ = arcsin(λ sin α) - α/2 from the triangle O1 O O3, written without a difference of near numbers:
+    sin Δ = sin(α/2) (4λ² cos²(α/2) - 1)/(2λ cos²(α/2) + √(1 - λ² sin² α)). Exact where Book (12) is not.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> lag([10 * deg, 50 * deg], 0.5) / deg
+    array([-0.01907468, -2.47898788])
+    """
+    alpha, ratio = floats(joint_angle, share)
+    xp = namespace(alpha, ratio)
+    half = xp.cos(0.5 * alpha)
+    twice = 2.0 * ratio * half
+    below = twice * half + xp.sqrt(1.0 - (ratio * xp.sin(alpha)) ** 2)
+    return xp.asin(xp.sin(0.5 * alpha) * (twice - 1.0) * (twice + 1.0) / below)
+
+
+def lag_book(joint_angle: ArrayLike, share: ArrayLike) -> Array:
+    """Return the book's approximation of `lag`, for comparison.
+
+    Parameters
+    ----------
+    joint_angle : array (...) [rad]
+        Whole bend α in [0, π/2).
+    share : array (...)
+        Centring ratio λ in (0, 1).
+
+    Returns
+    -------
+    array (...) [rad]
+
+    Notes
+    -----
+    Book (12), which takes Δ for small, with its fraction turned over so that it never reads 0/0:
+    t (2λ² (1 + cos α) - 1)/(1 + 2λ √(1 - λ² sin² α)), t = tan(α/2). Off by 0.0015° at 50° and λ = 1/2.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> lag_book([10 * deg, 50 * deg], 0.5) / deg
+    array([-0.01907468, -2.48053593])
+    """
+    alpha, ratio = floats(joint_angle, share)
+    xp = namespace(alpha, ratio)
+    root = xp.sqrt(1.0 - (ratio * xp.sin(alpha)) ** 2)
+    above = 2.0 * ratio * ratio * (1.0 + xp.cos(alpha)) - 1.0
+    return xp.tan(0.5 * alpha) * above / (1.0 + 2.0 * ratio * root)
+
+
+def split(joint_angle: ArrayLike, share: ArrayLike) -> tuple[Array, Array]:
+    """Return the joint angles of the first and the second joint where a ball on one shaft centres them.
+
+    Parameters
+    ----------
+    joint_angle : array (...) [rad]
+        Whole bend α in [0, π/2).
+    share : array (...)
+        Centring ratio λ in (0, 1).
+
+    Returns
+    -------
+    first, second : arrays (...) [rad]
+        α12 and α23.
+
+    Notes
+    -----
+    sin α23 = λ sin α, α12 = α - α23: the sines of the triangle, exact; Book (9).
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> first, second = split(30 * deg, 0.5)
+    >>> print(f"{first:.8f} {second:.8f}")
+    0.27091852 0.25268026
+    """
+    (alpha,) = floats(joint_angle)
+    missed = lag(alpha, share)
+    return 0.5 * alpha - missed, 0.5 * alpha + missed
+
+
+def slide(joint_angle: ArrayLike, share: ArrayLike) -> Array:
+    """Return where the ball stands on the shaft it slides on, x/l: |OO3| over the distance of the centres.
+
+    joint_angle (...) [rad]: whole bend α in [0, π/2); share (...): centring ratio λ in (0, 1).
+    Returns (...).
+    x/l = sin α12/sin α, the positive root of Book (8), in the form in which a straight joint is no exception:
+    √(1 - λ² sin² α) - λ cos α.
+    """
+    alpha, ratio = floats(joint_angle, share)
+    xp = namespace(alpha, ratio)
+    return xp.sqrt(1.0 - (ratio * xp.sin(alpha)) ** 2) - ratio * xp.cos(alpha)
+
+
+def even_share(joint_angle: ArrayLike) -> Array:
+    """Return the centring ratio that halves one joint angle exactly.
+
+    Parameters
+    ----------
+    joint_angle : array (...) [rad]
+        Whole bend α in [0, π/2).
+
+    Returns
+    -------
+    array (...)
+
+    Notes
+    -----
+    λ = 1/(2 cos(α/2)), the closed form of what Book p. 55 leaves as an equation.
+
+    Examples
+    --------
+    >>> import math
+    >>> print(f"{even_share(math.pi / 6):.6f}")
+    0.517638
+    """
+    (alpha,) = floats(joint_angle)
+    return 0.5 / namespace(alpha).cos(0.5 * alpha)
+
+
+def centred_pair(joint_angle: ArrayLike, share: ArrayLike) -> mobius.Pair:
+    """Return the map of the circle of a double joint centred by a ball on the driving shaft, over its whole bend.
+
+    joint_angle (...) [rad]: whole bend α in [0, π/2); share (...): centring ratio λ in (0, 1).
+    Returns (...).
+    tan φ3 = κ tan φ1 with κ = cos α23/cos α12, angles from the driving yoke in the plane of the axes: the first joint
+    leads by 1/cos α12, the second takes cos α23 of it back. It turns as contact in a plane Δ off the middle would.
+    """
+    alpha, ratio = floats(joint_angle, share)
+    return tilted_plane.pair(alpha, lag(alpha, ratio))
+
+
+def deviation(angle: ArrayLike, joint_angle: ArrayLike, share: ArrayLike) -> Array:
+    """Return how far the output of a double joint centred by a ball runs ahead of its input, φ3 - φ1.
+
+    angle (...) [rad]: input angle φ1, from the driving yoke in the plane of the axes.
+    joint_angle (...) [rad]: whole bend α in [0, π/2); share (...): centring ratio λ in (0, 1).
+    Returns (...) [rad].
+    """
+    phi, alpha, ratio = floats(angle, joint_angle, share)
+    return tilted_plane.deviation(phi, alpha, lag(alpha, ratio))
+
+
+def gain(first: ArrayLike, second: ArrayLike, *, crossed: bool = False) -> Array:
+    """Return the ratio κ between which and 1/κ two joints in one plane swing.
+
+    first, second (...) [rad]: bends α12 and α23, each in [0, π/2).
+    crossed: whether the inner yokes stand at right angles: what the joints do then adds up, instead of cancelling.
+    Returns (...).
+    κ = cos α23/cos α12, crossed 1/(cos α12 cos α23).
+    """
+    one, other = floats(first, second)
+    xp = namespace(one, other)
+    return 1.0 / (xp.cos(one) * xp.cos(other)) if crossed else xp.cos(other) / xp.cos(one)
+
+
+def unevenness(first: ArrayLike, second: ArrayLike, *, crossed: bool = False) -> Array:
+    """Return κ - 1/κ of `gain`, whose size is the speed fluctuation δ.
+
+    Parameters
+    ----------
+    first, second : arrays (...) [rad]
+        Bends α12 and α23, each in [0, π/2).
+    crossed : bool
+        Whether the inner yokes stand at right angles.
+
+    Returns
+    -------
+    array (...)
+
+    Notes
+    -----
+    sin(α12 + α23) sin(α12 - α23)/(cos α12 cos α23), crossed (1 - c²)/c with c = cos α12 cos α23, both without a
+    difference of near numbers. With α12, α23 = α/2 ∓ Δ its size is about 4 |Δ| tan(α/2).
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> print(f"{unevenness(15 * deg, 14 * deg):.9f}")
+    0.009027732
+    """
+    one, other = floats(first, second)
+    xp = namespace(one, other)
+    both = xp.cos(one) * xp.cos(other)
+    if crossed:
+        return (xp.sin(one) ** 2 + (xp.cos(one) * xp.sin(other)) ** 2) / both
+    return xp.sin(one + other) * xp.sin(one - other) / both

@@ -9,22 +9,17 @@ from typing import ClassVar
 
 import numpy as np
 
-from cardan.drive.shapes.ring import ring
-from cardan.drive.shapes.yoke import ACROSS, bolt_ring
-from cardan.maths.arrays import Array, unit_complex
+from cardan.drive.shapes import ACROSS, bolt_ring, ring
+from cardan.maths.arrays import Array, ArrayLike, floats, namespace, unit_complex
 from cardan.maths.kernel import mobius
 from cardan.maths.kernel.meshes import Surface, joined, placed, plate, revolved, toothed
 from cardan.texts import _, mark
 from cardan.units import plain, quantity
 
-from .common.drawn import about
-from .common.inner import InnerPair, touching
-from .common.inside import Inside
-from .common.site import Site
-from .common.stance import Stance
-from .joint import REFUSALS, Joint
-from .laws import half_cardan as law
-from .laws import shared_turn
+from .common import laws as shared_turn
+from .common.inner import InnerPair, Stance, touching
+from .common.site import Site, about
+from .joint import REFUSALS, Inside, Joint
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -55,7 +50,7 @@ class HalfCardan(Joint):
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield the play that it needs."""
         text = _("play that its pairs of faces need to turn at this joint angle")
-        yield Inside(key="play", meaning=text, value=float(law.play(joint_angle, self.pairs)))
+        yield Inside(key="play", meaning=text, value=float(play(joint_angle, self.pairs)))
 
     def solid(self, site: Site) -> None:
         """Add its toothed head and the sleeve round it."""
@@ -122,7 +117,7 @@ class ElasticHalfCardan(Joint):
         return mobius.turn(0.0 * joint_angle) if self.pairs is None else None
 
     def deviation(self, angle: Array, joint_angle: Array) -> tuple[Array, Array, Array]:
-        """Return the mean of what the pairs of links ask for; `cardan.drive.joints.laws.half_cardan`."""
+        """Return the mean of what the pairs of links ask for; `cardan.drive.joints.half_cardan`."""
         if self.pairs is None:
             return mobius.course(mobius.turn(0.0 * joint_angle), unit_complex(2.0 * angle))
         tau = mobius.tau(mobius.hooke(joint_angle))
@@ -137,7 +132,7 @@ class ElasticHalfCardan(Joint):
         """Yield how its links are strained."""
         if self.pairs is not None:
             text = _("angle by which its links are strained against each other")
-            yield Inside(key="strain", meaning=text, value=float(law.play(joint_angle, self.pairs)))
+            yield Inside(key="strain", meaning=text, value=float(play(joint_angle, self.pairs)))
 
     def inner(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield a contact: its links give way to all but the torque."""
@@ -173,3 +168,100 @@ def _flange_arm(far: float, low: float, thick: float) -> Surface:
     tip = np.stack((0.88 * far + eye * np.cos(turn), eye * np.sin(turn)), axis=-1)
     outline = np.concatenate((tip, [(0.0, 0.3 * far), (0.0, -0.3 * far)]))
     return placed(plate(outline, low, low + thick, bevel=0.12 * thick), ACROSS)
+
+
+# Half-cardans: couplings without swing axes, rigid (bell, gear) or elastic (discs, bushes, tyres).
+#
+# Each pair of opposite contacts is a Hooke joint of its own: the face across one diameter of one half stays at right
+# angles to the diameter of the other half. N pairs stand at π/N from each other and ask for N different outputs at
+# once. Rigid pairs can have only one of them, the others need play; elastic ones share, and turn by the mean, which is
+# even but for the order 2N of the turn.
+
+
+def demands(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
+    """Return how far ahead each pair of contacts alone would have the output run.
+
+    angle (...) [rad]: input angle φ1; joint_angle (...) [rad]: bend α in [0, π/2); pairs: pairs of opposite contacts N.
+    Returns (..., N) [rad].
+    The law of the Hooke joint at φ1 + kπ/N.
+    """
+    phi, alpha = floats(angle, joint_angle)
+    xp = namespace(phi, alpha)
+    turned = phi[..., None] + xp.arange(pairs, dtype=xp.float64) * (math.pi / pairs)
+    return mobius.angle_error(mobius.hooke(alpha[..., None]), unit_complex(2.0 * turned))
+
+
+def deviation(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
+    """Return how far the output runs ahead where equal elastic pairs share the torque: the mean of `demands`.
+
+    Parameters
+    ----------
+    angle : array (...) [rad]
+        Input angle φ1.
+    joint_angle : array (...) [rad]
+        Bend α in [0, π/2).
+    pairs : int
+        Pairs of opposite contacts N; one is a Hooke joint.
+
+    Returns
+    -------
+    array (...) [rad]
+
+    Notes
+    -----
+    -arg(1 - τ^N w^N)/N with τ = tan²(α/2), w = e^(2iφ1): of the series Σ τ^k sin(2kφ)/k of the Hooke joint, the mean
+    over N places keeps the orders k = N, 2N ... alone; at most arcsin(τ^N)/N.
+
+    Examples
+    --------
+    >>> print(f"{deviation(math.pi / 8, math.radians(10.0), 2):.2e}")
+    2.93e-05
+    """
+    phi, alpha = floats(angle, joint_angle)
+    return shared_turn.course(phi, _tau(alpha), pairs)[0]
+
+
+def ratio(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
+    """Return the speed ratio where equal elastic pairs share the torque.
+
+    The derivative of `deviation` + φ1.
+    """
+    phi, alpha = floats(angle, joint_angle)
+    return shared_turn.course(phi, _tau(alpha), pairs)[1]
+
+
+def _tau(joint_angle: Array) -> Array:
+    return namespace(joint_angle).tan(0.5 * joint_angle) ** 2
+
+
+def play(joint_angle: ArrayLike, pairs: int) -> Array:
+    """Return the play that a rigid half-cardan needs between its pairs to turn at a bend.
+
+    Parameters
+    ----------
+    joint_angle : array (...) [rad]
+        Bend α in [0, π/2).
+    pairs : int
+        Pairs of opposite contacts N.
+
+    Returns
+    -------
+    array (...) [rad]
+        Greatest difference of two of `demands` over a turn; for more than two pairs a bound that many pairs come to.
+
+    Notes
+    -----
+    Two pairs differ most at 45°, by 2 arctan τ = arctan(½ sin α tan α); any number at most by twice the greatest lead,
+    2 arcsin τ, τ = tan²(α/2).
+
+    Examples
+    --------
+    >>> print(f"{play(math.radians(5.0), 2):.6f}")
+    0.003813
+    """
+    (alpha,) = floats(joint_angle)
+    xp = namespace(alpha)
+    if pairs == 1:
+        return 0.0 * alpha
+    tau = _tau(alpha)
+    return 2.0 * (xp.atan(tau) if pairs == 2 else xp.asin(tau))

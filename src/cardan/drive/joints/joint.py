@@ -47,10 +47,10 @@ from cardan.maths.kernel import mobius
 from cardan.texts import _, mark
 from cardan.units import plain, quantity
 
-from .common import drawn, inner
-from .common.inside import Inside
+from .common import inner
+from .common import site as drawn
+from .common.inner import Stance
 from .common.site import Site
-from .common.stance import Stance
 
 Point: TypeAlias = tuple[float, float, float]
 Box: TypeAlias = tuple[tuple[float, float], tuple[float, float], tuple[float, float]]
@@ -291,3 +291,21 @@ def both_or_none(joint: Joint, *names: str) -> Iterator[Problem]:
         given = next(name for name in names if name not in missing)
         for name in missing:
             yield Problem(name, _("missing; it goes with {other}").format(other=given), "missing")
+
+
+# One measure of what else moves inside a joint: wobble, orbits, strokes, play, planes that are missed.
+
+
+@dataclass(frozen=True, kw_only=True)
+class Inside:
+    """One measure of what moves inside a joint."""
+
+    key: str  # short name, without unit
+    meaning: str  # one sentence
+    value: float  # in SI
+    dimension: str | None = "angle"  # a key of `cardan.units.DIMENSIONS`; None for a pure number, or 1/m
+
+
+def missed(tilt: float) -> Inside:
+    """Return how far a plane of contact is from the one that halves the joint angle [rad]."""
+    return Inside(key="plane_tilt", meaning=_("angle by which the plane of contact misses the middle"), value=tilt)

@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from cardan.errors import Problem
-from cardan.maths.arrays import Array
+from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 from cardan.maths.kernel import mobius
 from cardan.texts import _, mark
 from cardan.units import plain, quantity
 
-from .common import drawn
-from .common.inside import Inside
+from .common import laws as shared_turn
+from .common import laws as tilted_plane
+from .common import site as drawn
 from .common.site import Site
-from .joint import Joint, both_or_none
-from .laws import pilot_lever, shared_turn, tilted_plane
+from .joint import Inside, Joint, both_or_none
 from .weiss import ball_places, balls_inside, groove_course, groove_inside
 
 LEVER = ("lever_b", "lever_c")
@@ -67,7 +67,7 @@ class Rzeppa(Joint):
     def deviation(self, angle: Array, joint_angle: Array) -> tuple[Array, Array, Array]:
         """Return the mean of what the balls ask for."""
         if self.lever_b is not None and self.lever_c is not None:
-            tilt = pilot_lever.plane_error(joint_angle, self.lever_b, self.lever_c)
+            tilt = plane_error(joint_angle, self.lever_b, self.lever_c)
             return shared_turn.course(angle, tilted_plane.tau(joint_angle, tilt), shared_turn.places(self.balls))
         return groove_course(
             angle, joint_angle, self.driving_offset, self.driven_offset, self.groove_radius, self.balls
@@ -76,7 +76,7 @@ class Rzeppa(Joint):
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield what its balls do beside turning."""
         if self.lever_b is not None and self.lever_c is not None:
-            tilt = float(pilot_lever.plane_error(joint_angle, self.lever_b, self.lever_c))
+            tilt = float(plane_error(joint_angle, self.lever_b, self.lever_c))
             yield from balls_inside(tilt, tilted_plane.deviation(ball_places(self.balls), joint_angle, tilt))
         else:
             yield from groove_inside(
@@ -91,3 +91,119 @@ class Rzeppa(Joint):
     def solid(self, site: Site) -> None:
         """Add bell, inner race, cage and balls."""
         drawn.bell_and_balls(site, count=self.balls, groove=self.groove_radius)
+
+
+# The lever that holds the cage of a Rzeppa joint in the bisecting plane, exactly at one angle and nearly beside it.
+#
+# Its ball ends A and B run on the axes of the two shafts: A slides along its axis, B stays at OB = c. The cage hangs on
+# the point C between them, AC = a, CB = b. All lengths are given as shares of a.
+
+
+def _projection(joint_angle: Array, b: Array, c: Array) -> Array:
+    """Return √((a + b)² - c² sin²α)/a, nan where the lever cannot reach the axis of A."""
+    xp = namespace(joint_angle, b, c)
+    aside = c * xp.sin(joint_angle)
+    rest = (1.0 + b - aside) * (1.0 + b + aside)
+    return xp.sqrt(xp.where((rest > 0.0) & (b > 0.0) & (c > 0.0), rest, xp.nan))
+
+
+def cage_tilt(joint_angle: ArrayLike, b: ArrayLike, c: ArrayLike) -> Array:
+    """Return the angle of the cage's normal from the axis of A.
+
+    Parameters
+    ----------
+    joint_angle : array (...) [rad]
+        α_12 in [0, π/2), angle between the shafts.
+    b, c : arrays (...)
+        b/a and c/a, positive.
+
+    Returns
+    -------
+    array (...) [rad]
+        α_2; nan where the lever does not reach, c sin α_12 ≥ a + b.
+
+    Notes
+    -----
+    tan α_2 = a c sin α_12/[c(a + b) cos α_12 + b √((a + b)² - c² sin²α_12)], Book (13).
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> print(cage_tilt(20 * deg, 0.35, 0.7) / deg)
+    10.03450243
+    """
+    alpha, near, far = floats(joint_angle, b, c)
+    xp = namespace(alpha, near, far)
+    root = _projection(alpha, near, far)
+    return xp.atan2(far * xp.sin(alpha), far * (1.0 + near) * xp.cos(alpha) + near * root)
+
+
+def plane_error(joint_angle: ArrayLike, b: ArrayLike, c: ArrayLike) -> Array:
+    """Return by how much the cage misses the bisecting plane, α_2 - α_12/2.
+
+    Parameters
+    ----------
+    joint_angle : array (...) [rad]
+        α_12 in [0, π/2).
+    b, c : arrays (...)
+        b/a and c/a, positive.
+
+    Returns
+    -------
+    array (...) [rad]
+        The tilt η of `laws.tilted_plane`, shaft 1 being that of A; nan where the lever does not reach.
+
+    Notes
+    -----
+    The tangent of the difference, its numerator reduced: sin(α/2) {c - b (c cos α + √((1 + b)² - c² sin²α))}, and the
+    braces as (1 - b) c - b (1 + b) + b c [2 sin²(α/2) + c sin²α/(1 + b + √…)], so that digits are lost to the
+    error itself only.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> print(plane_error([5 * deg, 35 * deg], 0.35, 0.72) / deg)
+    [-0.00525327  0.83640544]
+    """
+    alpha, near, far = floats(joint_angle, b, c)
+    xp = namespace(alpha, near, far)
+    root = _projection(alpha, near, far)
+    sine, half, middle = xp.sin(alpha), xp.sin(0.5 * alpha), xp.cos(0.5 * alpha)
+    along = far * (1.0 + near) * xp.cos(alpha) + near * root
+    gap = (1.0 - near) * far - near * (1.0 + near)
+    gap = gap + near * far * (2.0 * half * half + far * sine * sine / (1.0 + near + root))
+    return xp.atan2(half * gap, along * middle + far * sine * half)
+
+
+def even_length(joint_angle: ArrayLike, b: ArrayLike) -> Array:
+    """Return c/a with which the cage bisects the angle of the shafts exactly, at one bend.
+
+    Parameters
+    ----------
+    joint_angle : array (...) [rad]
+        α_12 in [0, π/2).
+    b : array (...)
+        b/a.
+
+    Returns
+    -------
+    array (...)
+        nan where there is none: b cos α_12 ≥ a.
+
+    Notes
+    -----
+    (b/a)(1 + b/a)/√(1 + (b/a)² - 2 (b/a) cos α), the root of Book (15), (16). These are squared: where b cos α > a
+    their root belongs to a lever that has A beyond the joint.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> print(even_length([0.0, 5 * deg, 35 * deg], 0.35))
+    [0.72692308 0.72464236 0.63764452]
+    """
+    alpha, near = floats(joint_angle, b)
+    xp = namespace(alpha, near)
+    there = (near > 0.0) & (near * xp.cos(alpha) < 1.0)
+    half = xp.sin(0.5 * alpha)
+    square = xp.where(there, (1.0 - near) ** 2 + 4.0 * near * half * half, xp.nan)
+    return near * (1.0 + near) / xp.sqrt(square)

@@ -7,19 +7,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from cardan.drive.shapes.yoke import ACROSS
+from cardan.drive.shapes import ACROSS
 from cardan.errors import Problem
-from cardan.maths.arrays import Array
+from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 from cardan.maths.kernel import mobius
 from cardan.maths.kernel.meshes import ball, circle, placed, plate
 from cardan.texts import _, mark
 from cardan.units import quantity
 
-from .common import drawn
-from .common.inside import Inside, missed
+from .common import laws as tilted_plane
+from .common import site as drawn
 from .common.site import Site
-from .joint import Joint, both_or_none
-from .laws import tracta as law
+from .joint import Inside, Joint, both_or_none, missed
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -47,12 +46,12 @@ class Tracta(Joint):
         """Return the map of the joint, the identity where both distances are equal."""
         if self.driving_distance is None or self.driven_distance is None:
             return mobius.turn(0.0 * joint_angle)
-        return law.pair(joint_angle, self.driving_distance, self.driven_distance)
+        return pair(joint_angle, self.driving_distance, self.driven_distance)
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield how far its tongue misses the plane that halves the bend."""
         if self.driving_distance is not None and self.driven_distance is not None:
-            yield missed(float(law.tilt(joint_angle, self.driving_distance, self.driven_distance)))
+            yield missed(float(tilt(joint_angle, self.driving_distance, self.driven_distance)))
 
     def solid(self, site: Site) -> None:
         """Add its two forks and the slotted halves between them."""
@@ -66,3 +65,82 @@ class Tracta(Joint):
         tongue = plate(circle(0.86 * inner, 24), -0.3 * inner, 0.3 * inner)
         text = site.said(_("tongue of {joint}, in the bisecting plane"))
         site.add("tongue", text, own, *halves, placed(tongue, ACROSS), shade=0.2)
+
+
+# The Tracta joint: two forks with grooves, and a tongue between them that turns about the line of the fork centres.
+#
+# The centres A and B of the two grooves lie on the axes of the shafts, at OA and OB from their intersection. The tongue
+# lies in a plane through AB: a double joint with AB as its middle shaft, even exactly where OA = OB.
+
+
+def tilt(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
+    """Return by how much the angle at A exceeds half the bend.
+
+    joint_angle (...) [rad]: α in [0, π/2), angle between the shafts; first, second (...) [m]: OA, OB > 0.
+    Returns (...) [rad]: η = arctan[(OB - OA)/(OB + OA) tan(α/2)], by the law of tangents; exactly 0 for equal lengths.
+
+    >>> from cardan.units import deg
+    >>> print(tilt(30 * deg, 0.020, [0.020, 0.021]) / deg)
+    [0.         0.37444242]
+    """
+    alpha, one, two = floats(joint_angle, first, second)
+    xp = namespace(alpha, one, two)
+    return xp.atan((two - one) / (two + one) * xp.tan(0.5 * alpha))
+
+
+def joint_angles(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> tuple[Array, Array]:
+    """Return the angles between the shafts and the line of the fork centres.
+
+    joint_angle (...) [rad]: α in [0, π/2); first, second (...) [m]: OA, OB > 0.
+    Returns at_first, at_second (...) [rad]: α_1 = atan2(OB sin α, OA + OB cos α) and α_2 = α - α_1, each as half the
+    joint angle and the tilt.
+    """
+    alpha, one, two = floats(joint_angle, first, second)
+    eta = tilt(alpha, one, two)
+    return 0.5 * alpha + eta, 0.5 * alpha - eta
+
+
+def pair(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> mobius.Pair:
+    """Return the map of the circle, tan φ_2 = (cos α_2/cos α_1) tan φ_1.
+
+    joint_angle (...) [rad]: α in [0, π/2); first, second (...) [m]: OA, OB > 0.
+    Returns (...): the identity where OA = OB.
+    """
+    alpha, one, two = floats(joint_angle, first, second)
+    return tilted_plane.pair(alpha, -tilt(alpha, one, two))
+
+
+def deviation(angle: ArrayLike, joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
+    """Return how far shaft 2 runs ahead of shaft 1, φ_2 - φ_1.
+
+    angle (...) [rad]: φ_1, from the plane of the shafts, of the axis about which the tongue's block swivels in its
+    fork.
+    joint_angle (...) [rad]: α in [0, π/2); first, second (...) [m]: OA, OB > 0.
+    Returns (...) [rad].
+    """
+    alpha, one, two = floats(joint_angle, first, second)
+    return tilted_plane.deviation(angle, alpha, -tilt(alpha, one, two))
+
+
+def speed_fluctuation(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
+    """Return δ = \\|κ - 1/κ\\|, κ = cos α_2/cos α_1: largest less smallest speed ratio.
+
+    Parameters
+    ----------
+    joint_angle : array (...) [rad]
+        α in [0, π/2).
+    first, second : arrays (...) [m]
+        OA, OB > 0.
+
+    Returns
+    -------
+    array (...)
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> print(speed_fluctuation(30 * deg, 0.020, 0.021))
+    0.00700458
+    """
+    alpha, one, two = floats(joint_angle, first, second)
+    return tilted_plane.speed_fluctuation(alpha, tilt(alpha, one, two))

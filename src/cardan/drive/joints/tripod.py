@@ -9,18 +9,15 @@ from typing import ClassVar
 
 import numpy as np
 
-from cardan.drive.shapes.yoke import ACROSS
-from cardan.maths.arrays import Array
+from cardan.drive.shapes import ACROSS
+from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import Surface, ball, joined, placed, plate, revolved
 from cardan.texts import _, mark
 from cardan.units import quantity
 
-from .common.drawn import about
-from .common.inside import Inside
-from .common.site import Side, Site
-from .joint import REFUSALS, Joint
-from .laws import tripod as law
+from .common.site import Side, Site, about
+from .joint import REFUSALS, Inside, Joint
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -49,7 +46,7 @@ class Tripod(Joint):
         """Yield the circle of its spider."""
         if self.track_radius is not None:
             text = _("radius of the circle that the spider runs round three times a turn")
-            value = float(law.orbit_radius(joint_angle, self.track_radius))
+            value = float(orbit_radius(joint_angle, self.track_radius))
             yield Inside(key="orbit", meaning=text, value=value, dimension="length")
 
     @property
@@ -63,7 +60,7 @@ class Tripod(Joint):
         track = self.track_radius or 0.8 * site.size.radius
         joint_angle, theta, b = stance.joint_angle, stance.theta, stance.after
         site.add_to(one, "housing", site.said(_("housing of {joint}")), _tulip(track, one, joint_angle))
-        x, y = (np.asarray(part) for part in law.spider_centre(theta, joint_angle, track))
+        x, y = (np.asarray(part) for part in spider_centre(theta, joint_angle, track))
         centre = stance.centre + x[:, None] * frames.cross(stance.normal, b) + y[:, None] * stance.normal
         arm = stance.driven
         own = site.along(centre, b, arm)
@@ -76,7 +73,7 @@ class Tripod(Joint):
         for j in range(3):
             angle = j * 2.0 * np.pi / 3.0
             way = frames.rotate(arm, np.broadcast_to(b, arm.shape), np.full(len(arm), angle))
-            far = np.asarray(law.roller_reach(theta + angle, joint_angle, track))
+            far = np.asarray(roller_reach(theta + angle, joint_angle, track))
             moved = site.along(centre + far[:, None] * way, way, frames.cross(np.broadcast_to(b, way.shape), way))
             site.add("roller", site.said(_("roller of {joint}")), moved, roller, shade=0.5)
 
@@ -108,3 +105,84 @@ def _spider(track: float, joint_angle: float) -> Surface:
     arm = revolved([(0.0, 0.0), (0.0, 0.22 * track), (far, 0.22 * track), (far, 0.0)], 14)
     arms = [about(placed(arm, np.roll(np.eye(3), -1, axis=0)), j * 2.0 * np.pi / 3.0) for j in range(3)]
     return joined(hub, *arms)
+
+
+# The tripod joint: three rollers on a spider run in three straight tracks of a housing, parallel to its axis.
+#
+# The tracks pierce the plane of the spider on an ellipse. Written as a complex number in that plane, x along its line
+# of greatest slope, track k is R_A e^(iφ_k) + R_B e^(-iφ_k), R_A, R_B = R (1/cos α ± 1)/2, and the three rollers meet
+# on lines 120° apart exactly for the angle ψ = φ and the centre P = -R_B e^(3iφ).
+
+
+def orbit_radius(joint_angle: ArrayLike, radius: ArrayLike) -> Array:
+    """Return the radius of the circle that the centre of the spider runs round three times a turn.
+
+    Parameters
+    ----------
+    joint_angle : array (...) [rad]
+        α in [0, π/2).
+    radius : array (...) [m]
+        R, distance of the tracks from the axis of the housing.
+
+    Returns
+    -------
+    array (...) [m]
+        R_B = R (1/cos α - 1)/2, without a difference of near numbers.
+
+    Examples
+    --------
+    >>> from cardan.units import deg, mm
+    >>> print(orbit_radius(20 * deg, 20 * mm) / mm)
+    0.64177772
+    """
+    alpha, size = floats(joint_angle, radius)
+    xp = namespace(alpha, size)
+    return size * xp.sin(0.5 * alpha) ** 2 / xp.cos(alpha)
+
+
+def spider_centre(angle: ArrayLike, joint_angle: ArrayLike, radius: ArrayLike) -> tuple[Array, Array]:
+    """Return the centre of the spider in its plane, from the axis of the housing.
+
+    angle (...) [rad]: φ of the housing: of its first track from the line of greatest slope of the spider's plane.
+    joint_angle (...) [rad]: α in [0, π/2); radius (...) [m]: R.
+    Returns x, y (...) [m]: along the line of greatest slope and across it: -R_B cos 3φ, -R_B sin 3φ.
+    """
+    phi, alpha, size = floats(angle, joint_angle, radius)
+    xp = namespace(phi, alpha, size)
+    orbit = orbit_radius(alpha, size)
+    return -orbit * xp.cos(3.0 * phi), -orbit * xp.sin(3.0 * phi)
+
+
+def roller_reach(angle: ArrayLike, joint_angle: ArrayLike, radius: ArrayLike) -> Array:
+    """Return the distance of a roller from the centre of the spider, along its arm.
+
+    angle (...) [rad]: φ of the roller's own track; joint_angle (...) [rad]: α in [0, π/2); radius (...) [m]: R.
+    Returns (...) [m]: R_A + 2 R_B cos 2φ: each roller slides 4 R_B on its arm, twice a turn.
+    """
+    phi, alpha, size = floats(angle, joint_angle, radius)
+    xp = namespace(phi, alpha, size)
+    orbit = orbit_radius(alpha, size)
+    return size + orbit + 2.0 * orbit * xp.cos(2.0 * phi)
+
+
+def track_travel(angle: ArrayLike, joint_angle: ArrayLike, radius: ArrayLike) -> Array:
+    """Return how far along its track a roller stands from the middle.
+
+    angle (...) [rad]: φ of the roller's own track; joint_angle (...) [rad]: α in [0, π/2); radius (...) [m]: R.
+    Returns (...) [m]: R tan α cos φ.
+    """
+    phi, alpha, size = floats(angle, joint_angle, radius)
+    xp = namespace(phi, alpha, size)
+    return size * xp.tan(alpha) * xp.cos(phi)
+
+
+def shaft_tilt(joint_angle: ArrayLike, radius: ArrayLike, length: ArrayLike) -> Array:
+    """Return by how much a shaft that ends in a fixed joint nutates as the spider orbits, for a long shaft.
+
+    joint_angle (...) [rad]: α in [0, π/2).
+    radius, length (...) [m]: R, and L from the spider to the other joint of its shaft.
+    Returns (...) [rad]: R_B/L. The angle ψ = φ is exact for a shaft that keeps its direction; this tilt is what it
+    leaves out.
+    """
+    alpha, size, far = floats(joint_angle, radius, length)
+    return orbit_radius(alpha, size) / far

@@ -1,12 +1,8 @@
 """Figures of the results made beside this folder."""
 
-from cardan.formulas.absorber_tuning import Variants
-from cardan.formulas.absorbers import AbsorberResponse
-from cardan.formulas.joint_run_up import JointRunUp
-from cardan.formulas.run_up import RunUp
-
-from .absorbers import response_figures, variants_figures
-from .run_up import joint_run_up_figures, run_up_figures
+from cardan.formulas.absorbers import AbsorberResponse, Variants
+from cardan.formulas.figure import joint_run_up_figures, response_figures, run_up_figures, variants_figures
+from cardan.formulas.run_up import JointRunUp, RunUp
 
 FIGURES = {
     AbsorberResponse: response_figures,

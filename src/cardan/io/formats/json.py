@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.drive.fields.tables import tree_of
+from cardan.drive.fields.keys import tree_of
 from cardan.errors import InputError
 
 suffix = ".json"

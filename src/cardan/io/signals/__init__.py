@@ -16,8 +16,7 @@ from cardan.texts import _
 from cardan.units import nearest
 
 from . import csv, tdms, uff, wav
-from .columns import UNITS, Meaning, meaning, suffix_of
-from .raw import MOST_VALUES, Asked, Column, Raw
+from .columns import MOST_VALUES, UNITS, Asked, Column, Meaning, Raw, meaning, suffix_of
 
 SIGNAL_FORMATS = {csv.suffix: csv, ".txt": csv, wav.suffix: wav, uff.suffix: uff, ".unv": uff, tdms.suffix: tdms}
 """Suffix -> module that reads such files."""

@@ -16,8 +16,7 @@ from cardan.questions.diagnosis.signals.quality import evened
 from cardan.questions.diagnosis.signals.signal import Signal
 from cardan.texts import _
 
-from .columns import meaning, title_of
-from .raw import Asked, Column, Raw, content
+from .columns import Asked, Column, Raw, content, meaning, title_of
 
 suffix = ".csv"
 

@@ -13,8 +13,7 @@ from cardan.later import later
 from cardan.questions.diagnosis.signals.signal import Signal
 from cardan.texts import _, mark
 
-from .columns import title_of
-from .raw import Asked, Column, Raw, content
+from .columns import Asked, Column, Raw, content, title_of
 
 nptdms = later("nptdms", mark("TDMS files need the extra `signals`: pip install 'cardan[signals]'"))
 log = later("nptdms.log")

@@ -16,8 +16,7 @@ from cardan.questions.diagnosis.signals.quality import evened
 from cardan.questions.diagnosis.signals.signal import Signal
 from cardan.texts import _, mark
 
-from .columns import title_of
-from .raw import Asked, Column, Raw, content
+from .columns import Asked, Column, Raw, content, title_of
 
 pyuff = later("pyuff", mark("universal files need the extra `signals`: pip install 'cardan[signals]'"))
 

@@ -13,8 +13,8 @@ from cardan.errors import check, refuse
 from cardan.questions.diagnosis.signals.signal import Signal
 from cardan.texts import _
 
+from .columns import Asked, Column, Raw, content
 from .csv import unlike
-from .raw import Asked, Column, Raw, content
 
 suffix = ".wav"
 

@@ -196,7 +196,7 @@ def address(array: Any) -> Any:
 def compiled(*signature: Any) -> Callable[[Callable[..., None]], Any]:
     """Return a decorator that compiles a kernel without the interpreter lock, kept on disk where that is possible.
 
-    The kernel runs in one thread; `cardan.maths.compiled.threads` calls it from several. So no OpenMP is loaded: a
+    The kernel runs in one thread; `cardan.maths.compiled.method` calls it from several. So no OpenMP is loaded: a
     process may fork after it, and two Python threads may run kernels at once.
     """
 

@@ -11,9 +11,8 @@ from cardan.maths.arrays import Array
 
 from . import torsion_line as lines
 from . import torsion_steps as kernels
-from .eighth_order import SPEED_WEIGHTS, STAGES
 from .lanes import BYTES, LANES
-from .torsion_forms import MILD
+from .torsion_forms import MILD, SPEED_WEIGHTS, STAGES
 from .torsion_line import Line, State
 
 _EXTREMES = ("high", "low", "high_time", "low_time", "before", "rate")
@@ -88,7 +87,7 @@ class Block:
     def advance(
         self, time: float, steps: int, h: float, motion: tuple[Array, Array, Array] | None, *, last: bool
     ) -> None:
-        """Take steps of one length; see `cardan.maths.compiled.plain_torsion.advance`."""
+        """Take steps of one length; see `cardan.maths.compiled.plain.advance`."""
         if motion is not None:
             self._put("motion", np.stack([np.broadcast_to(one, (self.drives,)) for one in motion]))
         kernels.kernel(self.memory, self.program, self.tables, self.groups, steps, time, h, self.length, last)

@@ -1,4 +1,4 @@
-"""Kernel: torsional lines stepped through time, drives in lanes; see `cardan.maths.compiled.plain_torsion`.
+"""Kernel: torsional lines stepped through time, drives in lanes; see `cardan.maths.compiled.plain`.
 
 A step is a list of instructions that `cardan.maths.compiled.torsion_block` writes for the build of the drives: what to
 do, and at which places of a drive's memory. An instruction goes through all registers of a block before the next one
@@ -15,8 +15,8 @@ from numba import njit, types
 from numba.extending import intrinsic
 
 from . import torsion_forms as forms
-from .eighth_order import PLACES, SPEED, SPEED_WEIGHTS, end, stage
 from .lanes import BYTES, OUTPUT, SOURCES, address, compiled, step
+from .torsion_forms import PLACES, SPEED, SPEED_WEIGHTS, end, stage
 from .torsion_line import SPEED_LIMIT, TWIST_LIMIT
 
 WIDTH = 10

@@ -9,8 +9,7 @@ import scipy
 
 from cardan.maths.arrays import Array
 
-from .beam_elements import beam_stiffness, matrices
-from .rotor_beams import Line, layout
+from .rotor_beams import Line, beam_stiffness, layout, matrices
 
 
 def lowest(stiffness: Array, inertia: Array, count: int) -> tuple[Array, Array]:

@@ -10,8 +10,7 @@ import scipy
 
 from cardan.maths.arrays import Array, ArrayLike
 
-from .beam_elements import assembled, matrices
-from .rotor_beams import Line, divided, line, rigid_motions
+from .rotor_beams import Line, assembled, divided, line, matrices, rigid_motions
 
 CLAMPED = 0.2
 """Pieces are so short that (speed over lowest frequency with both ends clamped)² stays below this."""

@@ -16,8 +16,7 @@ import numpy as np
 
 from cardan.later import later
 from cardan.maths.arrays import NUMBERS, Array, ArrayLike, complex_of, namespace, real
-from cardan.maths.compiled.method import Compiled, Method, chosen
-from cardan.maths.compiled.threads import share
+from cardan.maths.compiled.method import Compiled, Method, chosen, share
 
 groups_of = later("cardan.maths.compiled.lanes")
 compiled = later("cardan.maths.compiled.tridiagonal")

@@ -15,7 +15,7 @@ from typing import TypeAlias
 import numpy as np
 
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.maths.curves.waves import series_at
+from cardan.maths.curves.extremes import series_at
 
 
 class Status(IntEnum):

@@ -11,10 +11,8 @@ import numpy as np
 
 from cardan.later import later
 from cardan.maths.arrays import NUMBERS, Array, ArrayLike, namespace, real
-from cardan.maths.compiled.buffers import buffers
-from cardan.maths.compiled.method import Compiled, Method, chosen
+from cardan.maths.compiled.method import Compiled, Method, buffers, chosen, share
 from cardan.maths.compiled.splitting import plan
-from cardan.maths.compiled.threads import share
 
 from .mathieu import check_range, exponents
 

@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.answers.answer import FILE, Answer, Column, Depth, KeyFigure, Remark, Table
-from cardan.answers.checks import Checked, checks, closely
+from cardan.answers.answer import FILE, Answer, Checked, Column, Depth, KeyFigure, Remark, Table, checks, closely
 from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion

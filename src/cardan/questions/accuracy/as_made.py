@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.maths.curves.peaks import peak
+from cardan.maths.curves.extremes import peak
 from cardan.questions.motion.motion import motion
 
 from .accuracy import transmission_error

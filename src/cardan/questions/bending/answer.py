@@ -19,10 +19,9 @@ from cardan.formulas.critical_speed import ARTICLE, CATALOGUE
 from cardan.formulas.damping import LOSS
 from cardan.texts import _, mark, plural
 
-from .bending import CriticalSpeeds, Part, Running
+from .bending import CriticalSpeedMap, CriticalSpeeds, Part, Running
 from .bending import bending_speeds as ask
-from .figures.bending import bending_figures, mode_name, speed_map_figures
-from .speed_map import CriticalSpeedMap
+from .figure import bending_figures, mode_name, speed_map_figures
 
 __all__ = ["COLUMNS", "answer", "answer_of_map", "ask", "lacking"]
 

@@ -20,9 +20,8 @@ from cardan.errors import refuse
 from cardan.maths.ties import foremost_of
 from cardan.texts import _, mark
 
-from .balance import SLOW
-from .shaft_balance import Balance
-from .shaft_balance import balance as ask
+from .balance import SLOW, Balance
+from .balance import balance as ask
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking"]
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -15,10 +16,140 @@ from cardan.errors import Problem, check
 from cardan.formulas.run_up import Progress, negative, not_finite, not_positive
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.periodic.floquet import monodromy
-from cardan.maths.periodic.turning_spring import energy_slope, matrices, orbit
+from cardan.maths.periodic.turning_spring import energy_slope, hump, hump_coefficients, matrices, orbit
 from cardan.texts import _
 
-from .crack import UNCRACKED, Crack
+# What does a crack take from a shaft? Its section, and how it opens and closes as the shaft turns under its weight.
+
+MOST_POWER = 1000
+"""Highest power of the law of breathing."""
+
+
+def _bad_power(power: int, name: str = "breathing") -> list[Problem]:
+    if power == int(power) and 0 <= power <= MOST_POWER:
+        return []
+    text = _("needs to be a whole number from 0 to {most}").format(most=MOST_POWER)
+    return [Problem(name, text, "out_of_range")]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Crack:
+    """A crack that opens and closes once a turn.
+
+    Attributes
+    ----------
+    loss_xi : float
+        Δ_ξ: share of its stiffness that the shaft loses along the crack's direction when the crack is open, in [0, 1).
+    loss_eta : float
+        Δ_η: the same across it.
+    breathing : int
+        m of the law f(θ) = cos^(2m)(θ/2), 1 where it is open (θ = 0: the crack on the side in tension). 1 is the law of
+        Mayes, more a crack that opens for a shorter part of the turn, 0 one that is always open.
+    """
+
+    loss_xi: float
+    loss_eta: float
+    breathing: int = 1
+
+    def __post_init__(self) -> None:
+        """Refuse values out of range."""
+        problems = [
+            Problem(name, _("needs to be at least 0 and below 1"), "out_of_range")
+            for name, loss in (("loss_xi", self.loss_xi), ("loss_eta", self.loss_eta))
+            if not 0.0 <= loss < 1.0
+        ]
+        check(problems + _bad_power(self.breathing))
+
+    @property
+    def losses(self) -> tuple[float, float]:
+        """Both losses, along the crack and across it."""
+        return self.loss_xi, self.loss_eta
+
+    @property
+    def coefficients(self) -> Array:
+        """Return a_0 … a_m of the law as a sum of cosines, array (m+1,)."""
+        return hump_coefficients(self.breathing)
+
+    def opening(self, unit: Array) -> tuple[Array, Array]:
+        """Return how far the crack is open at e^(iθ) and the slope of that by θ [1/rad], arrays (...)."""
+        return hump(unit, self.breathing)
+
+
+UNCRACKED = Crack(loss_xi=0.0, loss_eta=0.0)
+"""A sound shaft."""
+
+
+def crack_section(radius: ArrayLike, depth_ratio: ArrayLike) -> CutCircle:
+    """Return the section that a straight-fronted crack leaves of a round solid shaft.
+
+    Parameters
+    ----------
+    radius : array (...) [m]
+        R.
+    depth_ratio : array (...)
+        δ = h/R, depth of the crack over the radius, in [0, 2).
+
+    Returns
+    -------
+    CutCircle
+        Its ``loss_x`` is that of bending in the crack's direction (Δ_ξ), ``loss_y`` of bending across it (Δ_η).
+
+    Raises
+    ------
+    InputError
+        A radius that is not positive, a depth out of range.
+
+    Notes
+    -----
+    Article on the cracked Cardan shaft (17)-(19). The losses are those of this one section; the article takes them for
+    the whole shaft, which far overstates one crack. A single crack adds a local compliance only.
+
+    Examples
+    --------
+    >>> found = crack_section(5e-3, 0.45)
+    >>> print(f"{found.loss_x:.4f} along the crack, {found.loss_y:.4f} across it")
+    0.4459 along the crack, 0.1004 across it
+    """
+    r, high = np.asarray(radius, dtype=float), np.asarray(depth_ratio, dtype=float)
+    problems = []
+    if not np.all(np.isfinite(r) & (r > 0.0)):
+        problems.append(Problem("radius", _("needs to be positive and finite"), "not_positive"))
+    if not np.all((high >= 0.0) & (high < 2.0)):
+        problems.append(Problem("depth_ratio", _("needs to be at least 0 and below 2"), "out_of_range"))
+    check(problems)
+    return cut_circle(r, high)
+
+
+def breathing_law(power: int) -> Array:
+    """Return the law of breathing cos^(2m)(θ/2) as a sum of cosines.
+
+    Parameters
+    ----------
+    power : int
+        m, at least 0.
+
+    Returns
+    -------
+    array (m+1,)
+        a_0 … a_m of a_0 + Σ a_j cos jθ.
+
+    Raises
+    ------
+    InputError
+        m out of range.
+
+    Notes
+    -----
+    Article (21): a_0 = C(2m, m)/4^m, a_j = 2 C(2m, m-j)/4^m.
+
+    Examples
+    --------
+    >>> breathing_law(1)
+    array([0.5, 0.5])
+    """
+    check(_bad_power(power, "power"))
+    return hump_coefficients(power)
+
 
 GRAVITY = 9.81
 """g [m/s²]."""
@@ -274,3 +405,68 @@ def _product_gap(values: Array, decay: float) -> float:
     """Return how far the multipliers are from their product, where it is not too small to compare."""
     exact = math.exp(-8.0 * math.pi * decay)
     return float(abs(np.prod(values) / exact - 1.0)) if exact >= 1e-6 else 0.0
+
+
+# A circle with a segment cut off: area, centroid and second moments of what remains.
+
+NODES = 24
+"""Points of Gauss's rule; the powers of sine and cosine below are exact with them to rounding."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CutCircle:
+    """What remains of circles, the y axis through the middle of the chord, the segment beyond it away."""
+
+    area: Array  # (...): of the rest
+    shift: Array  # (...): from the centre of the circle to the centroid of the rest, away from the chord
+    second_x: Array  # (...): ∫y² dA about the centre of the circle
+    second_y: Array  # (...): ∫x² dA, about the centre and about the centroid
+    second_x_centroid: Array  # (...): ∫y² dA about the centroid
+    # loss_x, loss_y (...): shares by which the moments about the centroid are below that of the whole circle
+    loss_x: Array
+    loss_y: Array  # (...)
+
+
+def cut_circle(radius: ArrayLike, depth: ArrayLike) -> CutCircle:
+    """Return area, centroid and second moments of circles with a segment cut off.
+
+    radius (...): R; depth (...): height of the segment over the radius, in [0, 2).
+    Returns CutCircle: in the unit of the radius and its powers.
+    With y = R cos t the chord lies at cos t = 1 - depth, a strip has the area 2R² sin² t dt, and every quantity is an
+    integral of a positive function over t, by Gauss's rule: nothing cancels, whether the segment is almost nothing or
+    almost all.
+    """
+    r, high = np.broadcast_arrays(np.asarray(radius, dtype=float), np.asarray(depth, dtype=float))
+    edge = 2.0 * np.arcsin(np.sqrt(0.5 * high))
+    node, weight = _rule()
+    away, stay = edge[..., None] * node, np.pi + (edge[..., None] - np.pi) * node
+    cut, kept = edge[..., None] * weight, (np.pi - edge[..., None]) * weight
+
+    def total(values: Array, width: Array) -> Array:
+        found: Array = np.sum(values * width, axis=-1)
+        return found
+
+    sine = np.sin(stay)
+    area = total(2.0 * sine**2, kept)
+    shift = 2.0 * np.sin(edge) ** 3 / (3.0 * area)
+    second_y = total(sine**4, kept) * 2.0 / 3.0
+    second_x = total(2.0 * (sine * np.cos(stay)) ** 2, kept)
+    centred = total(2.0 * ((np.cos(stay) + shift[..., None]) * sine) ** 2, kept)
+    gone_x = total(2.0 * (np.sin(away) * np.cos(away)) ** 2, cut) + area * shift**2
+    gone_y = total(np.sin(away) ** 4, cut) * 2.0 / 3.0
+    return CutCircle(
+        area=r**2 * area,
+        shift=r * shift,
+        second_x=r**4 * second_x,
+        second_y=r**4 * second_y,
+        second_x_centroid=r**4 * centred,
+        loss_x=4.0 * gone_x / np.pi,
+        loss_y=4.0 * gone_y / np.pi,
+    )
+
+
+@cache
+def _rule() -> tuple[Array, Array]:
+    """Return nodes and weights on (0, 1)."""
+    node, weight = np.polynomial.legendre.leggauss(NODES)
+    return 0.5 + 0.5 * node, 0.5 * weight

@@ -17,13 +17,11 @@ from cardan.errors import Problem, check
 from cardan.formulas.run_up import Progress, bad_times, instants, negative, not_finite, not_positive
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import mobius
-from cardan.maths.periodic.cosine_power import hump
-from cardan.maths.periodic.turning_spring import energy_slope, pull
+from cardan.maths.periodic.turning_spring import energy_slope, hump, pull
 from cardan.texts import _
 
-from .crack import UNCRACKED, Crack
-from .cracked_rotor import GRAVITY
-from .whirl_in_time import fitted_orders, followed, longest_step
+from .cracked_rotor import GRAVITY, UNCRACKED, Crack
+from .cracked_run import fitted_orders, followed, longest_step
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -4,23 +4,30 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.drive.body import body_length, pieces
+from cardan.drive.body import body_length, pieces, weight
 from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.models.geometry import geometry
 from cardan.drive.shaft import Shaft
 from cardan.drive.yokes import with_yokes
-from cardan.errors import InputError, refuse
-from cardan.maths.arrays import Array
+from cardan.errors import InputError, Problem, check, refuse
+from cardan.formulas.run_up import Progress
+from cardan.formulas.unbalance_behind_joint import UnbalanceBehindJoint, unbalance_behind_joint
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.texts import _
 
-from .bending import CriticalSpeeds, bending_speeds
-from .crack import UNCRACKED, Crack, crack_section
-from .shaft_balance import balance
+from .balance import balance
+from .bending import CriticalSpeeds, bending_speeds, used_speeds
+from .cracked_rotor import UNCRACKED, Crack, CrackedRotor, crack_section, cracked_rotor
+from .cracked_run import CrackedRun, cracked_run
+from .cracked_shafts import CrackedShafts, WhirlingShaft, cracked_shafts
 
 DAMPING = 0.02
 """Damping ratio of bending where nothing says another; measured drives have 0.01 to 0.05."""
@@ -191,3 +198,260 @@ def _crack(shaft: Shaft) -> tuple[Crack, float]:
         section = crack_section(0.5, given.depth_ratio or 0.0)
         xi, eta = float(section.loss_x), float(section.loss_y)
     return Crack(loss_xi=xi, loss_eta=eta, breathing=given.breathing), given.angle
+
+
+# How does a shaft of a drive whirl with its unbalance and a crack: steadily, while running up, joined to the next?
+
+SPEEDS = 181
+"""Speeds of a response where none are given; those about a half and a third of the critical speed come on top."""
+
+SLOWEST, FASTEST = 0.15, 1.25
+"""Ends of the speeds over the critical speed, where the drive uses none beyond."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RotorResponse:
+    """Steady whirling of a shaft over the speed.
+
+    Attributes
+    ----------
+    rotor : Rotor
+        The shaft as a mass on a spring.
+    steady : CrackedRotor
+        Orders, stability and orbits over the speeds, X down and Y 90° ahead in the sense of rotation.
+    used : (float, float) or None [rad/s]
+        Lowest and highest speed of running; None where the drive says none.
+    behind : UnbalanceBehindJoint or None
+        Orders that the uneven turning adds to the force of the unbalance; None for the input shaft.
+    """
+
+    rotor: Rotor
+    steady: CrackedRotor
+    used: tuple[float, float] | None
+    behind: UnbalanceBehindJoint | None
+
+    def peak(self, order: int) -> tuple[float, float]:
+        """Return speed [rad/s] and amplitude [m] where an order is largest, within the speeds of running.
+
+        Parameters
+        ----------
+        order : int
+            Negative ones run backward.
+        """
+        size = np.array(self.steady.order_amplitude(order))
+        if self.used is not None:
+            low, high = self.used
+            inside = (self.steady.speed >= low * (1 - 1e-9)) & (self.steady.speed <= high * (1 + 1e-9))
+            size = np.where(inside, size, np.nan) if np.any(inside) else size
+        if np.all(np.isnan(size)):
+            return math.nan, math.nan
+        k = int(np.nanargmax(size))
+        return float(self.steady.speed[k]), float(size[k])
+
+    @property
+    def unstable(self) -> tuple[tuple[float, float], ...]:
+        """Ranges of speed [rad/s] in which whirling grows by itself."""
+        bad = np.concatenate([[False], ~self.steady.stable, [False]]).astype(int)
+        change = np.diff(bad)
+        pairs = zip(np.flatnonzero(change == 1), np.flatnonzero(change == -1), strict=True)
+        return tuple((float(self.steady.speed[a]), float(self.steady.speed[b - 1])) for a, b in pairs)
+
+
+def rotor_response(
+    drive: Drive,
+    duty: Duty | None = None,
+    *,
+    shaft: int | None = None,
+    speed: ArrayLike | None = None,
+    damping_ratio: float = DAMPING,
+    progress: Progress | None = None,
+) -> RotorResponse:
+    """Return how a shaft of a drive whirls with its unbalance and its crack, over the speed.
+
+    Parameters
+    ----------
+    drive : Drive
+        With bodies of its shafts; `crack` and `unbalance` of the shaft.
+    duty : Duty, optional
+        Speeds of running; those of the drive by default.
+    shaft : int, optional
+        Number of the shaft, as in `rotor`.
+    speed : array (k,), optional [rad/s]
+        Speeds; by default up to the highest in use or beyond the critical speed.
+    damping_ratio : float
+        ζ of the mode.
+    progress : function, optional
+        Told the share done; when it answers "stop" the work ends.
+
+    Returns
+    -------
+    RotorResponse
+        Orders, orbits and stability; unstable ranges with their half orders.
+
+    Raises
+    ------
+    InputError
+        The drive does not say enough, or a speed is out of range.
+
+    See Also
+    --------
+    bending_speeds, balance
+
+    Notes
+    -----
+    `rotor` reduces the shaft, `cracked_rotor.cracked_rotor` solves it. The unbalance of a shaft behind
+    joints has further odd orders, `UnbalanceBehindJoint` of the joint that all joints before it are equal to.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from cardan.drive.crack import ShaftCrack
+    >>> from cardan.io import example
+    >>> drive = example("car-propshaft")
+    >>> bad = replace(drive.shafts[1], crack=ShaftCrack(losses=(0.1, 0.02)))
+    >>> found = rotor_response(replace(drive, shafts=(drive.shafts[0], bad, drive.shafts[2])))
+    >>> speed, size = found.peak(3)
+    >>> print(f"{1e6 * size:.1f} μm at {speed / found.rotor.critical:.2f} of the critical speed", found.unstable)
+    4.7 μm at 0.33 of the critical speed ()
+    """
+    one = rotor(drive, shaft, damping_ratio=damping_ratio)
+    used = used_speeds(drive.duty if duty is None else duty)
+    at = _speeds(one, used) if speed is None else np.atleast_1d(np.asarray(speed, dtype=float))
+    steady = cracked_rotor(
+        one.mass,
+        one.stiffness,
+        at,
+        crack=one.crack,
+        damping_ratio=one.damping_ratio,
+        unbalance=one.unbalance,
+        unbalance_phase=one.unbalance_angle - one.crack_angle,
+        gravity=one.gravity,
+        progress=progress,
+    )
+    behind = None
+    if one.shaft > 1:
+        before = float(abs(equivalent_joint(drive).vertex[one.shaft - 1]))
+        behind = unbalance_behind_joint(2.0 * math.atan(math.sqrt(before)), reach=5)
+    return RotorResponse(rotor=one, steady=steady, used=used, behind=behind)
+
+
+def _speeds(one: Rotor, used: tuple[float, float] | None) -> Array:
+    high = max(FASTEST * one.critical, 1.05 * used[1] if used else 0.0)
+    near = [one.critical / n * np.linspace(0.94, 1.06, 41) for n in (1, 2, 3)]
+    ends = [speed for speed in used or () if speed >= SLOWEST * one.critical]
+    return np.unique(np.concatenate([np.linspace(SLOWEST * one.critical, high, SPEEDS), *near, ends]))
+
+
+def rotor_run(
+    drive: Drive,
+    *,
+    shaft: int | None = None,
+    damping_ratio: float = DAMPING,
+    progress: Progress | None = None,
+) -> tuple[Rotor, CrackedRun]:
+    """Return how a shaft whirls while the speed changes as the `run_up` of the duty says.
+
+    drive: with bodies of its shafts and the `run_up` of its duty; shaft: number of the shaft, as in `rotor`.
+    damping_ratio: ζ of the mode.
+    Returns Rotor: the shaft as a mass on a spring; CrackedRun: its motion in time.
+    """
+    course = drive.duty.run_up
+    if course is None:
+        raise refuse("duty.run_up", _("missing: start, end and duration of a change of speed"), "missing")
+    one = rotor(drive, shaft, damping_ratio=damping_ratio)
+    found = cracked_run(
+        one.mass,
+        one.stiffness,
+        course.start,
+        (course.end - course.start) / course.duration,
+        course.duration,
+        crack=one.crack,
+        damping_ratio=one.damping_ratio,
+        unbalance=one.unbalance,
+        unbalance_phase=one.unbalance_angle - one.crack_angle,
+        gravity=one.gravity,
+        progress=progress,
+    )
+    return one, found
+
+
+def joined_rotors(
+    drive: Drive,
+    joint: int,
+    *,
+    speed: float | None = None,
+    turns: float = 40.0,
+    damping_ratio: float = DAMPING,
+    progress: Progress | None = None,
+) -> tuple[Rotor, Rotor, CrackedShafts]:
+    """Return the motion in time of the two shafts that a joint joins, the first of them cracked where it has a crack.
+
+    drive: with bodies of both shafts.
+    joint: number of the joint, counted from 1; both shafts beside it need bodies.
+    speed [rad/s]: of the first shaft; that of the duty by default.
+    turns: how long, in turns; damping_ratio: ζ of both modes.
+    Returns Rotor, Rotor: the shafts as masses on springs.
+    `cracked_shafts.cracked_shafts` with the modes of both shafts; the motor turns the first shaft
+    through its own torsional stiffness, Σ L/(G J).
+    """
+    if not 1 <= joint <= len(drive.joints):
+        text = _("there is no joint {number}; the drive has {count}")
+        raise refuse("joint", text.format(number=joint, count=len(drive.joints)), "out_of_range")
+    first = rotor(drive, joint, damping_ratio=damping_ratio)
+    second = rotor(drive, joint + 1, damping_ratio=damping_ratio)
+    turning = drive.duty.speed if speed is None else speed
+    if not turning:
+        raise refuse("duty.speed", _("missing: the speed"), "missing")
+    check(_no_stiffness(drive, first, second))
+    place = geometry(drive)
+    shafts = [_whirling(drive, one) for one in (first, second)]
+    stiffness = _turning_stiffness(drive, first.shaft)
+    inertia = shafts[0].inertia
+    found = cracked_shafts(
+        shafts[0],
+        shafts[1],
+        float(place.joint_angle[joint - 1]),
+        abs(float(turning)),
+        turns * 2.0 * math.pi / abs(float(turning)),
+        crack=first.crack,
+        drive_stiffness=stiffness,
+        drive_damping=2.0 * damping_ratio * math.sqrt(stiffness * inertia),
+        gravity=first.gravity,
+        progress=progress,
+    )
+    return first, second, found
+
+
+def _no_stiffness(drive: Drive, *rotors: Rotor) -> Iterator[Problem]:
+    for one in rotors:
+        found = weight(drive.shafts[one.shaft - 1], body_length(drive.shafts[one.shaft - 1], _length(drive, one.shaft)))
+        if not found.inertia:
+            text = _("missing: the moment of inertia about its axis, or a body that gives it")
+            yield Problem(f"shafts[{one.shaft - 1}].inertia", text, "missing")
+
+
+def _length(drive: Drive, number: int) -> float | None:
+    return known_lengths(drive).get(number)
+
+
+def _whirling(drive: Drive, one: Rotor) -> WhirlingShaft:
+    shaft = with_yokes(drive).shafts[one.shaft - 1]
+    inertia = weight(shaft, body_length(shaft, _length(drive, one.shaft))).inertia or 0.0
+    radius = 0.5 * (shaft.outer or max((part.outer for part in shaft.segments), default=0.1))
+    return WhirlingShaft(
+        mass=one.mass,
+        stiffness=one.stiffness,
+        inertia=inertia,
+        damping=2.0 * one.damping_ratio * math.sqrt(one.stiffness * one.mass),
+        unbalance_mass=one.unbalance / radius,
+        unbalance_radius=radius,
+    )
+
+
+def _turning_stiffness(drive: Drive, number: int) -> float:
+    """Return the torsional stiffness of a shaft from end to end [N·m/rad]."""
+    shaft = drive.shafts[number - 1]
+    if shaft.stiffness is not None:
+        return shaft.stiffness
+    body = pieces(shaft, body_length(shaft, _length(drive, number)))
+    return 1.0 / sum(one.length / (one.material.shear_modulus * 2.0 * one.second_moment) for one in body)

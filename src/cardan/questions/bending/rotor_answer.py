@@ -20,10 +20,9 @@ from cardan.texts import _, mark
 from .answer import lacking as lacking_of_bending
 from .cracked_run import CrackedRun
 from .cracked_shafts import CrackedShafts
-from .figures.rotor import ORDERS, joined_figure, order_name, rotor_figures, run_figure
-from .rotor import Rotor
-from .rotor_response import RotorResponse
-from .rotor_response import rotor_response as ask
+from .figure import ORDERS, joined_figure, order_name, rotor_figures, run_figure
+from .rotor import Rotor, RotorResponse
+from .rotor import rotor_response as ask
 
 __all__ = ["COLUMNS", "answer", "answer_of_joined", "answer_of_run", "ask", "lacking"]
 

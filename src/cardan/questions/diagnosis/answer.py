@@ -13,8 +13,8 @@ from cardan.texts import _
 from .examination import Examination
 from .expected import Expected
 from .fault_answer import by_torque, grows
-from .figures.examination import LIKELY, causes_figure, examination_figures, verdict
 from .figures.orders import DIMENSIONS, amplitude_of, order_text, quantity_word
+from .figures.signals import LIKELY, causes_figure, examination_figures, verdict
 from .findings import Finding
 from .match import Signs
 from .plant import plant

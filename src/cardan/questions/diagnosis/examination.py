@@ -18,12 +18,10 @@ from .expected import FAULTS, Expected, expected_orders
 from .features import features
 from .findings import Finding, weighed
 from .signals.orbit import Orbit, orbit
-from .signals.order_tracks import TrackedOrders, tracked_orders
-from .signals.orders import OrderMap, OrderSpectrum, order_map, order_spectrum
-from .signals.signal import Channel, Signal
+from .signals.orders import OrderMap, OrderSpectrum, TrackedOrders, order_map, order_spectrum, tracked_orders
+from .signals.signal import Channel, Progress, Signal, Watch
 from .signals.spectra import integrate
 from .signals.torsional import KEPT, LEAST_TEETH, TorsionalVibration, torsional_vibration
-from .signals.watching import Progress, Watch
 
 SHAKING = ("acceleration", "velocity", "displacement")
 """Quantities whose orders are shown, the best first."""

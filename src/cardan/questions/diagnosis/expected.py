@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -10,10 +11,11 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.texts import _
+from cardan.questions.bending.cracked_rotor import GRAVITY
+from cardan.texts import _, mark
+from cardan.units import deg
 
-from .fault_orders import MAKERS, Bursts, ExpectedOrder, bursts_of, in_order
-from .plant import Plant, plant
+from .plant import Housing, Plant, plant
 
 FAULTS = {
     "healthy": "",
@@ -166,3 +168,277 @@ def _moved(base: Plant, fault: str, severity: float) -> Plant:
     if fault == "critical":
         return replace(base, critical=(1.02 + 0.03 / severity) * top)
     return base
+
+
+# The orders and knocks that each fault makes: forces at the joints, shared out to the housings.
+
+RESIDUAL = 0.5
+"""Share of the allowed unbalance that a drive in order has."""
+
+TIMES = 4.0
+"""Unbalance of a fault over the allowed one."""
+
+RUNOUT, PLAY = 0.4e-3, 0.1e-3
+"""Run-out of a bent tube and play of a worn joint, spline or bearing, at severity 1 [m]."""
+
+WRONG_JOINT_ANGLE, WRONG_PHASE = 5.0 * deg, 30.0 * deg
+"""What a joint angle is too large by and a yoke is turned by, at severity 1."""
+
+TIGHT = 0.1
+"""Friction couple of a tight joint over the torque."""
+
+LOSSES = (0.45, 0.1)
+"""Losses of stiffness of a crack, across and along its edge (the captions of the paper on cracked shafts)."""
+
+ARM = 0.2
+"""Arm on which a swinging torque is taken up by a housing [m]."""
+
+BOOK, COUPLES, SPLINES = (
+    mark("Kozhevnikov & Perfil'ev (1978), eq. 253–260"),
+    mark("Kozhevnikov & Perfil'ev (1978), eq. 66–74"),
+    mark("Kozhevnikov & Perfil'ev (1978), p. 228"),
+)
+SECONDARY = f"{COUPLES}; {mark('secondary couple T tan α')}"
+GRADES = "ISO 21940-11"
+PAPER = f"{mark('paper on cracked shafts with a joint')}; {mark('first order in the losses of stiffness')}"
+TRADE, LOOSE = mark("usual practice of the trade"), mark("usual practice of the trade: looseness")
+FRICTION = mark("square wave of a friction couple")
+UNEVEN = mark("equivalent joint of the drive: amplitude |τ| of order 2")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExpectedOrder:
+    """One order at one sensor, and how it follows speed and torque."""
+
+    order: float  # multiple of the speed of the shaft
+    place: str  # key path of the support or shaft where the sensor sits
+    kind: str  # ``input``, ``centre`` or ``output``
+    direction: str  # ``radial``, ``axial`` [m/s²] or ``torsion`` (speed of the output beside its mean, [rad/s])
+    size: float  # amplitude at top speed and the torque of the duty, without amplification
+    speed_power: float  # p of (ω/ω_top)^p
+    # a, b, c of the factor |a + bτ + c|τ||, τ torque over that of the duty
+    torque: tuple[float, float, float] = (1.0, 0.0, 0.0)
+    amplified: bool = False  # whether the bending mode amplifies it where order times speed meets the critical speed
+    source: str  # where the line comes from
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bursts:
+    """Knocks: noise that comes some times a turn."""
+
+    per_turn: int  # how often
+    kind: str  # housing where they are loudest
+    size: float  # [m/s²]: amplitude at light torque
+    torque: tuple[float, float, float]  # as for orders
+
+
+def _spread(
+    base: Plant,
+    shares: dict[int, float],
+    *,
+    order: float,
+    power: float,
+    source: str,
+    axial: float = 0.0,
+    **more: object,
+) -> Iterator[ExpectedOrder]:
+    """Yield the lines of forces {joint: N at top speed} at every housing, and their axial part."""
+    for house in base.housings:
+        force = sum(amount for joint, amount in shares.items() if joint in house.joints)
+        for direction, share in (("radial", 1.0), ("axial", axial)):
+            yield _line(house, direction, order, share * force / house.mass, power, source, **more)
+
+
+def _line(
+    house: Housing, direction: str, order: float, size: float, power: float, source: str, **more: object
+) -> ExpectedOrder:
+    return ExpectedOrder(
+        order=float(order),
+        place=house.place,
+        kind=house.kind,
+        direction=direction,
+        size=size,
+        speed_power=power,
+        source=source,
+        **more,  # type: ignore[arg-type]
+    )
+
+
+def _ends(chosen: int, force: float) -> dict[int, float]:
+    return {chosen: 0.5 * force, chosen + 1: 0.5 * force}
+
+
+def _couples(base: Plant, joint_angle: Array) -> dict[int, float]:
+    """Return the forces of the secondary couples of all joints, that of each over its shorter shaft."""
+    length = [
+        float(min(base.length[max(k - 1, 0)], base.length[min(k, base.length.size - 1)]))
+        for k in range(joint_angle.size)
+    ]
+    return {k: base.torque * math.tan(float(one)) / length[k] for k, one in enumerate(joint_angle)}
+
+
+def _turning(base: Plant, uneven: float, source: str = UNEVEN) -> Iterator[ExpectedOrder]:
+    """Yield what an uneven output makes: its speed, and the torque that its inertia takes at both ends."""
+    top, last = base.speed[1], base.joint_angle.size - 1
+    house = base.housings[-1]
+    yield _line(house, "torsion", 2.0, 2.0 * top * uneven, 1.0, source)
+    swing = 4.0 * base.inertia * top**2 * uneven / ARM
+    yield from _spread(base, {0: swing, last: swing}, order=2.0, power=2.0, source=source)
+
+
+def in_order(base: Plant, fault: str, severity: float) -> Iterator[ExpectedOrder]:
+    """Yield what a drive in order shows as well."""
+    top = base.speed[1]
+    for k, allowed in enumerate(base.allowed):
+        force = RESIDUAL * float(allowed) * top**2
+        yield from _spread(
+            base, _ends(k, force), order=1.0, power=2.0, source=f"{GRADES}; {BOOK}", axial=0.15, amplified=True
+        )
+    joint_angle = base.joint_angle
+    if fault == "joint_angles":
+        joint_angle = joint_angle + np.where(
+            np.arange(joint_angle.size) == joint_angle.size - 1,
+            WRONG_JOINT_ANGLE * severity,
+            0.5 * WRONG_JOINT_ANGLE * severity,
+        )
+    by_torque = (0.0, 0.0, 1.0)
+    yield from _spread(
+        base,
+        _couples(base, joint_angle),
+        order=2.0,
+        power=0.0,
+        source=SECONDARY,
+        axial=0.1,
+        torque=by_torque,
+        amplified=True,
+    )
+    small = {k: 0.05 * one for k, one in _couples(base, joint_angle).items()}
+    yield from _spread(base, small, order=4.0, power=0.0, source=SECONDARY, torque=by_torque)
+    yield from _turning(base, base.uneven + 0.03 * math.tan(0.5 * float(np.max(base.joint_angle))) ** 2)
+
+
+def _nothing(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+    yield from ()
+
+
+def _unbalance(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+    force = TIMES * severity * float(base.allowed[chosen]) * base.speed[1] ** 2
+    source = f"{GRADES}; {BOOK}"
+    yield from _spread(base, _ends(chosen, force), order=1.0, power=2.0, source=source, axial=0.15, amplified=True)
+
+
+def _lost_weight(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+    force = 0.7 * TIMES * severity * float(base.allowed[chosen]) * base.speed[1] ** 2
+    yield from _spread(base, {chosen + 1: force}, order=1.0, power=2.0, source=GRADES, axial=0.15)
+
+
+def _bent(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+    out = max(RUNOUT, 5.0 * float(base.allowed[chosen] / base.mass[chosen])) * severity
+    force = 2.0 / math.pi * out * float(base.mass[chosen]) * base.speed[1] ** 2
+    ends = _ends(chosen, force)
+    yield from _spread(base, ends, order=1.0, power=2.0, source=f"{BOOK}; {TRADE}", axial=0.7, amplified=True)
+    house = base.housings[-1]
+    for order, share in ((2.0, 0.2),):
+        yield _line(house, "axial", order, share * force / house.mass, 2.0, TRADE)
+
+
+def _joint_angles(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+    last = float(base.joint_angle[-1])
+    yield from _turning(
+        base, abs(math.tan(0.5 * (last + 0.5 * WRONG_JOINT_ANGLE * severity)) ** 2 - math.tan(0.5 * last) ** 2)
+    )
+
+
+def _phase(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+    turn = min(WRONG_PHASE * severity, 0.5 * math.pi)
+    uneven = 2.0 * math.sin(turn) * math.tan(0.5 * float(base.joint_angle[-1])) ** 2
+    yield from _turning(base, uneven)
+
+
+def _tight(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+    couple = TIGHT * severity * base.torque / float(base.length[chosen])
+    # A couple of friction turns its sense with the swing of the joint: a square wave, whose orders in space are even.
+    for order, share in ((1.0, 0.6), (2.0, 1.0), (4.0, 0.5)):
+        yield from _spread(
+            base,
+            {chosen: share * couple},
+            order=order,
+            power=0.0,
+            source=f"{FRICTION}; {TRADE}",
+            axial=0.2,
+            torque=(0.8, 0.0, 0.2),
+        )
+
+
+def _crack(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+    across, along = (min(0.8, one * severity) for one in LOSSES)
+    weight = float(base.mass[chosen]) * GRAVITY
+    for order, share in (
+        (1.0, 0.25 * across),
+        (2.0, 0.25 * (across - along)),
+        (3.0, 0.125 * (across - along)),
+    ):
+        force = share * weight
+        yield from _spread(base, _ends(chosen, force), order=order, power=0.0, source=PAPER, axial=0.1, amplified=True)
+
+
+def _play(base: Plant, severity: float, chosen: int) -> float:
+    """Return the force of a shaft off centre by its play, at top speed."""
+    mass = float(base.mass[chosen])
+    return severity * max(PLAY * mass, 2.5 * float(base.allowed[chosen])) * base.speed[1] ** 2
+
+
+def _worn_joint(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+    force = _play(base, severity, chosen)
+    one = {chosen + 1: force}
+    yield from _spread(base, one, order=1.0, power=2.0, source=TRADE, axial=0.15, torque=(1.0, 0.3, -0.6))
+    two = {chosen + 1: 0.5 * force}
+    yield from _spread(base, two, order=2.0, power=1.0, source=TRADE, axial=0.15, torque=(0.4, 0.0, 0.6))
+
+
+def _worn_spline(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+    force = _play(base, severity, chosen)
+    yield from _spread(
+        base,
+        _ends(chosen, force),
+        order=1.0,
+        power=2.0,
+        source=f"{SPLINES}; {TRADE}",
+        axial=0.5,
+        torque=(0.2, 0.9, 0.0),
+    )
+
+
+def _centre(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+    force = 0.6 * _play(base, severity, chosen)
+    for order, share in ((0.5, 0.5), (1.0, 0.5), (1.5, 0.35), (2.0, 0.5), (3.0, 0.3)):
+        for house in base.housings:
+            near = 1.0 if house.kind == "centre" else 0.1
+            yield _line(house, "radial", order, near * share * force / house.mass, 1.5, LOOSE)
+
+
+MAKERS = {
+    "healthy": _nothing,
+    "unbalance": _unbalance,
+    "lost_weight": _lost_weight,
+    "bent": _bent,
+    "joint_angles": _joint_angles,
+    "phase": _phase,
+    "half_critical": _nothing,
+    "tight_joint": _tight,
+    "critical": _nothing,
+    "crack": _crack,
+    "worn_joint": _worn_joint,
+    "worn_spline": _worn_spline,
+    "centre_bearing": _centre,
+}
+
+
+def bursts_of(base: Plant, fault: str, severity: float) -> tuple[Bursts, ...]:
+    """Return the knocks of a fault."""
+    times = {"worn_joint": 2, "worn_spline": 1}.get(fault)
+    if times is None:
+        return ()
+    house = base.housings[-1]
+    size = 1.5 * _play(base, severity, base.mass.size - 1) / house.mass
+    return (Bursts(per_turn=times, kind=house.kind, size=size, torque=(1.0, 0.0, -0.8)),)

@@ -12,9 +12,8 @@ from cardan.catalogue import catalogue
 from cardan.catalogue.rows import Fault
 from cardan.texts import _
 
-from .expected import FAULTS, Expected
-from .fault_orders import ExpectedOrder
-from .figures.expected import expected_figures, largest_order
+from .expected import FAULTS, Expected, ExpectedOrder
+from .figures.orders import expected_figures, largest_order
 from .signals.signal import Signal
 
 __all__ = ["answer", "answer_of_list", "by_torque", "grows"]

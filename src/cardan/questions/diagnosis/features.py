@@ -6,19 +6,22 @@ Each is a logarithm or a plain ratio, so that a calibration can weigh them; nan 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Literal
 
 import numpy as np
+import scipy
 
 from cardan.drive.drive import Drive
+from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.questions.diagnosis.signals.rotation import LEAST_TURNS, Rotation
 from cardan.texts import _
+from cardan.units import rpm
 
-from .doubts import doubts, silent
 from .expected import Expected, expected_orders
-from .knocks import knocks, running
 from .levels import (
     ORDERS,
     TURNS,
@@ -32,10 +35,9 @@ from .levels import (
     stands_out,
 )
 from .plant import Plant, plant
-from .signals.order_tracks import TrackedOrders, tracked_orders
-from .signals.signal import Signal
+from .signals.orders import TrackedOrders, tracked_orders
+from .signals.signal import Channel, Progress, Signal, Watch
 from .signals.turning import estimate_rotation
-from .signals.watching import Progress, Watch
 
 NAMES = (
     "order_1",
@@ -342,3 +344,137 @@ def _uneven(out: dict[str, float], signal: Signal, shaft: Rotation, base: Plant)
             angle = angle / (2.0 * found.speed)
         size = abs(np.mean(angle)) if found.phased else float(np.median(np.abs(angle)))
         out["uneven"] = math.log10(max(size, 1e-9) / usual)
+
+
+# What does not fit between a recording and the drive that it is said to be of: speeds and places.
+
+TOO_FAST = 1.15
+"""Times the top speed of the drive that a recording may reach."""
+
+TOO_SLOW = 0.5
+"""Share of the least speed of the drive that a recording should reach."""
+
+APART = 0.03
+"""Share by which the mean speed of the output may differ from that of the shaft: over whole turns joints make none."""
+
+MISFIT, FAR, PLACELESS, SIZELESS = 0.3, 0.6, 0.8, 0.6
+"""What is left of the confidence: where two speeds contradict each other, where the recording lies outside of the
+running of the drive, where a sensor does not say its place, where the drive does not say what its sizes follow from."""
+
+SILENT = 0.4
+"""Share of the confidence that is left where order 1, which every shaft has, does not rise over the noise."""
+
+
+def doubts(signal: Signal, shaft: Rotation, base: Plant) -> Iterator[tuple[str, float]]:
+    """Yield what does not fit, each with the share of confidence that it leaves."""
+    yield from _speeds(shaft, base)
+    yield from _other_speeds(signal, shaft)
+    if base.assumed:
+        text = _("The drive does not say {names}; the sizes to be expected are assumed.")
+        decide = any(one == "duty.torque" or one.endswith(".mass") for one in base.assumed)
+        yield text.format(names=", ".join(base.assumed)), SIZELESS if decide else 1.0
+    shaking = [one for one in signal.measured if one.quantity in ("acceleration", "velocity", "displacement")]
+    lost = [one for one in shaking if base.housing_at(one.place) is None]
+    if lost:
+        text = _("It is not known where {names} sits; it counts as sitting at the output. Known places are {places}.")
+        names = ", ".join(f"{one.name} ({one.place})" if one.place else one.name for one in lost)
+        places = ", ".join(one.place for one in base.housings)
+        yield text.format(names=names, places=places), PLACELESS
+
+
+def _speeds(shaft: Rotation, base: Plant) -> Iterator[tuple[str, float]]:
+    """Yield a speed that the drive does not have."""
+    if "duty.speed" in base.assumed:
+        return
+    high, (low, top) = shaft.speeds[1], base.speed
+    if high > TOO_FAST * top:
+        text = _(
+            "The shaft turned up to {high:.4g} rpm; the drive runs up to {top:.4g} rpm: the sampling rate, the pulses "
+            "per turn or the drive file are wrong."
+        )
+        yield text.format(high=high / rpm, top=top / rpm), MISFIT
+    elif high < TOO_SLOW * low:
+        text = _(
+            "The shaft turned up to {high:.4g} rpm only; the drive runs from {low:.4g} rpm: the recording is far from "
+            "its running, or the sampling rate or the pulses per turn are wrong."
+        )
+        yield text.format(high=high / rpm, low=low / rpm), FAR
+
+
+def _other_speeds(signal: Signal, shaft: Rotation) -> Iterator[tuple[str, float]]:
+    """Yield channels of a speed that turn otherwise than the shaft."""
+    for k, one in enumerate(signal.channels):
+        if k == signal.tacho or one.quantity != "angular_speed":
+            continue
+        inside = (one.time >= shaft.time[0]) & (one.time <= shaft.time[-1])
+        if not np.any(inside):
+            continue
+        mean = float(np.mean(shaft.speed_at(one.time[inside])))
+        other = abs(float(np.mean(one.values[inside])))
+        if abs(other / mean - 1.0) > APART:
+            text = _(
+                "{name} turns at {other:.4g} rpm on average and the shaft at {mean:.4g} rpm: the sampling rate, the "
+                "pulses per turn or a unit is wrong, or it is another shaft."
+            )
+            yield text.format(name=one.name, other=other / rpm, mean=mean / rpm), MISFIT
+
+
+def silent(radial: list[Track], high: Array, low: Array) -> list[tuple[str, float]]:
+    """Return the doubt of a recording in which not all follows the shaft, with the share of confidence it leaves."""
+    one, two = (stands_out(radial, order, high) for order in (1.0, 2.0))
+    if one or not high.any() or (low.any() and stands_out(radial, 1.0, low)):
+        return []
+    if two:
+        text = _("Order 2 rises over the noise and order 1 does not: the pulses per turn may be twice the true ones.")
+    else:
+        text = _("Neither order 1 nor order 2 of the shaft rises over the noise: faults may hide in it.")
+    return [(text, SILENT)]
+
+
+# Knocks of loose parts: noise far above the orders that swells once or twice a turn.
+
+
+def knocks(signal: Signal, shaft: Rotation, first: TrackedOrders, which: Array, watch: Watch) -> tuple[float, float]:
+    """Return how much of the noise comes once and twice a turn: orders of the squared high-passed signal.
+
+    first: orders of one channel, whose windows count; which (w,) of bool: windows that are looked at.
+    watch: told of every channel; channels after a stop are left out.
+    Returns: shares of the mean; nan where no channel tells.
+    """
+    best = {1.0: math.nan, 2.0: math.nan}
+    for channel in signal.measured:
+        watch.next()
+        if watch.stopped:
+            break
+        dead = channel.trust == 0.0 or np.ptp(channel.values) == 0.0
+        if dead or channel.quantity != "acceleration" or channel.direction in ("axial", "x") or not which.any():
+            continue
+        cut = max(6.0 * float(np.max(first.speed)) / (2.0 * math.pi), 0.1 * channel.rate)
+        if cut > 0.4 * channel.rate or channel.values.size < 100:
+            continue
+        rough = (
+            scipy.signal.sosfiltfilt(scipy.signal.butter(4, cut, "high", fs=channel.rate, output="sos"), channel.values)
+            ** 2
+        )
+        try:
+            found = tracked_orders(
+                Channel(name=channel.name, quantity="other", values=rough, rate=channel.rate, start=channel.start),
+                shaft,
+                (1.0, 2.0),
+                turns=TURNS,
+            )
+        except InputError:
+            continue
+        if found.time.size != which.size:
+            continue
+        mean = np.mean(np.interp(found.time[which], channel.time, running(rough, 0.5 * channel.rate)))
+        for k, order in enumerate((1.0, 2.0)):
+            chosen = found.value[k, which]
+            size = abs(np.mean(chosen)) if found.phased else float(np.median(np.abs(chosen)))
+            best[order] = float(np.fmax(best[order], size / max(float(mean), 1e-300)))
+    return best[1.0], best[2.0]
+
+
+def running(values: Array, width: float, *, ends: Literal["constant", "reflect"] = "constant") -> Array:
+    """Return the running mean over a width, as if there were nothing beyond the ends, or with its ``reflect``ion."""
+    return np.asarray(scipy.ndimage.uniform_filter1d(values, max(1, int(width)), mode=ends))

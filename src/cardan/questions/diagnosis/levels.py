@@ -14,9 +14,8 @@ from cardan.texts import _
 
 from .expected import Expected
 from .plant import Plant
-from .signals.order_tracks import TrackedOrders, tracked_orders
-from .signals.signal import Channel, Signal
-from .signals.watching import Watch
+from .signals.orders import TrackedOrders, tracked_orders
+from .signals.signal import Channel, Signal, Watch
 
 ORDERS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
 

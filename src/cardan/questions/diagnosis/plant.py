@@ -14,8 +14,8 @@ from cardan.drive.models.geometry import geometry
 from cardan.drive.yokes import with_yokes
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
+from cardan.questions.bending.balance import balance
 from cardan.questions.bending.bending import bending_speeds, used_speeds
-from cardan.questions.bending.shaft_balance import balance
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.units import rpm
 

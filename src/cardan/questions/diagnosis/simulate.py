@@ -14,8 +14,7 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 
 from .expected import Expected, expected_orders
-from .signals.signal import Channel, Signal
-from .signals.watching import Progress, Watch
+from .signals.signal import Channel, Progress, Signal, Watch
 
 SPREAD = 0.25
 """Standard deviation of the logarithm of what decides a line's size in one recording and nobody knows."""

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.answers.answer import FILE, Answer, KeyFigure, Listing, Remark, Table
-from cardan.answers.checks import closely
+from cardan.answers.answer import FILE, Answer, KeyFigure, Listing, Remark, Table, closely
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
@@ -26,25 +25,28 @@ from cardan.texts import _, mark, plural
 
 from .figures.forces import forces_figures
 from .figures.moving_forces import moving_forces_figures
-from .force_tables import joint_table, rubs, shaft_table, support_table, trace
-from .forces import Forces, forces
-from .gap_closure import Gaps, gaps
-from .moving_forces import MovingForces, moving_forces
-from .reactions import Held
-from .solving_order import reaction_groups
-from .told import (
+from .force_tables import (
     ROUNDING,
     constant,
     held_by_machines,
+    joint_table,
     largest_left,
+    rubs,
     senses,
+    shaft_table,
     size,
     span,
     support_names,
+    support_table,
     tidy,
     together,
+    trace,
     turn,
 )
+from .forces import Forces, forces
+from .gap_closure import Gaps, gaps
+from .moving_forces import MovingForces, moving_forces
+from .reactions import Held, reaction_groups
 
 __all__ = ["COLUMNS", "Carried", "answer", "ask", "lacking"]
 

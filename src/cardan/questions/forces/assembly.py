@@ -10,23 +10,21 @@ import numpy as np
 from cardan.drive.accuracy import Error
 from cardan.drive.drive import Drive
 from cardan.drive.fields.validity import wrong_count
+from cardan.drive.models.chain import refuse_kinds
 from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.laws import refuse_kinds
 from cardan.drive.models.machine_held import machine_held, tables_proposed
 from cardan.drive.models.train import Train, lengths_off, train
 from cardan.errors import check, refuse
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.maths.curves.peaks import peaks
+from cardan.maths.curves.extremes import peaks
 from cardan.maths.kernel import frames
 from cardan.questions.motion.motion import positions
 from cardan.texts import _
 
-from .elastic import compliance, gaps, housing_gap, refuse_soft
-from .held import WIDTH, Hold
+from .elastic import Redundancy, compliance, gaps, housing_gap, redundancy, refuse_soft
+from .held import WIDTH, Hold, Misfit, crosses, misfit
 from .kinetostatics import standing
-from .misfit import Misfit, crosses, misfit
 from .reactions import Frame, forces_of, frame
-from .redundancy import Redundancy, redundancy
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table
-from cardan.answers.checks import closely
+from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, closely
 from cardan.answers.quantity import Joined, Quantity, Say, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
@@ -21,8 +20,18 @@ from cardan.texts import _, mark, plural
 
 from .assembly import AssemblyForces, Peak, assembly
 from .figures.assembly import misalignment_figures
-from .force_tables import joint_heads, support_heads
-from .told import ROUNDING, curve, from_start, held_by_machines, size, support_names, together, vector
+from .force_tables import (
+    ROUNDING,
+    curve,
+    from_start,
+    held_by_machines,
+    joint_heads,
+    size,
+    support_heads,
+    support_names,
+    together,
+    vector,
+)
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 

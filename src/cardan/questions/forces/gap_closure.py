@@ -13,10 +13,10 @@ from cardan.drive.duty import Harmonic
 from cardan.drive.models.chain import Chain
 from cardan.drive.models.train import Train, place_of, train
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.maths.curves.peaks import peak, peaks
+from cardan.maths.curves.extremes import peak, peaks
 from cardan.questions.motion.motion import motion
 
-from .drive_forces import Forces
+from .forces import Forces
 from .kinetostatics import couples, standing
 
 COARSE = 361

@@ -19,10 +19,19 @@ from cardan.units import deg
 
 from .answer import balance_facts, balanced, duty_facts, needed, worst_moving
 from .figures.moving_forces import moving_forces_figures
-from .force_tables import joint_heads, shaft_heads, support_heads
+from .force_tables import (
+    along_axis,
+    curve,
+    held_by_machines,
+    joint_heads,
+    shaft_heads,
+    size,
+    support_heads,
+    support_names,
+    tidy,
+)
 from .moving_forces import MovingForces
 from .reactions import Held
-from .told import along_axis, curve, held_by_machines, size, support_names, tidy
 
 __all__ = ["answer"]
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.laws import refuse_kinds
+from cardan.drive.models.chain import refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
@@ -20,8 +20,7 @@ from cardan.maths.ties import foremost_on
 from cardan.questions.motion.moving_points import STEPS, default_times, shortest_period, start_time
 from cardan.texts import _
 
-from .cross_loads import JournalLoads
-from .forces import Forces, forces
+from .forces import Forces, JournalLoads, forces
 
 SAMPLES = 72
 """Positions looked at in each turn: steps of 5°."""

@@ -14,10 +14,9 @@ from cardan.drive.conditions import LoadCase
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Harmonic
 from cardan.drive.joints import Joint
-from cardan.drive.models.chain import Chain, given_chain, turning
-from cardan.drive.models.laws import Laws
+from cardan.drive.models.chain import Chain, Laws, given_chain, turning
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.maths.curves.peaks import peak
+from cardan.maths.curves.extremes import peak
 from cardan.questions.motion.motion import motion
 
 LOOK = 120

@@ -15,7 +15,7 @@ from cardan.drive.models.train import Train
 from cardan.errors import Problem, check
 from cardan.formulas.joint_rating import POWER
 from cardan.maths.arrays import Array
-from cardan.maths.curves.quadrature import mean_between
+from cardan.maths.curves.over_turn import mean_between
 from cardan.questions.losses.chain_friction import kinks
 from cardan.questions.losses.loss_model import Model, flowing, moving
 from cardan.texts import _

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from cardan.answers.numbers import significant
 from cardan.answers.quantity import Quantity, Say, say
+from cardan.answers.reader import significant
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule
 from cardan.figures.palette import dash_of, shaft

@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
-from cardan.formulas.needle_bearing import critical_swing, needle_rating
+from cardan.formulas.joint_rating import critical_swing, needle_rating
 from cardan.maths.arrays import Array
 from cardan.texts import _
 

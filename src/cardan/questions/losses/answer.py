@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Value
-from cardan.answers.checks import closely
+from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Value, closely
 from cardan.answers.quantity import Joined, Quantity, Say, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion

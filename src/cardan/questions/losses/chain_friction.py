@@ -10,7 +10,7 @@ from cardan.drive.models.chain import Chain
 from cardan.errors import refuse
 from cardan.formulas.friction import joint_friction, swings
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
-from cardan.maths.curves.quadrature import mean_between
+from cardan.maths.curves.over_turn import mean_between
 from cardan.texts import _
 
 

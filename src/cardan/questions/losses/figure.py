@@ -9,10 +9,9 @@ import numpy as np
 
 from cardan.answers.quantity import Quantity, Say, numbered, say
 from cardan.drive.drive import Drive
-from cardan.figures.axes import axis, steps, written
+from cardan.figures.axes import across, axis, steps, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row
 from cardan.figures.palette import DASHES, dash_of, shaft
-from cardan.figures.turning import across
 from cardan.maths.ties import foremost
 from cardan.texts import _
 from cardan.units import deg

@@ -15,16 +15,14 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, refuse
 from cardan.figures.figure import Figure
-from cardan.mechanism.mechanism import Mechanism
-from cardan.mechanism.pair import PAIRS
-from cardan.mechanism.partition import Partition, joins, partition
+from cardan.mechanism.counting import Partition, joins, partition
+from cardan.mechanism.mechanism import PAIRS, Mechanism
 from cardan.texts import _, mark, plural
 
 from .drive_mechanism import SUPPORT, support_name
 from .figure import closure_figures, mobility_figures, turn_figures
-from .finite_mobility import FiniteMobility, finite_mobility
+from .finite_mobility import FiniteMobility, MobilityTurn, finite_mobility, mobility_over_turn
 from .mobility import JointHold, Mobility, mobility
-from .mobility_turn import MobilityTurn, mobility_over_turn
 from .repair import Repair, advice, repairs, strain
 
 __all__ = ["COLUMNS", "Turned", "answer", "ask", "lacking", "otherwise", "turned"]

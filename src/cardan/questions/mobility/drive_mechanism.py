@@ -9,15 +9,13 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
-from cardan.drive.joints.common.inner import DRIVEN, DRIVING
-from cardan.drive.joints.common.stance import Stance
+from cardan.drive.joints.common.inner import DRIVEN, DRIVING, Stance
 from cardan.drive.models.geometry import Geometry, geometry
 from cardan.drive.support import Support
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
-from cardan.mechanism.mechanism import Mechanism
-from cardan.mechanism.pair import Pair, Point
+from cardan.mechanism.mechanism import Mechanism, Pair, Point
 from cardan.texts import _
 
 SUPPORT: dict[tuple[bool, bool, bool], str] = {

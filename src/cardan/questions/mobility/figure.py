@@ -12,14 +12,12 @@ from cardan.answers.quantity import Say, say
 from cardan.figures.axes import angle_axis, axis, steps, written
 from cardan.figures.figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series
 from cardan.maths.arrays import Array
-from cardan.mechanism.mechanism import Mechanism
-from cardan.mechanism.pair import PAIRS
+from cardan.mechanism.mechanism import PAIRS, Mechanism
 from cardan.texts import _, plural
 from cardan.units import deg, mm
 
-from .finite_mobility import FiniteMobility
+from .finite_mobility import FiniteMobility, MobilityTurn
 from .mobility import JointHold, Mobility
-from .mobility_turn import MobilityTurn
 
 HALF = 0.2
 """Half the length of the bar that stands for a link; neighbours are one apart."""

@@ -12,8 +12,7 @@ from cardan.drive.drive import Drive
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames, screws
 from cardan.mechanism.constraints import Constraints, constraints
-from cardan.mechanism.mechanism import Mechanism
-from cardan.mechanism.pair import Pair, axes
+from cardan.mechanism.mechanism import Mechanism, Pair, axes
 
 from .drive_mechanism import mechanism_of
 

@@ -12,8 +12,7 @@ from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark,
 from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import given_chain
-from cardan.drive.models.laws import mixed, unmapped
+from cardan.drive.models.chain import given_chain, mixed, unmapped
 from cardan.figures.figure import Figure
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role
@@ -23,14 +22,11 @@ from cardan.texts import _, plural
 from cardan.units import deg
 
 from .columns import COLUMNS
-from .equivalence import SYNCHRONOUS, EquivalentJoint, equivalent_joint
-from .figures.equivalence import orders_figure, speed_fluctuation_figure
-from .figures.motion import motion_figure
+from .equivalence import SYNCHRONOUS, EquivalentJoint, each_uniform, equivalent_joint, is_rounding
+from .figures.motion import motion_figure, orders_figure, speed_fluctuation_figure
 from .kinds import beside_turning, steep_joints
 from .motion import Motion, motion
-from .rounding import each_uniform, is_rounding
-from .swing import Evenness, Swing
-from .turning import Turning
+from .turning import Evenness, Swing, Turning
 from .turning import turning as ask
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "sentence"]
@@ -67,10 +63,10 @@ def answer(drive: Drive, result: Turning) -> Answer:
 def sentence(drive: Drive, each: Evenness) -> Say:
     """Return in one sentence how uniformly a drive turns.
 
-    drive: of joints of any kinds; each: as of `cardan.questions.motion.swing.each_shaft`.
+    drive: of joints of any kinds; each: as of `cardan.questions.motion.turning.each_shaft`.
 
     >>> from cardan.answers.reader import USUAL
-    >>> from cardan.questions.motion.swing import each_shaft
+    >>> from cardan.questions.motion.turning import each_shaft
     >>> drive = Drive.from_angles([12 * deg, 20 * deg])
     >>> sentence(drive, each_shaft(drive)).told(USUAL)
     '2 joints; equivalent joint angle 16.12°, speed fluctuation δ = 8.023 %.'

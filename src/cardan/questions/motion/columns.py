@@ -10,7 +10,7 @@ from cardan.drive.drive import Drive
 from cardan.maths.arrays import Array, namespace
 from cardan.texts import mark
 
-from .swing import Evenness
+from .turning import Evenness
 
 
 class Motions(Protocol):

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+
+import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.chain import Chain, turning_chain, unmapped
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import mobius
 
@@ -183,3 +186,72 @@ def after_each_joint(drive: Drive | Drives | Chain) -> EquivalentJoint:
     return EquivalentJoint(
         pair=pair, shaft_speed_fluctuation=whole.shaft_speed_fluctuation[..., None], vertex=whole.vertex[..., 1:, None]
     )
+
+
+# Which bend would let the joints of a drive cancel out?
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Closure:
+    """Whether the sides of the phase polygon can close, in numbers."""
+
+    length: Array  # (n,): L_i = -ln cos α_i, hyperbolic length of each joint's side
+    longest: int  # number of the joint with the longest side
+    others: float  # sum of the other sides
+    joint_angle_allowed: float  # [rad]: largest joint angle of that joint that the others can cancel
+
+    @property
+    def closes(self) -> bool:
+        """Whether free yokes can make the drive synchronous."""
+        return float(self.length[self.longest - 1]) <= self.others * (1.0 + 1e-14)
+
+
+def closure(drive: Drive) -> Closure:
+    """Return whether free yokes can close the phase polygon of a drive, and what the longest side may be.
+
+    drive: the drive; held yokes are not looked at.
+    Synchronous, exactly, if and only if L_max ≤ Σ of the others, cos α_max ≥ Π cos α of the others. Book (86) is its
+    limit for small angles.
+    """
+    length = -np.log(np.cos(np.asarray(turning_chain(drive).joint_angle)))
+    longest = int(np.argmax(length))
+    others = float(np.sum(length) - length[longest])
+    # cos x = e^-S, as 2 asin √((1 - e^-S)/2): accurate for small bends.
+    allowed = 2.0 * math.asin(math.sqrt(-0.5 * math.expm1(-others)))
+    return Closure(length=length, longest=longest + 1, others=others, joint_angle_allowed=allowed)
+
+
+# Is a small speed fluctuation one of the design, or only what the rounding of its figures leaves?
+
+UNDONE = 0.01
+"""Share of what all joints together could make of it, below which joints cancel each other but for rounding."""
+
+
+def is_rounding(drive: Drive, share: float, length: Array | None = None) -> bool:
+    """Tell whether a speed fluctuation is no more than the rounding of the figures that describe a drive leaves.
+
+    Joint angles that coordinates give are never quite those meant, nor are those of joints that cancel each other; a
+    joint angle that a file gives by itself is meant. What breaks a limit of the file is never put down to rounding.
+    share: its speed fluctuation δ at some setting of its yokes.
+    length (n,): sides of its phase polygon, where they are known.
+
+    >>> is_rounding(Drive.from_angles([0.2, 0.2 + 1e-6]), 1e-7), is_rounding(Drive.from_angles([1e-3]), 1e-7)
+    (True, False)
+    """
+    if unmapped(drive.joints):
+        return share < SYNCHRONOUS
+    limit = drive.limits.speed_fluctuation
+    sides = closure(drive).length if length is None else length
+    together = 2.0 * math.sinh(float(np.sum(sides)))
+    undone = len(drive.joints) > 1 and share < UNDONE * together
+    left = drive.form == "points" or undone or share < SYNCHRONOUS
+    return share < SPECK and left and (limit is None or share <= limit)
+
+
+def each_uniform(drive: Drive) -> bool:
+    """Tell whether every joint of a drive turns uniformly by itself, straight or of constant velocity.
+
+    >>> each_uniform(Drive.from_angles([0.0])), each_uniform(Drive.from_angles([0.2, 0.2]))
+    (True, False)
+    """
+    return not unmapped(drive.joints) and float(np.sum(closure(drive).length)) < SYNCHRONOUS

@@ -14,14 +14,12 @@ from cardan.errors import refuse
 from cardan.later import later
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.compiled import plain
-from cardan.maths.compiled.buffers import buffers
-from cardan.maths.compiled.method import Compiled, Method, chosen
-from cardan.maths.compiled.threads import share
+from cardan.maths.compiled.method import Compiled, Method, buffers, chosen, share
 from cardan.maths.kernel import mobius
 from cardan.texts import _
 
 from .equivalence import SYNCHRONOUS
-from .traces import rows_of
+from .many_drives import rows_of
 
 compiled = later("cardan.maths.compiled.extremes")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -11,14 +12,13 @@ from cardan.drive.drive import Drive
 from cardan.drive.models.chain import Chain, turning
 from cardan.drive.models.geometry import Geometry, geometry_from_points
 from cardan.errors import refuse
-from cardan.maths.arrays import Array
-from cardan.maths.curves.paths import Path
+from cardan.maths.arrays import Array, ArrayLike, namespace, real
+from cardan.maths.curves.paths import Jet, Path
 from cardan.maths.kernel import frames
 from cardan.texts import _
 
 from .equivalence import equivalent_joint
-from .moving_chain import MovingMotion, Shafts, moving_centres, moving_shafts
-from .spin_range import acceleration_range, speed_range
+from .moving_chain import MovingMotion, Shafts, Spins, moving_axes, moving_centres, moving_shafts
 
 
 class Position(IntEnum):
@@ -172,3 +172,121 @@ def _straight(points: Array) -> Array:
     """Return a harmless row of points that stands in for impossible ones."""
     count = points.shape[1]
     return np.stack((np.arange(count, dtype=float), np.zeros(count), np.zeros(count)), axis=-1)
+
+
+# Between which values do speed and acceleration of a moving drive lie, whatever the yoke positions?
+#
+# The shafts turn many times while the centres hardly move, so at every instant of a movement each yoke position
+# will occur. A moving chain is a Möbius map that changes in time. Over the input angle θ, with Q = ω_1/ω_i of the
+# frozen drive, ω_i Q is of the same form q_0 + q_1 cos 2θ + q_2 sin 2θ as Q itself, and ε_i Q² has the order 4θ
+# besides: a few angles fix them, and with them their extremes.
+
+SAMPLES = 64
+"""Yoke positions among which the largest acceleration is looked for before Newton's steps."""
+
+
+def speed_range(
+    axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike, even: Sequence[bool] = ()
+) -> tuple[Array, Array]:
+    """Return the lowest and highest spin of every shaft over all yoke positions, at each instant, exactly.
+
+    axes (..., n+1, 3): directions of the shafts and their rates [1/s]; accelerations do not matter.
+    yoke_angle (n-1,) [rad]: γ_2 … γ_n; speed (...) [rad/s]: ω_1.
+    even: which joints pass on the turn evenly; none of them when empty.
+    Returns low, high (..., n+1) [rad/s].
+    Three angles fix N = ω_i Q and Q; the extremes λ of N/Q are where N - λ Q touches zero:
+    λ² - 2⟨N,Q⟩λ + ⟨N,N⟩ = 0 with ⟨x,y⟩ = x_0 y_0 - x_1 y_1 - x_2 y_2 and ⟨Q,Q⟩ = 1.
+    """
+    xp = namespace(axes[0])
+    found, theta = _around(axes, yoke_angle, speed, 0.0, 3, even)
+    lower = 1.0 / found.frozen_ratio
+    upper = found.spin * lower
+    parts = xp.stack((xp.full((3,), 1.0 / 3.0), xp.cos(2.0 * theta) / 1.5, xp.sin(2.0 * theta) / 1.5))
+    q, n = parts @ lower, parts @ upper
+    sign = xp.asarray([1.0, -1.0, -1.0])[:, None]
+    middle = xp.sum(sign * n * q, axis=-2)
+    # ⟨N,Q⟩² - ⟨N,N⟩ written as the squared distance of N from its part along Q: no difference of near numbers.
+    rest = n - middle[..., None, :] * q
+    spread = xp.sqrt(xp.maximum(-xp.sum(sign * rest * rest, axis=-2), 0.0 * middle))
+    return middle - spread, middle + spread
+
+
+def acceleration_range(
+    axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike, acceleration: ArrayLike = 0.0, even: Sequence[bool] = ()
+) -> tuple[Array, Array]:
+    """Return the lowest and highest spin acceleration of every shaft over all yoke positions, at each instant.
+
+    axes (..., n+1, 3): directions of the shafts, their rates [1/s] and accelerations [1/s²].
+    yoke_angle (n-1,) [rad]: γ_2 … γ_n; speed, acceleration (...) [rad/s, rad/s²]: ω_1, ε_1.
+    even: which joints pass on the turn evenly; none of them when empty.
+    Returns low, high (..., n+1) [rad/s²].
+    P = ε_i Q² has orders 0, 2 and 4 of θ: five angles fix it. The extremes of P/Q², found among `SAMPLES` yoke
+    positions, are sharpened by Newton's steps on P'Q - 2PQ' = 0, down to rounding.
+    """
+    found, theta = _around(axes, yoke_angle, speed, acceleration, 5, even)
+    order = np.asarray([0.0, 2.0, 2.0, 4.0, 4.0])[:, None]
+    basis = _waves(theta, 5)
+    weights = np.where(order == 0.0, 0.2, 0.4)
+    lower = 1.0 / np.asarray(found.frozen_ratio)
+    p = (weights * basis) @ (np.asarray(found.spin_acceleration) * lower**2)
+    q = (weights * basis)[:3] @ lower
+    at = np.linspace(0.0, np.pi, SAMPLES, endpoint=False)
+    table = np.einsum("ks,...ki->s...i", _waves(at, 5), p) / np.einsum("ks,...ki->s...i", _waves(at, 3), q) ** 2
+    ends = []
+    for sign in (-1.0, 1.0):
+        start = at[np.argmax(sign * table, axis=0)]
+        sharp = _value(p, q, _sharpened(p, q, start))
+        ends.append(sign * np.maximum(sign * sharp, np.max(sign * table, axis=0)))
+    return ends[0], ends[1]
+
+
+def _around(
+    axes: Jet, yoke_angle: ArrayLike, speed: ArrayLike, acceleration: ArrayLike, count: int, even: Sequence[bool]
+) -> tuple[Spins, Array]:
+    """Return the spins (..., count, n+1) at equal steps of half a turn of the input, and its angles (count,)."""
+    a = axes[0]
+    xp = namespace(a)
+    theta = xp.arange(count, dtype=xp.float64) * (xp.pi / count)
+    arms = frames.rotate(frames.perpendicular(a[..., 0, :])[..., None, :], a[..., 0, None, :], theta)
+    one = xp.ones_like(a[..., 0, 0])
+    found = moving_axes(
+        tuple(part[..., None, :, :] for part in axes),
+        arms,
+        yoke_angle=yoke_angle,
+        speed=(real(speed, xp) * one)[..., None],
+        acceleration=(real(acceleration, xp) * one)[..., None],
+        even=even,
+    )
+    return found, theta
+
+
+def _waves(theta: Array, count: int, order: int = 0) -> Array:
+    """Return 1, cos 2θ, sin 2θ, cos 4θ, sin 4θ, the first ``count``, or a derivative by θ; array (count, ...)."""
+    rows = [np.ones_like(theta) if order == 0 else np.zeros_like(theta)]
+    for k in (2.0, 4.0):
+        shift = 0.5 * np.pi * order
+        rows += [k**order * np.cos(k * theta + shift), k**order * np.sin(k * theta + shift)]
+    return np.stack(rows[:count])
+
+
+def _sum(parts: Array, theta: Array, order: int = 0) -> Array:
+    """Return the sum of waves with coefficients (..., k, n) at angles (..., n), or its derivative."""
+    result: Array = np.einsum("k...,...k->...", _waves(theta, parts.shape[-2], order), np.swapaxes(parts, -1, -2))
+    return result
+
+
+def _value(p: Array, q: Array, theta: Array) -> Array:
+    return _sum(p, theta) / _sum(q, theta) ** 2
+
+
+def _sharpened(p: Array, q: Array, theta: Array) -> Array:
+    """Return extremes of P/Q² near given angles, by Newton's steps no longer than that of the samples."""
+    reach = np.pi / SAMPLES
+    for _step in range(4):
+        p0, p1, p2 = (_sum(p, theta, order) for order in range(3))
+        q0, q1, q2 = (_sum(q, theta, order) for order in range(3))
+        slope = p1 * q0 - 2.0 * p0 * q1
+        curve = p2 * q0 - p1 * q1 - 2.0 * p0 * q2
+        step = np.divide(-slope, curve, out=np.zeros_like(slope), where=curve != 0.0)
+        theta = theta + np.clip(step, -reach, reach)
+    return theta

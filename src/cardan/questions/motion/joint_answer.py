@@ -14,17 +14,15 @@ from cardan.answers.answer import Answer, Cell, Column, Remark, Table, Tone
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.catalogue.rows import JointType
 from cardan.drive.joints import JOINTS
-from cardan.drive.joints.common.inside import Inside
-from cardan.drive.joints.joint import Joint
+from cardan.drive.joints.joint import Inside, Joint
 from cardan.maths.ties import foremost
 from cardan.reading.fields import fields_of
 from cardan.texts import _, plural
 from cardan.units import deg
 
 from .figures.joint_law import joint_figures
-from .joint_inside import joint_inside
 from .joint_law import JointAngles, JointTurn, joint_over_angles, joint_turn, types_of
-from .kinds import quantity_of
+from .kinds import joint_inside, quantity_of
 
 __all__ = ["Beside", "Named", "answer", "answer_of_kinds", "ask", "sentence_of", "written"]
 

@@ -8,11 +8,9 @@ from cardan.answers.answer import Remark
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
-from cardan.drive.joints.common.inside import Inside
+from cardan.drive.joints.joint import Inside
 from cardan.drive.models.chain import given_chain
 from cardan.texts import _
-
-from .joint_inside import joint_inside
 
 
 def kind_name(joint: Joint) -> str:
@@ -67,3 +65,15 @@ def beside_turning(drive: Drive) -> Iterator[Say]:
     for number, one in inside(drive):
         text = _("Joint {number}: {title}, {value}.")
         yield say(text, number=number, title=one.meaning, value=quantity_of(one, 3))
+
+
+# What else moves inside a joint while it turns at a bend: wobble, orbits, strokes, play, planes that are missed.
+
+
+def joint_inside(joint: Joint, joint_angle: float) -> tuple[Inside, ...]:
+    """Return what else moves inside a joint at a joint angle, as far as its sizes are given.
+
+    joint: a joint of any kind; joint_angle [rad]: α in [0, π/2).
+    Returns: empty where nothing else moves, or where no size says how much.
+    """
+    return tuple(joint.inside(joint_angle))

@@ -12,7 +12,7 @@ from cardan.drive.duty import Limits
 from cardan.drive.shaft import Spline
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.maths.curves.series import Series, crossings, turning_points, values_at
+from cardan.maths.curves.extremes import Series, crossings, turning_points, values_at
 from cardan.maths.ties import foremost_on
 from cardan.texts import _
 

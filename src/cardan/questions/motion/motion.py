@@ -9,14 +9,11 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
-from cardan.drive.models.chain import Chain
-from cardan.drive.models.laws import unmapped
-from cardan.errors import refuse
+from cardan.drive.models.chain import Chain, given_chain, unmapped
+from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real, unit_complex
 from cardan.maths.kernel import mobius
 from cardan.texts import _
-
-from .joint_by_joint import followed
 
 TURN = 361
 """Positions of one turn, both ends included, when no angles are given."""
@@ -173,7 +170,7 @@ def motion(
     Notes
     -----
     Joints of other kinds whose map is tan θ' = κ tan θ count as the Hooke joints that turn alike, see
-    `cardan.drive.models.laws`; a drive with a joint that turns by another law is followed joint by joint.
+    `cardan.drive.models.chain`; a drive with a joint that turns by another law is followed joint by joint.
 
     Every shaft directly from φ_1 by the product of the joints' Möbius matrices: i = 1/\\|b̄ w + ā\\|², w = e^(2iφ_1);
     equal to the recurrences of Book (32), (33), (38) to rounding, and the cost of a position does not grow with n.
@@ -261,3 +258,48 @@ def positions(angle: ArrayLike | None, xp: object) -> Array:
 
 def _stacked(rows: list[Array], shape: tuple[int, ...], xp: object) -> Array:
     return xp.stack([xp.broadcast_to(row, shape) for row in rows], axis=-2)  # type: ignore[attr-defined]
+
+
+# The motion of a drive followed from joint to joint, each by its own law.
+
+
+def followed(drive: Drive, angle: Array) -> dict[str, Any]:
+    """Return how every shaft turns, for joints of any kinds.
+
+    angle (p,) [rad]: input angle φ_1 from the start position.
+    Returns: fields of `cardan.questions.motion.motion.Motion`.
+    θ_1 = φ_1 + ψ_1, θ_{i+1} = T_i(θ_i) + q_i - γ - β with q = π/2 for joints with a cross, else 0; the ratio and its
+    slope by the chain rule.
+    """
+    whole = given_chain(drive)
+    phi = np.asarray(angle, dtype=float)
+    theta, psi = phi + float(whole.start_phase), np.asarray([float(whole.start_phase)])
+    turns, ratios, slopes = [phi], [np.ones_like(phi)], [np.zeros_like(phi)]
+    before = []
+    for i, joint in enumerate(drive.joints):
+        joint_angle = np.asarray(whole.joint_angle)[i]
+        before.append(theta)
+        with np.errstate(invalid="ignore", divide="ignore"):  # what does not turn is not a number, and said so
+            angle_error, ratio, slope = joint.deviation(theta, joint_angle)
+            start = joint.deviation(psi, joint_angle)[0]
+        stuck = not all(bool(np.all(np.isfinite(part))) for part in (angle_error, ratio, slope, start))
+        text = _("a joint of kind {kind} with these sizes does not turn at its joint angle of {joint_angle:.6g}°")
+        said = text.format(kind=joint.kind, joint_angle=np.degrees(joint_angle))
+        check([Problem(f"joints[{i}].joint_angle", said, "out_of_range")] if stuck else [])
+        slopes.append(slope * ratios[-1] ** 2 + ratio * slopes[-1])
+        ratios.append(ratio * ratios[-1])
+        turned, begun = theta + angle_error, psi + start
+        turns.append(turned - begun)
+        if i + 1 < len(drive.joints):
+            shift = (0.5 * np.pi if joint.crossed else 0.0) - whole.yoke_angle[i] - whole.plane_twist[i]
+            theta, psi = turned + shift, begun + shift
+    return {
+        "angle": phi,
+        "shaft_angle": np.stack(turns),
+        "shaft_ratio": np.stack(ratios),
+        "shaft_slope": np.stack(slopes),
+        "yoke_rotation": np.stack(before),
+        "joint_angle": np.asarray(whole.joint_angle),
+        "followed": True,
+        "crossed": tuple(joint.single_cross for joint in drive.joints),
+    }

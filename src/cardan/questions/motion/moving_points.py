@@ -13,7 +13,7 @@ from cardan.drive import movement as kinds
 from cardan.drive.movement import Movement
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.maths.curves import paths, spectra
+from cardan.maths.curves import paths
 from cardan.maths.curves.paths import Jet, Path
 from cardan.texts import _
 
@@ -112,15 +112,15 @@ def _table(movement: kinds.Table, points: Jet, times: Array) -> Jet:
 
 def _random(movement: kinds.Random, points: Jet, times: Array) -> Jet:
     spectrum = movement.spectrum
-    path = spectra.sample_path(
+    path = paths.sample_path(
         spectrum.frequency,
         spectrum.density,
         times,
         seed=movement.seed,
-        components=spectra.enough_components(spectrum.frequency, movement.duration),
+        components=paths.enough_components(spectrum.frequency, movement.duration),
     )
     axis = np.asarray(movement.axis, dtype=float)
-    size = movement.deviation / math.sqrt(spectra.variance(spectrum.frequency, spectrum.density))
+    size = movement.deviation / math.sqrt(paths.variance(spectrum.frequency, spectrum.density))
     along = size * axis / np.linalg.norm(axis)
     return _shifted(points, tuple(part[:, None] * along for part in path))
 

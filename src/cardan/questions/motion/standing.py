@@ -9,8 +9,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.models.chain import Chain, turning
-from cardan.drive.models.forms import in_form
-from cardan.drive.models.geometry import geometry, geometry_from_points
+from cardan.drive.models.geometry import geometry, geometry_from_points, in_form
 from cardan.drive.models.train import Train
 from cardan.drive.movement import Movement, Oscillation
 from cardan.maths.arrays import Array

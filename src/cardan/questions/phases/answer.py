@@ -14,21 +14,18 @@ from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import given_chain
-from cardan.drive.models.laws import mixed, unmapped
+from cardan.drive.models.chain import given_chain, mixed, unmapped
 from cardan.errors import InputError
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
-from cardan.questions.motion.closure import closure
-from cardan.questions.motion.equivalence import SYNCHRONOUS
+from cardan.questions.motion.equivalence import SYNCHRONOUS, closure, each_uniform, is_rounding
 from cardan.questions.motion.kinds import steep_joints
-from cardan.questions.motion.rounding import each_uniform, is_rounding
 from cardan.texts import _, mark, plural
 from cardan.units import deg
 
-from .figures.phases import phasing_figures
+from .figure import phasing_figures
 from .phases import Phasing
 from .phases import phases as ask
 from .setting import YokeSetting

@@ -15,8 +15,7 @@ from cardan.texts import _, plural
 from cardan.units import mm
 
 from .answer import command, letters, setting_facts, settings_table, spread
-from .figures.layout import layout_figures
-from .figures.phases import phasing_figures
+from .figure import layout_figures, phasing_figures
 from .layout import Layout, Status
 
 __all__ = ["answer", "values"]

@@ -22,7 +22,7 @@ from cardan.maths.kernel import mobius, polygon
 from cardan.maths.kernel.mobius import Pair
 from cardan.texts import _
 
-from .blocks import blocks
+from .family import blocks
 from .setting import wrapped
 
 DIRECT = 1 << 18

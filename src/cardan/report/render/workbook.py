@@ -13,9 +13,8 @@ from cardan.report.block import Listing, Page, Picture, Table
 from cardan.report.content import Content, Excerpt
 from cardan.texts import _
 
-from .chart_data import ChartData
+from .chart_data import CODE, ChartData, Looks
 from .charts import split
-from .looks import CODE, Looks
 from .paper import LINE, Paper
 
 SKETCH = 260.0

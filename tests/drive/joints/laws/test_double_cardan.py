@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cardan.drive.joints.laws import double_cardan
+from cardan.drive.joints import double_cardan
 from cardan.maths.kernel import mobius
 from cardan.units import deg
 from tests.builders.vector_model import VectorModel
@@ -85,7 +85,7 @@ def test_two_joints_swing_as_plain_vectors_do(first, second, crossed):
 
 def test_the_map_is_that_of_the_deviation():
     phi = np.linspace(0, 2 * np.pi, 37)
-    pair = double_cardan.pair(50 * deg, 0.4)
+    pair = double_cardan.centred_pair(50 * deg, 0.4)
     angle_error = mobius.angle_error(pair, np.exp(2j * phi))
     np.testing.assert_allclose(double_cardan.deviation(phi, 50 * deg, 0.4), angle_error, atol=1e-15)
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from cardan.drive.joints.laws import half_cardan
+from cardan.drive.joints import half_cardan
 from cardan.units import deg
 
 

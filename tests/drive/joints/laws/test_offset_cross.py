@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-from cardan.drive.joints.laws import offset_cross
+from cardan.drive.joints import offset_cross
 from cardan.units import deg
 
 CASES = st.tuples(

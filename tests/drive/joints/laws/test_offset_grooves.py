@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
-from cardan.drive.joints.laws import offset_grooves, tilted_plane
+from cardan.drive.joints import weiss
+from cardan.drive.joints.common import laws
 from cardan.units import deg
 
 E1, P1, N = np.eye(3)
@@ -40,30 +41,30 @@ CASES = [(0.9, 30 * deg, 3.0, 3.3), (2.5, 45 * deg, 5.0, 3.0), (-1.2, 10 * deg, 
 @pytest.mark.parametrize(("phi", "joint_angle", "c1", "c2"), CASES)
 def test_ball_and_angle_are_those_of_the_closed_grooves(phi, joint_angle, c1, c2):
     ball, phi2 = closed(phi, joint_angle, c1, c2, 30.0)
-    along, out = offset_grooves.ball_centre(phi, joint_angle, c1, c2, 30.0)
+    along, out = weiss.ball_centre(phi, joint_angle, c1, c2, 30.0)
     assert np.allclose([along, out], [ball @ E1, np.hypot(ball[1], ball[2])], rtol=0, atol=1e-11)
-    assert float(offset_grooves.deviation(phi, joint_angle, c1, c2, 30.0)) == pytest.approx(phi2 - phi, abs=1e-12)
+    assert float(weiss.deviation(phi, joint_angle, c1, c2, 30.0)) == pytest.approx(phi2 - phi, abs=1e-12)
 
 
 @pytest.mark.parametrize(("joint_angle", "c1", "c2"), [case[1:] for case in CASES])
 def test_all_balls_lie_in_the_one_plane(joint_angle, c1, c2):
     phi = np.linspace(0, 2 * np.pi, 13)
-    along, out = offset_grooves.ball_centre(phi, joint_angle, c1, c2, 30.0)
+    along, out = weiss.ball_centre(phi, joint_angle, c1, c2, 30.0)
     ball = along[:, None] * E1 + out[:, None] * (np.cos(phi)[:, None] * P1 + np.sin(phi)[:, None] * N)
-    lean = 0.5 * joint_angle + offset_grooves.plane_tilt(joint_angle, c1, c2)
+    lean = 0.5 * joint_angle + weiss.plane_tilt(joint_angle, c1, c2)
     normal = np.cos(lean) * E1 - np.sin(lean) * P1
-    assert np.allclose(ball @ normal, offset_grooves.plane_offset(joint_angle, c1, c2), rtol=0, atol=1e-14 * 30)
+    assert np.allclose(ball @ normal, weiss.plane_offset(joint_angle, c1, c2), rtol=0, atol=1e-14 * 30)
 
 
 def test_with_a_plane_through_the_centre_they_would_be_balls_of_a_tilted_plane():
     """Tilt and offset act apart to first order: take the offset's share away and the tilted plane is left."""
     phi, joint_angle, c = 0.8, 0.5, 0.004
     for play in (1e-5, 1e-6):
-        off = offset_grooves.plane_offset(joint_angle, c + play / 2, c - play / 2)
-        tilt = offset_grooves.plane_tilt(joint_angle, c + play / 2, c - play / 2)
-        far = offset_grooves.ball_centre(phi, joint_angle, c, c, 0.03)[1]
-        want = tilted_plane.deviation(phi, joint_angle, tilt) - 2 * off / far * np.sin(joint_angle / 2) * np.sin(phi)
-        found = offset_grooves.deviation(phi, joint_angle, c + play / 2, c - play / 2, 0.03)
+        off = weiss.plane_offset(joint_angle, c + play / 2, c - play / 2)
+        tilt = weiss.plane_tilt(joint_angle, c + play / 2, c - play / 2)
+        far = weiss.ball_centre(phi, joint_angle, c, c, 0.03)[1]
+        want = laws.deviation(phi, joint_angle, tilt) - 2 * off / far * np.sin(joint_angle / 2) * np.sin(phi)
+        found = weiss.deviation(phi, joint_angle, c + play / 2, c - play / 2, 0.03)
         assert float(found / want - 1) == pytest.approx(0, abs=3 * play / c)
 
 
@@ -79,24 +80,24 @@ def test_small_plays_keep_their_digits(play, joint_angle):
         half = mpmath.sqrt(size**2 - far * foot) / mpmath.sqrt(x * x + y * y)
         h, r = one - foot * x - half * y, -foot * y + half * x
         phi2 = mpmath.atan2(r * mpmath.sin(phi), h * mpmath.sin(a) + r * mpmath.cos(a) * mpmath.cos(phi))
-    found = float(offset_grooves.deviation(0.8, float(joint_angle), c1, c2, radius))
+    found = float(weiss.deviation(0.8, float(joint_angle), c1, c2, radius))
     assert found == pytest.approx(float(phi2 - phi), rel=1e-14)
 
 
 def test_equal_offsets_are_even_at_any_bend():
     phi, joint_angle = np.linspace(-7, 7, 50), np.linspace(0, 1.3, 7)[:, None]
-    assert np.all(offset_grooves.deviation(phi, joint_angle, 0.003, 0.003, 0.03) == 0.0)
-    assert np.all(offset_grooves.plane_tilt(joint_angle, 0.003, 0.003) == 0.0)
-    assert np.all(offset_grooves.plane_offset(joint_angle, 0.003, 0.003) == 0.0)
+    assert np.all(weiss.deviation(phi, joint_angle, 0.003, 0.003, 0.03) == 0.0)
+    assert np.all(weiss.plane_tilt(joint_angle, 0.003, 0.003) == 0.0)
+    assert np.all(weiss.plane_offset(joint_angle, 0.003, 0.003) == 0.0)
 
 
 @pytest.mark.parametrize(("c1", "c2", "radius"), [(0.03, 0.03, 0.02), (0.003, 0.003, -1.0), (0.003, np.nan, 0.03)])
 def test_grooves_that_do_not_meet_have_no_ball(c1, c2, radius):
-    assert np.isnan(offset_grooves.deviation(0.3, 0.4, c1, c2, radius))
+    assert np.isnan(weiss.deviation(0.3, 0.4, c1, c2, radius))
 
 
 def test_any_array_library_computes_them():
     phi, joint_angle = strict.asarray([0.1, 0.6]), strict.asarray([0.3, 0.7])
     lengths = [strict.asarray(x) for x in (0.004, 0.003, 0.03)]
-    found = offset_grooves.deviation(phi, joint_angle, *lengths)
-    assert np.array_equal(np.asarray(found), offset_grooves.deviation([0.1, 0.6], [0.3, 0.7], 0.004, 0.003, 0.03))
+    found = weiss.deviation(phi, joint_angle, *lengths)
+    assert np.array_equal(np.asarray(found), weiss.deviation([0.1, 0.6], [0.3, 0.7], 0.004, 0.003, 0.03))

@@ -7,7 +7,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
-from cardan.drive.joints.laws import pin_coupling
+from cardan.drive.joints import pin_coupling
 from cardan.units import deg
 
 UNEQUAL = (30 * deg, 0.05, 0.052, 40 * deg, 42 * deg)

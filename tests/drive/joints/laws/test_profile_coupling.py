@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
-from cardan.drive.joints.laws import pin_coupling, profile_coupling
-from cardan.drive.joints.laws.profile_coupling import Circle
+from cardan.drive.joints import clemens, pin_coupling
+from cardan.drive.joints.clemens import Circle
 from cardan.units import deg
 
 ARM = Circle(axial=0.06, radial=0.01, radius=0.075)
@@ -46,7 +46,7 @@ def closed(phi, joint_angle, first, second):
 )
 def test_the_arms_meet_where_space_says(angle, joint_angle, h, r, radius):
     second = Circle(axial=0.06 * (1 + h), radial=0.01 * (1 + r), radius=0.075 * (1 + radius))
-    found = profile_coupling.deviation(angle * deg, joint_angle * deg, ARM, second)
+    found = clemens.deviation(angle * deg, joint_angle * deg, ARM, second)
     assert found == pytest.approx(closed(angle * deg, joint_angle * deg, ARM, second), abs=1e-10)
 
 
@@ -54,7 +54,7 @@ def test_the_arms_meet_where_space_says(angle, joint_angle, h, r, radius):
 @given(st.floats(0.0, 360.0), st.floats(0.0, 45.0), st.floats(0.03, 0.06), st.floats(0.0, 0.03))
 def test_profiles_alike_run_evenly(angle, joint_angle, axial, radial):
     circle = Circle(axial=axial, radial=radial, radius=0.075)
-    found = profile_coupling.profile_contact(angle * deg, joint_angle * deg, circle, circle)
+    found = clemens.profile_contact(angle * deg, joint_angle * deg, circle, circle)
     assert found.deviation == pytest.approx(0.0, abs=1e-11)
     assert found.ratio == pytest.approx(1.0, abs=1e-9)
     assert found.height1 == pytest.approx(float(found.height2), abs=1e-11)
@@ -62,11 +62,11 @@ def test_profiles_alike_run_evenly(angle, joint_angle, axial, radial):
 
 def test_the_ratio_is_the_slope_of_the_turn():
     phi, step = np.linspace(0, 2 * np.pi, 25), 1e-4
-    turn = [profile_coupling.deviation(phi + k * step, 30 * deg, ARM, OTHER) for k in (-1, 1)]
-    ratio = profile_coupling.ratio(phi, 30 * deg, ARM, OTHER)
+    turn = [clemens.deviation(phi + k * step, 30 * deg, ARM, OTHER) for k in (-1, 1)]
+    ratio = clemens.ratio(phi, 30 * deg, ARM, OTHER)
     np.testing.assert_allclose(ratio, 1 + (turn[1] - turn[0]) / (2 * step), atol=1e-8)
-    ahead = [profile_coupling.ratio(phi + k * step, 30 * deg, ARM, OTHER) for k in (-1, 1)]
-    slope = profile_coupling.ratio_slope(phi, 30 * deg, ARM, OTHER)
+    ahead = [clemens.ratio(phi + k * step, 30 * deg, ARM, OTHER) for k in (-1, 1)]
+    slope = clemens.ratio_slope(phi, 30 * deg, ARM, OTHER)
     np.testing.assert_allclose(slope, (ahead[1] - ahead[0]) / (2 * step), atol=1e-7)
 
 
@@ -83,7 +83,7 @@ def test_a_pin_is_a_circle_without_end():
 
     rest = []
     for radius in (5.0, 10.0):
-        found = profile_coupling.profile_contact(phi, joint_angle, circle(a, one, radius), circle(b, two, radius))
+        found = clemens.profile_contact(phi, joint_angle, circle(a, one, radius), circle(b, two, radius))
         rest.append([np.max(np.abs(getattr(found, n) - getattr(pins, n))) for n in ("deviation", "ratio", "force")])
     assert np.asarray(rest[0]) / np.asarray(rest[1]) == pytest.approx([2.0] * 3, rel=0.03)
     assert rest[1][0] < 1e-3
@@ -93,19 +93,19 @@ def test_balls_in_offset_grooves_lie_in_the_plane_of_the_groove_centres():
     joint_angle, c1, c2, radius = 30 * deg, 0.006, 0.005, 0.03
     phi = np.linspace(0, 2 * np.pi, 7)[:-1]
     first, second = (Circle(axial=c, radial=0.0, radius=radius) for c in (c1, c2))
-    found = profile_coupling.profile_contact(phi, joint_angle, first, second)
+    found = clemens.profile_contact(phi, joint_angle, first, second)
     # A·(c1 e1 - c2 e2) = (c1² - c2²)/2, heights being A·e1 and A·e2.
     np.testing.assert_allclose(c1 * found.height1 - c2 * found.height2, 0.5 * (c1**2 - c2**2), atol=1e-16)
 
 
 def test_profiles_that_do_not_meet_are_not_numbers():
     far = Circle(axial=1.0, radial=0.0, radius=0.01)
-    assert np.isnan(profile_coupling.deviation(0.3, 0.2, ARM, far))
+    assert np.isnan(clemens.deviation(0.3, 0.2, ARM, far))
 
 
 def test_other_array_libraries():
     phi = strict.asarray([0.1, 2.0])
-    got = profile_coupling.profile_contact(phi, 0.3, ARM, OTHER)
-    want = profile_coupling.profile_contact([0.1, 2.0], 0.3, ARM, OTHER)
+    got = clemens.profile_contact(phi, 0.3, ARM, OTHER)
+    want = clemens.profile_contact([0.1, 2.0], 0.3, ARM, OTHER)
     np.testing.assert_allclose(np.asarray(got.deviation), want.deviation, rtol=1e-10)
     np.testing.assert_allclose(np.asarray(got.ratio), want.ratio, rtol=1e-10)

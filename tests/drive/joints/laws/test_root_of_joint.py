@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cardan.drive.joints.laws.root_of_joint import vector_orders
+from cardan.formulas.unbalance_behind_joint import vector_orders
 
 
 @pytest.mark.parametrize("joint_angle", [0.0, 0.1, 0.6, 1.2, 1.5])

@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
-from cardan.drive.joints.laws import tracta
+from cardan.drive.joints import tracta
 from cardan.maths.kernel import mobius
 from cardan.units import deg
 

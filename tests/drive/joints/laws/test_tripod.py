@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from cardan.drive.joints.laws import tripod
+from cardan.drive.joints import tripod
 from cardan.units import deg
 
 THIRDS = 2 * np.pi / 3 * np.arange(3)

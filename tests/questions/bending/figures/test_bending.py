@@ -13,9 +13,8 @@ from cardan.figures.figure import Band, Bars, Curve, Rule, Shape
 from cardan.figures.for_reader import for_reader
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
-from cardan.questions.bending.bending import bending_speeds
-from cardan.questions.bending.figures.bending import shapes_figure, speed_map_figure, speeds_figure
-from cardan.questions.bending.speed_map import critical_speed_map
+from cardan.questions.bending.bending import bending_speeds, critical_speed_map
+from cardan.questions.bending.figure import shapes_figure, speed_map_figure, speeds_figure
 from cardan.units import rpm
 
 VAN = example("two-piece-rubber-bearing")

@@ -5,9 +5,7 @@ from hypothesis import strategies as st
 from scipy.signal import chirp
 
 from cardan import InputError
-from cardan.questions.diagnosis.signals.order_tracks import tracked_orders
-from cardan.questions.diagnosis.signals.order_windows import turned
-from cardan.questions.diagnosis.signals.orders import order_map, order_spectrum
+from cardan.questions.diagnosis.signals.orders import order_map, order_spectrum, tracked_orders, turned
 from cardan.questions.diagnosis.signals.rotation import Rotation
 from cardan.questions.diagnosis.signals.signal import Channel
 from cardan.questions.diagnosis.signals.turning import estimate_rotation
@@ -144,7 +142,7 @@ def test_a_map_that_is_stopped_ends_where_it_was_read_to_and_long_ones_are_read_
     shaft, front = estimate_rotation(signal), signal.channel("front")
     whole = order_map(front, shaft)
     tracked = tracked_orders(front, shaft)
-    monkeypatch.setattr("cardan.questions.diagnosis.signals.order_windows.BLOCK", 3000)
+    monkeypatch.setattr("cardan.questions.diagnosis.signals.orders.BLOCK", 3000)
     monkeypatch.setattr("cardan.maths.curves.resampling.BLOCK", 500)
     shares = []
     assert np.allclose(order_map(front, shaft, progress=shares.append).amplitude, whole.amplitude, rtol=0, atol=1e-12)

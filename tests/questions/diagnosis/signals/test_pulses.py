@@ -4,8 +4,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cardan import InputError
-from cardan.questions.diagnosis.signals.pulses import counted, edges
 from cardan.questions.diagnosis.signals.signal import Channel
+from cardan.questions.diagnosis.signals.turning import counted, edges
 from tests.builders.recordings import angle_of
 
 

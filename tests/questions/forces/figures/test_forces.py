@@ -7,22 +7,26 @@ import numpy as np
 import pytest
 
 from cardan import figures
-from cardan.answers.numbers import significant
 from cardan.answers.quantity import told
-from cardan.answers.reader import USUAL, Reader
+from cardan.answers.reader import USUAL, Reader, significant
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import geometry
+from cardan.figures.axes import support_dashes
 from cardan.figures.figure import Curve, Note
 from cardan.figures.for_reader import for_reader
-from cardan.figures.projection import onto
+from cardan.figures.page import onto
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
-from cardan.figures.turning import support_dashes
 from cardan.io import example
 from cardan.maths.kernel import frames
-from cardan.questions.forces.figures.arrows import loads_figures, worst
-from cardan.questions.forces.figures.forces import forces_figures, reactions_figure, torques_figure
+from cardan.questions.forces.figures.forces import (
+    forces_figures,
+    loads_figures,
+    reactions_figure,
+    torques_figure,
+    worst,
+)
 from cardan.questions.forces.forces import forces
 from cardan.units import deg, mm
 

@@ -13,9 +13,9 @@ from cardan.drive.machine import HarmonicTorque
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Absorber as Branch
 from cardan.drive.station import Station
-from cardan.formulas.absorber_tuning import h_infinity
+from cardan.formulas.absorbers import h_infinity
 from cardan.questions.torsion.absorber.absorber import absorber
-from cardan.questions.torsion.absorber.hosts import branch_of, host_named, hosts, hung
+from cardan.questions.torsion.absorber.absorber_search import branch_of, host_named, hosts, hung
 from cardan.questions.torsion.steady.torsion_response import torsion_response
 from cardan.units import deg, rpm
 

@@ -13,9 +13,8 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
-from cardan.questions.torsion.absorber.answer import answer, ask, lacking
-from cardan.questions.torsion.absorber.before_after import cautions
-from cardan.report.page import page
+from cardan.questions.torsion.absorber.answer import answer, ask, cautions, lacking
+from cardan.report.block import page
 from cardan.texts import speaking
 from cardan.units import deg
 

@@ -13,7 +13,7 @@ from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
 from cardan.questions.torsion.calm.answer import answer, ask, lacking, otherwise, reasons
 from cardan.questions.torsion.calm.calm import Grid, calm
-from cardan.report.page import page
+from cardan.report.block import page
 from cardan.texts import speaking
 from cardan.units import deg
 

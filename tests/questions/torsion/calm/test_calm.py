@@ -14,7 +14,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.fields.paths import with_values
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.station import Station
-from cardan.maths.curves.evolution import Evolution, evolve
+from cardan.maths.curves.search import Evolution, evolve
 from cardan.questions.torsion.calm.calm import Calm, Grid, calm
 from cardan.questions.torsion.calm.calm_designs import Free
 from cardan.questions.torsion.steady.run_stability import Verdict, floquet

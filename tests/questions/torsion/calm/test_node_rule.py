@@ -10,7 +10,7 @@ import pytest
 from cardan import Drive
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
-from cardan.book.mathieu_reduction import mathieu_reduction
+from cardan.book.mathieu_drive import mathieu_reduction
 from cardan.drive.duty import Duty
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cardan.errors import InputError
-from cardan.questions.torsion.model.torques import Asynchronous, Falling, SpeedTable, Swinging
+from cardan.questions.torsion.model.inputs import Asynchronous, Falling, SpeedTable, Swinging
 from cardan.questions.torsion.model.torsional_balance import (
     accelerations,
     balance,

@@ -10,7 +10,7 @@ import pytest
 from cardan.errors import InputError
 from cardan.maths.compiled.method import Compiled, Plain
 from cardan.maths.periodic.harmonics import Status
-from cardan.questions.torsion.model.torques import Constant
+from cardan.questions.torsion.model.inputs import Constant
 from cardan.questions.torsion.model.torsional_model import Torque
 from cardan.questions.torsion.stability.floquet_map import floquet_map
 from cardan.questions.torsion.steady.run_stability import Verdict, floquet

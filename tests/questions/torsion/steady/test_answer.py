@@ -11,7 +11,7 @@ from cardan import example, torsion_response
 from cardan.answers.data import as_csv
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
-from cardan.questions.torsion.model.wording import ranges
+from cardan.questions.torsion.model.answer import ranges
 from cardan.questions.torsion.steady import answer as home
 from cardan.units import rpm
 

@@ -14,11 +14,10 @@ from scipy.special import mathieu_a, mathieu_b
 from cardan import example
 from cardan.errors import InputError
 from cardan.maths.compiled.method import Compiled
-from cardan.questions.torsion.model.torques import Asynchronous, Constant
+from cardan.questions.torsion.model.inputs import Asynchronous, Constant
 from cardan.questions.torsion.model.torsional_balance import slopes
 from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
-from cardan.questions.torsion.stability.floquet_map import floquet_map
-from cardan.questions.torsion.stability.speed_range import unstable_speeds
+from cardan.questions.torsion.stability.floquet_map import floquet_map, unstable_speeds
 from cardan.questions.torsion.steady.run_stability import Kind, Verdict, floquet, nearest_zone
 from cardan.questions.torsion.steady.steady import periodic_response, steady_orbits
 from cardan.questions.torsion.steady.torsion_response import loaded_model

@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 
 from cardan.errors import InputError
-from cardan.maths.periodic.collocation import Chain
 from cardan.maths.periodic.harmonics import HarmonicBalance, Status
-from cardan.maths.periodic.switching_orbit import Shooting
-from cardan.questions.torsion.model.torques import Constant, History, Swinging
+from cardan.maths.periodic.switching_orbit import Chain, Shooting
+from cardan.questions.torsion.model.inputs import Constant, History, Swinging
 from cardan.questions.torsion.model.torsional_balance import element_torques
 from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
-from cardan.questions.torsion.stability.speed_range import speed_sweep
+from cardan.questions.torsion.stability.floquet_map import speed_sweep
 from cardan.questions.torsion.steady.run_stability import floquet
 from cardan.questions.torsion.steady.steady import periodic_response, steady_orbits
 from tests.builders.torsion_in_time import drive, flow

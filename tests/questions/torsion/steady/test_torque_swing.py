@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from cardan import InputError
-from cardan.questions.torsion.model.torques import Constant, Swinging
+from cardan.questions.torsion.model.inputs import Constant, Swinging
 from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
-from cardan.questions.torsion.model.torsional_waves import straight_waves
+from cardan.questions.torsion.model.torsional_modes import straight_waves
 from cardan.questions.torsion.steady.run_stability import floquet
 from cardan.questions.torsion.steady.steady import periodic_response
 from cardan.questions.torsion.steady.torque_swing import some_motions, torque_swings

@@ -14,9 +14,9 @@ from cardan.drive.duty import Duty
 from cardan.drive.machine import ConstantTorque, Engine, HarmonicTorque, LinearTorque, TorqueHistory
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Pendulum, Station
-from cardan.questions.torsion.model.torques import Constant
+from cardan.questions.torsion.model.inputs import Constant
 from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
-from cardan.questions.torsion.model.torsional_waves import straight_waves
+from cardan.questions.torsion.model.torsional_modes import straight_waves
 from cardan.questions.torsion.stability import torsion_stability
 from cardan.questions.torsion.stability.torsion_stability import stability
 from cardan.questions.torsion.steady.run_stability import Verdict, floquet

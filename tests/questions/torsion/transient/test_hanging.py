@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from cardan.maths.compiled.method import Compiled
-from cardan.questions.torsion.model.torques import Asynchronous, Falling, Law
+from cardan.questions.torsion.model.inputs import Asynchronous, Falling, Law
 from cardan.questions.torsion.model.torsional_balance import power
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
 from cardan.questions.torsion.transient.fixed_steps import FixedStep
-from cardan.questions.torsion.transient.hanging import hanging
 from cardan.questions.torsion.transient.simulation import Simulation
+from cardan.questions.torsion.transient.torsion_transient import hanging
 from cardan.questions.torsion.transient.transient import simulate
 
 NO_LOAD = 80.0

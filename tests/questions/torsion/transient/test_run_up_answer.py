@@ -9,9 +9,8 @@ import pytest
 
 from cardan import Drive, example
 from cardan.answers.answer import Answer, Table
-from cardan.answers.numbers import significant
 from cardan.answers.quantity import told
-from cardan.answers.reader import USUAL
+from cardan.answers.reader import USUAL, significant
 from cardan.drive.machine import Engine, RunUp
 from cardan.questions.torsion.transient.run_up_answer import answer, ask, lacking, otherwise
 from cardan.questions.torsion.transient.torsion_transient import transient

@@ -9,8 +9,15 @@ import pytest
 
 from cardan.errors import InputError
 from cardan.maths.compiled.method import Compiled, Plain
-from cardan.questions.torsion.model.input_motion import SpeedCourse
-from cardan.questions.torsion.model.torques import Asynchronous, Constant, Falling, History, SpeedTable, Swinging
+from cardan.questions.torsion.model.inputs import (
+    Asynchronous,
+    Constant,
+    Falling,
+    History,
+    SpeedCourse,
+    SpeedTable,
+    Swinging,
+)
 from cardan.questions.torsion.model.torsional_balance import energy
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
 from cardan.questions.torsion.transient.fixed_steps import FixedStep

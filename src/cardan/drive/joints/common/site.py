@@ -7,12 +7,14 @@ from typing import Protocol
 
 import numpy as np
 
-from cardan.answers.quantity import Text
+from cardan.answers.quantity import Quantity, Text, say
+from cardan.drive.shapes import caps, cross_body, fork
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
-from cardan.maths.kernel.meshes import Surface, placed
+from cardan.maths.kernel.meshes import Surface, ball, placed, revolved
+from cardan.texts import _
 
-from .stance import Stance
+from .inner import Stance
 
 BACK = np.diag([-1.0, 1.0, -1.0])
 """Turns a yoke round, so that its hub lies against the power flow."""
@@ -140,3 +142,139 @@ class Site:
         """Add a body of a shaft, whose x runs away from the joint."""
         shape = placed(surface, side.turn)
         self.stage.add(part, side.number, self.path, text, side.track, shape, role=side.role)
+
+
+# Bodies that joints of several kinds have: yokes, a cross, a bell with balls.
+
+QUARTER = np.asarray([(1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)])
+"""Turns a yoke by a quarter turn from the mark of its shaft."""
+
+BALLS = 6
+"""Number of balls of a joint that is only known to be even."""
+
+
+def about(surface: Surface, angle: float) -> Surface:
+    """Return a surface turned about x."""
+    c, s = float(np.cos(angle)), float(np.sin(angle))
+    return placed(surface, np.asarray([(1.0, 0.0, 0.0), (0.0, c, s), (0.0, -s, c)]))
+
+
+def length_text(value: float) -> Quantity:
+    """Return a length as it is told."""
+    return Quantity(value, "length", 4, trim=True)
+
+
+def cross_text(site: Site, size: JointSize) -> Text:
+    """Return what to say of a cross."""
+    if size.given:
+        text = _("cross of {joint}: span {span}, journals {journal}")
+        span, journal = length_text(2.0 * size.radius), length_text(size.journal)
+        return say(text, joint=site.name, span=span, journal=journal)
+    return _("cross of {joint}; the file gives no span, so its size is in proportion to the shafts").format(
+        joint=site.name
+    )
+
+
+def yoke(
+    site: Site,
+    side: Side,
+    size: JointSize,
+    *,
+    bore: bool = True,
+    away: float = 0.0,
+    tip: float = 0.0,
+    quarter: bool = False,
+) -> None:
+    """Add a yoke and its bearing caps.
+
+    It swings ``away`` off the joint centre; ears without bores end at ``tip``, counted toward the hub.
+    """
+    reach = side.reach - away
+    cavity = min(size.cavity, 0.66 * reach)
+    made = fork(size.radius, size.ear, size.lug, size.cap if bore else 0.0, cavity, reach, side.body, tip)
+    turn = BACK if side.driving else None
+    shift = np.asarray([-away if side.driving else away, 0.0, 0.0])
+    text = _("driving yoke of shaft {number}") if side.driving else _("driven yoke of shaft {number}")
+    shape = placed(made, turn, shift)
+    shape = placed(shape, QUARTER) if quarter else shape
+    said = text.format(number=side.number)
+    site.stage.add(side.yoke, side.number, site.path, said, side.track, shape, role=side.role)
+    if bore:
+        cap = placed(caps(size.radius, size.ear, size.cap), turn, shift)
+        site.add("bearing cap", _("bearings of joint {number}").format(number=site.number), side.track, cap, shade=0.35)
+
+
+def yokes_and_cross(site: Site, *, offset: float = 0.0, text: Text = "") -> None:
+    """Add yokes, cross and bearings of a joint with one cross, whose pins may stand a distance apart [m]."""
+    for side in site.sides:
+        yoke(site, side, site.size)
+    u, v = site.stance.driving, site.stance.driven
+    track = site.stage.track(site.stance.centre, u, v, frames.cross(u, v))
+    made = cross_body(site.size.radius, site.size.ear, site.size.journal, offset)
+    site.add("cross", text or cross_text(site, site.size), track, made)
+
+
+def bell_and_balls(site: Site, *, count: int = BALLS, groove: float | None = None) -> None:
+    """Add bell, inner race, cage and balls, which run in the bisecting plane.
+
+    Parameters
+    ----------
+    site : Site
+    count : int
+        Number of balls.
+    groove : float [m], optional
+        Radius of the middle line of their grooves; in proportion to the joint when not given.
+    """
+    groove = groove or 0.82 * site.size.radius
+    outside, inside = site.sides if site.first else site.sides[::-1]
+    bead = min(0.27, 0.8 * np.sin(np.pi / count)) * groove
+    site.add_to(outside, "bell", site.said(_("bell of {joint}")), _bell(groove, bead, outside))
+    site.add_to(inside, "inner race", site.said(_("inner race of {joint}")), _inner_race(groove, bead, inside))
+    stance = site.stance
+    theta, middle = stance.theta, stance.middle
+    cage = site.along(stance.centre, middle, stance.halving(theta))
+    site.add("cage", site.said(_("cage of {joint}, in the bisecting plane")), cage, _cage(groove), shade=0.1)
+    for j in range(count):
+        own = across_halving(site, theta + j * 2.0 * np.pi / count)
+        shape = placed(ball(bead, 14), None, (groove, 0.0, 0.0))
+        site.add("ball", site.said(_("ball of {joint}")), own, shape, shade=0.55)
+
+
+def across_halving(site: Site, turn: Array) -> int:
+    """Add a track in the bisecting plane: its x out to the meridian at an angle (p,) [rad]."""
+    way = site.stance.halving(turn)
+    return site.along(site.stance.centre, way, frames.cross(np.broadcast_to(site.stance.middle, way.shape), way))
+
+
+def _bell(groove: float, bead: float, side: Side) -> Surface:
+    inner, outer = 1.12 * groove, max(1.12 * groove + 0.62 * bead, 1.36 * groove)
+    reach = max(side.reach, 1.5 * groove)
+    body = min(side.body, 0.9 * outer)
+    turn = np.linspace(0.0, 0.46 * np.pi, 7)
+    cup = [(inner * float(np.cos(t)), inner * float(np.sin(t))) for t in turn]
+    cup[0] = (inner, 0.0)
+    mouth = -0.08 * groove
+    cup.append((mouth, 1.0 * inner))
+    shell = [(mouth, outer), (0.1 * groove, 1.03 * outer), (0.62 * groove, outer), (1.25 * groove, 1.15 * body)]
+    return revolved([*cup, *shell, (1.32 * groove, body), (reach, body), (reach, 0.0)], 36)
+
+
+def _inner_race(groove: float, bead: float, side: Side) -> Surface:
+    inner = groove - 0.3 * bead
+    reach = side.reach
+    body = min(side.body, 0.55 * groove)
+    turn = np.linspace(0.72 * np.pi, 0.28 * np.pi, 9)
+    race = [(inner * float(np.cos(t)), inner * float(np.sin(t))) for t in turn]
+    return revolved(
+        [(race[0][0], 0.0), *race, (race[-1][0] + 0.02 * groove, body), (reach - 0.1 * groove, body),
+         (reach, side.body), (reach, 0.0)],
+        28,
+    )  # fmt: skip
+
+
+def _cage(groove: float) -> Surface:
+    turn = np.linspace(0.64 * np.pi, 0.36 * np.pi, 7)
+    low, high = 0.96 * groove, 1.08 * groove
+    out = [(high * float(np.cos(t)), high * float(np.sin(t))) for t in turn]
+    into = [(low * float(np.cos(t)), low * float(np.sin(t))) for t in turn[::-1]]
+    return revolved([*out, *into, out[0]], 36)

@@ -3,15 +3,12 @@
 from cardan.questions.diagnosis.examination import Examination
 from cardan.questions.diagnosis.expected import Expected
 from cardan.questions.diagnosis.signals.orbit import Orbit
-from cardan.questions.diagnosis.signals.order_tracks import TrackedOrders
-from cardan.questions.diagnosis.signals.orders import OrderMap, OrderSpectrum
+from cardan.questions.diagnosis.signals.orders import OrderMap, OrderSpectrum, TrackedOrders
 from cardan.questions.diagnosis.signals.rotation import Rotation
 from cardan.questions.diagnosis.signals.torsional import TorsionalVibration
 
-from .examination import examination_figures
-from .expected import expected_figures
-from .motion import orbit_figures, rotation_figures, torsional_figures
-from .orders import map_figures, spectrum_figures, tracks_figures
+from .orders import expected_figures, map_figures, spectrum_figures, tracks_figures
+from .signals import examination_figures, orbit_figures, rotation_figures, torsional_figures
 
 FIGURES = {
     OrderSpectrum: spectrum_figures,

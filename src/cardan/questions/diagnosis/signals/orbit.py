@@ -12,7 +12,7 @@ from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .order_windows import TURNS, turned
+from .orders import TURNS, turned
 from .rotation import Rotation
 from .signal import Channel
 

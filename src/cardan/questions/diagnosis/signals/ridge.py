@@ -21,8 +21,7 @@ from cardan.texts import _
 from cardan.units import rpm
 
 from .rotation import LEAST_TURNS, Rotation
-from .signal import Channel
-from .watching import Progress, Watch
+from .signal import Channel, Progress, Watch
 
 BAND = (1.5, 250.0)
 """Turns a second between which a shaft is sought where nothing is known of it [Hz]."""

@@ -12,8 +12,8 @@ from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
 
-from .pulses import counted
 from .signal import Channel
+from .turning import counted
 
 EVEN_TURNS = 4
 """Turns over which the even turning is averaged; with Hann's weights all orders that are quarters from 1/2 up go."""

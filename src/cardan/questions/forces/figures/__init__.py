@@ -1,7 +1,7 @@
 """Figures of the results made beside this folder."""
 
 from cardan.questions.forces.assembly import AssemblyForces
-from cardan.questions.forces.drive_forces import Forces
+from cardan.questions.forces.forces import Forces
 from cardan.questions.forces.moving_forces import MovingForces
 
 from .assembly import misalignment_figures

@@ -7,10 +7,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from cardan.answers.quantity import Quantity, say
-from cardan.figures.axes import axis
+from cardan.figures.axes import axis, shaft_name, support_dashes, support_name
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule, Series
 from cardan.figures.palette import dash_of, shaft
-from cardan.figures.turning import shaft_name, support_dashes, support_name
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.forces.moving_forces import MovingForces

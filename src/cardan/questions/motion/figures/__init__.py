@@ -5,8 +5,7 @@ from cardan.questions.motion.equivalence import EquivalentJoint
 from cardan.questions.motion.motion import Motion
 
 from .articulation import articulation_figures
-from .equivalence import equivalence_figures
-from .motion import motion_figures
+from .motion import equivalence_figures, motion_figures
 
 FIGURES = {Motion: motion_figures, EquivalentJoint: equivalence_figures, Articulation: articulation_figures}
 """Result -> what makes its figures."""

@@ -12,21 +12,12 @@ from cardan.answers.quantity import Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
 from cardan.maths.ties import foremost
-from cardan.questions.torsion.absorber.before_after import (
-    LITTLE,
-    band,
-    cautions,
-    curves,
-    lacking_line,
-    speed,
-    torque,
-)
+from cardan.questions.torsion.absorber.answer import LITTLE, band, cautions, curves, lacking_line, speed, torque
 from cardan.questions.torsion.steady.torsion_response import Progress
 from cardan.texts import _
 
-from .calm import Calm, calm
+from .calm import Calm, Peak, calm
 from .calm_designs import Free
-from .calm_search import Peak
 from .figure import calm_figures
 from .node_rule import NodeRule
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cardan.maths.arrays import Array
-from cardan.questions.torsion.model.torsional_batch import Turning
+from cardan.questions.torsion.model.torsional_layouts import Turning
 from cardan.questions.torsion.model.torsional_modes import straight_modes
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
-from cardan.questions.torsion.steady.steady_start import at_rest
+from cardan.questions.torsion.steady.orbit import at_rest
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -18,8 +18,7 @@ from cardan.errors import Problem, check
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
 
-from .input_motion import InputMotion
-from .torques import Law
+from .inputs import InputMotion, Law
 
 
 @dataclass(frozen=True, kw_only=True)

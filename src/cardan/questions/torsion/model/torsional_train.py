@@ -27,10 +27,10 @@ from cardan.maths.arrays import Array, ArrayLike
 from cardan.questions.motion.motion import initial_phases
 from cardan.texts import _
 
-from .machine_torques import machine_torques, turns_freely
+from .excitation import machine_torques, turns_freely
+from .inputs import Law
 from .shaft_line import ShaftLine, cut_name, shaft_line
-from .torques import Law
-from .torsional_batch import ARRAYS, SHARED, chosen, leading
+from .torsional_layouts import ARRAYS, SHARED, chosen, leading
 from .torsional_model import Torque, TorsionalModel
 
 HOLDING = 1e-5

@@ -16,15 +16,14 @@ from cardan.drive.drive import Drive
 from cardan.drive.models.chain import given_chain
 from cardan.errors import refuse
 from cardan.formulas.damping import LOSS
+from cardan.questions.torsion.model.answer import assumptions, ranges
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.torsional_train import torsional_train
-from cardan.questions.torsion.model.wording import assumptions, ranges
 from cardan.questions.torsion.steady.run_stability import Kind, Verdict, verdict_words
 from cardan.texts import _, mark
 from cardan.units import deg, rpm
 
-from .figure import plays, stability_figures
-from .map_axes import SPEED, MapAxis, map_axes
+from .figure import SPEED, MapAxis, map_axes, plays, stability_figures
 from .torsion_stability import JOINT_ANGLE, Stability, stability
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]

@@ -14,7 +14,7 @@ from cardan.drive.models.chain import given_chain, turning
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.questions.motion.motion import initial_phases
-from cardan.questions.torsion.model.torsional_batch import chosen as some_of
+from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained
 from cardan.questions.torsion.steady.run_stability import Verdict, Zone

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, Tone
-from cardan.answers.checks import closely
+from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, Tone, closely
 from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
@@ -18,9 +17,9 @@ from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.motion.equivalence import equivalent_joint
+from cardan.questions.torsion.model.answer import assumptions, ranges
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.excitation import engine_torque
-from cardan.questions.torsion.model.wording import assumptions, ranges
 from cardan.texts import _, mark, plural
 
 from .figure import response_figures

@@ -9,10 +9,9 @@ from dataclasses import replace
 import numpy as np
 
 from cardan.answers.quantity import Joined, Quantity, Text, say
-from cardan.figures.axes import axis, steps, written
+from cardan.figures.axes import across, axis, steps, written
 from cardan.figures.figure import Axis, Band, Bars, Curve, Dash, Figure, Panel, Row
 from cardan.figures.palette import DASHES, shaft
-from cardan.figures.turning import across
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain

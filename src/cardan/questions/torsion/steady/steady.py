@@ -10,18 +10,16 @@ import numpy as np
 
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.curves.extremes import series_at
 from cardan.maths.periodic.harmonics import HarmonicBalance, Status, Waves, harmonic_balance
 from cardan.maths.periodic.switching_orbit import Pieces, Shooting
-from cardan.questions.torsion.model.torsional_batch import Turning, leading, period_of
+from cardan.questions.torsion.model.torsional_balance import places
+from cardan.questions.torsion.model.torsional_layouts import Turning, leading, period_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.texts import _
 
-from .backlash_orbit import pieces_of
-from .closed_play import closed, stays_closed
-from .orbit import Orbit
-from .steady_orders import read_off
-from .steady_result import Orders, SteadyResponse
-from .steady_start import at_rest
+from .orbit import Orbit, at_rest, pieces_of
+from .steady_result import Orders, SteadyResponse, read_off
 
 Progress: TypeAlias = Callable[[float], object]
 """Told the share done; may answer "stop"."""
@@ -86,7 +84,7 @@ def periodic_response(
 
     Examples
     --------
-    >>> from cardan.questions.torsion.model.torques import Constant
+    >>> from cardan.questions.torsion.model.inputs import Constant
     >>> from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
     >>> load = Torque(station=3, law=Constant(value=-60.0))
     >>> drive = torsional_line([[1.0, 0.02], [0.02, 0.4]], stiffness=[[4000.0], [6000.0]],
@@ -334,3 +332,56 @@ def _described(orbit: Orbit, status: Array, orders: float) -> SteadyResponse:
         residual=found.residual.reshape(angle_error),
         power_residual=found.power_residual.reshape(angle_error),
     )
+
+
+# Drives whose play stays closed: until a torque changes its sign they run as if they had none.
+
+FINE = 512
+"""Places of a period at which contact is looked at."""
+
+
+def closed(turning: Turning) -> Turning:
+    """Return drives without play that rest on the side to which their mean torques push them.
+
+    turning: drives in one axis, as `Turning.part` gives them.
+    """
+    model, rest = turning.model, _rest(turning.model)
+    shifted = replace(model, backlash=np.zeros_like(model.backlash), rest=rest + 0.5 * _sides(turning) * model.backlash)
+    return Turning(shifted, turning.angle_error, turning.speed, turning.period)
+
+
+def stays_closed(turning: Turning, coefficient: Array) -> Array:
+    """Tell which motions keep all play on the side to which mean torques push it, array of bool (b,).
+
+    turning: drives in one axis, with their play.
+    coefficient (b, R, H+1), complex: motions of the free coordinates, as those of `closed` drives; nan where there is
+    none.
+    """
+    if not np.any(turning.model.backlash > 0.0):
+        return np.ones(len(turning.speed), dtype=bool)
+    phase = 2.0 * np.pi * np.arange(FINE) / FINE
+    twist = _twists(turning, phase, series_at(coefficient, phase)[0])
+    sides, half = _sides(turning)[:, None], 0.5 * turning.model.backlash[:, None]
+    found: Array = np.all((half == 0.0) | (sides * twist > half), axis=(1, 2))
+    return found
+
+
+def _rest(model: TorsionalModel) -> Array:
+    return np.zeros_like(model.backlash) if model.rest is None else model.rest
+
+
+def _twists(turning: Turning, phase: Array, x: Array) -> Array:
+    """Return the twists of the elements off their rest, array (b, p, E)."""
+    drives = turning.drives(np.arange(len(turning.speed)))
+    angle = places(drives, turning.motion(np.arange(len(turning.speed)), phase, x, x, x)[0]).angle
+    heads, tails = [a for a, _b in drives.elements], [b for _a, b in drives.elements]
+    return angle[..., heads] - angle[..., tails] - _rest(drives)[:, None]
+
+
+def _sides(turning: Turning) -> Array:
+    """Return the side to which mean torques push each element, 0 where nothing does: array of int (b, E)."""
+    model, rested = turning.model, at_rest(turning)[..., 0].real
+    q = np.pad(rested, ((0, 0), (turning.first, 0)))
+    ends = [(model.coordinate[a], model.coordinate[b]) for a, b in model.elements]
+    twist = q[:, [a for a, _b in ends]] - q[:, [b for _a, b in ends]] - _rest(model)
+    return np.where(np.abs(twist) > 0.5 * model.backlash, np.sign(twist), 0.0).astype(int)

@@ -8,18 +8,17 @@ import numpy as np
 
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.maths.curves.waves import extremes, sampled_series
+from cardan.maths.curves.extremes import extremes, sampled_series
 from cardan.maths.periodic.harmonics import HarmonicBalance, Status, harmonic_balance
-from cardan.questions.torsion.model.torques import Swinging
+from cardan.questions.torsion.model.inputs import Swinging
 from cardan.questions.torsion.model.torsional_balance import element_torques
-from cardan.questions.torsion.model.torsional_batch import Turning, chosen, leading, period_of
+from cardan.questions.torsion.model.torsional_layouts import Turning, chosen, leading, period_of
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
-from cardan.questions.torsion.model.torsional_waves import straight_waves
+from cardan.questions.torsion.model.torsional_modes import straight_waves
 from cardan.texts import _
 
-from .orbit import Orbit
+from .orbit import Orbit, at_rest
 from .steady import Progress, periodic_response
-from .steady_start import at_rest
 from .torsion_response import parted
 
 FEW, MOST = 4, 24

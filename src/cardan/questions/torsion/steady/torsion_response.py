@@ -15,11 +15,10 @@ from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.periodic.harmonics import HarmonicBalance
 from cardan.maths.periodic.switching_orbit import Shooting
-from cardan.questions.torsion.model.torques import Swinging, base_period
+from cardan.questions.torsion.model.inputs import Swinging, base_period
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
-from cardan.questions.torsion.model.torsional_modes import straight_modes
+from cardan.questions.torsion.model.torsional_modes import straight_modes, straight_waves
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_time, torsional_train
-from cardan.questions.torsion.model.torsional_waves import straight_waves
 from cardan.texts import _
 
 from .run_stability import Floquet, floquet, nearest_zone

@@ -7,14 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from cardan.answers.answer import FILE, Answer, Column, Remark, Table, Tone
-from cardan.answers.checks import closely
+from cardan.answers.answer import FILE, Answer, Column, Remark, Table, Tone, closely
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.drive.drive import Drive
 from cardan.drive.machine import RunUp
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
-from cardan.questions.torsion.model.wording import assumptions
+from cardan.questions.torsion.model.answer import assumptions
 from cardan.texts import _
 
 from .figure import transient_figures

@@ -13,20 +13,17 @@ import numpy as np
 from cardan.errors import Problem, check, refuse
 from cardan.later import later
 from cardan.maths.arrays import Array
-from cardan.maths.compiled import plain_torsion
+from cardan.maths.compiled import plain as plain_torsion
 from cardan.maths.compiled import torsion_line as lines
 from cardan.maths.compiled.method import Method as Compute
-from cardan.maths.compiled.method import Plain
+from cardan.maths.compiled.method import Plain, available, share
 from cardan.maths.compiled.method import chosen as picked
-from cardan.maths.compiled.threads import available, share
-from cardan.questions.torsion.model.torsional_batch import chosen, leading
-from cardan.questions.torsion.model.torsional_lines import line_of
+from cardan.questions.torsion.model.torsional_layouts import chosen, leading, line_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.texts import _
 
-from .marching import breaks_of
+from .marching import breaks_of, contact_period, forced_rate, own_rates
 from .simulation import Extremes, Progress, Simulation, Status, reported
-from .swiftness import contact_period, forced_rate, own_rates
 
 compiled = later("cardan.maths.compiled.torsion_block")
 

@@ -1,1 +1,0 @@
-"""How each kind of joint turns, as formulas on arrays."""

@@ -1,1 +1,0 @@
-"""Simple bodies by their sizes: yokes, crosses, rings and bearings, for joints and shafts alike."""
