@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cardan.drive.models.train import Hold, Train, train_of_points
+from cardan.drive.models.dynamics_model import Hold, Train, train_of_points
 from cardan.questions.forces.forces import kinetostatics
 
 from .harness import Figure, fastest

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan import extremes, phases
-from cardan.drive.models.chain import chain
+from cardan.drive.models.kinematics_model import chain
 from cardan.questions.phases.batch import synchronous_yokes
 from cardan.sweeps import Drives
 

@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cardan import absorber, calm, example
+from cardan import absorber, example, optimise_torsion
 from cardan.io import loads
 from cardan.methods import Evolution
-from cardan.questions.torsion.calm.node_rule import NodeRule
+from cardan.questions.torsion.optimise.modal_excitation import NodeRule
 from cardan.units import rpm
 
 from .kit import ACCENT, INK, PALE, SERIES, bare, page
@@ -61,7 +61,7 @@ def ringed() -> Figure:
 
 def calmed() -> Figure:
     """Draw torques as built and with the best yokes, and how the joints excite before and after."""
-    found = calm(loads(FEEDER), method=Evolution(size=12, rounds=15, runs=1))
+    found = optimise_torsion(loads(FEEDER), method=Evolution(size=12, rounds=15, runs=1))
     figure, axes = page(9.0, 6.4)
     axes.set_position([0.1, 0.55, 0.86, 0.42])
     speed = found.speed / rpm

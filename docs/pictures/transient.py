@@ -9,7 +9,7 @@ from cardan.maths.compiled.method import Compiled
 from cardan.questions.torsion.model.inputs import Falling
 from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
 from cardan.questions.torsion.transient.fixed_steps import FixedStep
-from cardan.questions.torsion.transient.torsion_transient import hanging
+from cardan.questions.torsion.transient.torsion_transient import sommerfeld
 from cardan.questions.torsion.transient.transient import simulate
 from cardan.units import deg, rpm
 
@@ -39,7 +39,7 @@ def hang() -> Figure:
         edges = np.interp(np.arange(0.0, turned[-1], 1.0), turned, found.times)
         axes.plot(0.5 * (edges[1:] + edges[:-1]), 2.0 * np.pi / np.diff(edges) / rpm, color=color, lw=2)
         axes.text(10.0, 600.0 if joint_angle < 30 else 150.0, f"joint bent by {joint_angle:.0f}°", color=color, size=11)
-        for one in hanging(line, found):
+        for one in sommerfeld(line, found):
             axes.plot([one.start, one.end], [one.speed / rpm] * 2, color=ACCENT, lw=1.5, ls=":")
     axes.set_xlabel("time [s]")
     axes.set_ylabel("mean speed over a turn [rpm]")

@@ -66,10 +66,10 @@ from .questions.phases.phases import phases as phases
 from .questions.phases.setting import YokeSetting as YokeSetting
 from .questions.torsion.absorber.absorber import Absorber as Absorber
 from .questions.torsion.absorber.absorber import absorber as absorber
-from .questions.torsion.calm.calm import Calm as Calm
-from .questions.torsion.calm.calm import calm as calm
 from .questions.torsion.model.torsion import TorsionModes as TorsionModes
 from .questions.torsion.model.torsion import torsion_modes as torsion_modes
+from .questions.torsion.optimise.optimise import OptimisedTorsion as OptimisedTorsion
+from .questions.torsion.optimise.optimise import optimise_torsion as optimise_torsion
 from .questions.torsion.stability.torsion_stability import Stability as Stability
 from .questions.torsion.stability.torsion_stability import stability as stability
 from .questions.torsion.steady.torsion_response import TorsionResponse as TorsionResponse

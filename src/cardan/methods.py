@@ -10,6 +10,6 @@ from .questions.phases.setting import NEAREST as NEAREST
 from .questions.phases.setting import SYNCHRONOUS as SYNCHRONOUS
 from .questions.phases.setting import LeastIntermediate as LeastIntermediate
 from .questions.phases.setting import NearestYokes as NearestYokes
-from .questions.torsion.calm.calm import Grid as Grid
+from .questions.torsion.optimise.optimise import Grid as Grid
 from .questions.torsion.transient.fixed_steps import FixedStep as FixedStep
 from .questions.torsion.transient.transient import Adaptive as Adaptive

@@ -203,7 +203,7 @@ QUESTIONS: dict[str, Question] = {
         ),
         Question(
             name="optimise",
-            module="cardan.questions.torsion.calm.answer",
+            module="cardan.questions.torsion.optimise.answer",
             title=mark("Torsional optimisation"),
             group=TORSION,
             help=mark("Which yoke angles, stiffnesses, inertias or joint positions make torsional vibration least."),

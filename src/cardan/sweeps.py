@@ -19,10 +19,10 @@ from .batch.search.optimise import Optimum as Optimum
 from .batch.search.optimise import optimise as optimise
 from .batch.search.pareto import ParetoSet as ParetoSet
 from .batch.search.pareto import pareto_search as pareto_search
+from .batch.search.sobol import OneAtATime as OneAtATime
 from .batch.search.sobol import Sensitivity as Sensitivity
-from .batch.search.sobol import Swings as Swings
+from .batch.search.sobol import one_at_a_time as one_at_a_time
 from .batch.search.sobol import sensitivity as sensitivity
-from .batch.search.sobol import swings as swings
 from .batch.sweep import sweep as sweep
 from .batch.table.results import Results as Results
 from .batch.table.results import results as results

@@ -12,7 +12,7 @@ from cardan.io import example
 from cardan.register import QUESTIONS
 from cardan.report.answers import answered, subject
 from cardan.report.block import Cell, Column, Listing, Picture, Points, Table, Words
-from cardan.report.lights import Applicable, Light, lights
+from cardan.report.verdict_list import Applicable, Light, lights
 
 EVIL = "<script>alert(1)</script>\"'&"
 

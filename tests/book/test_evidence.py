@@ -6,8 +6,8 @@ import pytest
 from cardan.book import evidence as module
 from cardan.book.evidence import evidence, ratio_by_vectors, swing_by_vectors
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import chain
 from cardan.drive.models.geometry import geometry
+from cardan.drive.models.kinematics_model import chain
 from cardan.questions.motion.equivalence import closure
 from cardan.questions.motion.motion import motion
 from cardan.questions.phases.phases import phases

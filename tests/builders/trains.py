@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.drive.models.train import Train, train_of_points
+from cardan.drive.models.dynamics_model import Train, train_of_points
 from cardan.questions.forces.forces import Forces
 
 
@@ -58,7 +58,7 @@ def one(train: Train, index: int) -> Train:
     """Return one drive of a batch with one leading axis."""
     from dataclasses import fields, replace
 
-    from cardan.drive.models.chain import Chain
+    from cardan.drive.models.kinematics_model import Chain
 
     picked = {
         field.name: getattr(train, field.name)[index]

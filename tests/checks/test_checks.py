@@ -10,15 +10,15 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.catalogue import completed
 from cardan.checks import CHECKS, Verdict, check, design, utilisation
-from cardan.checks.case import Case
+from cardan.checks.load_case import Case
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty, Limits, Upkeep, Vehicle
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.paths import pose_drives, read, with_values
 from cardan.drive.inspection import Inspection
 from cardan.drive.material import Material
-from cardan.drive.models.chain import chain
 from cardan.drive.models.geometry import geometry
+from cardan.drive.models.kinematics_model import chain
 from cardan.drive.movement import Body
 from cardan.drive.shaft import Layup, Ply, Shaft, Spline, Unbalance
 from cardan.errors import InputError

@@ -25,7 +25,7 @@ from cardan.drive.joints import (
     Tripod,
     Weiss,
 )
-from cardan.drive.models.chain import alike, given_chain, turning, turning_chain
+from cardan.drive.models.kinematics_model import alike, given_chain, turning, turning_chain
 from cardan.drive.shaft import Shaft
 from cardan.errors import InputError
 from cardan.questions.forces.turn_loads import across, turn_loads

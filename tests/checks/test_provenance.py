@@ -25,8 +25,8 @@ from cardan.drive.material import Material
 from cardan.drive.shaft import Shaft
 from cardan.questions.life.answer import answer as life_answer
 from cardan.questions.life.answer import ask as life_ask
-from cardan.report.lights import lights
 from cardan.report.subject import asked
+from cardan.report.verdict_list import lights
 from cardan.units import deg, rpm
 
 SIZED = Drive(

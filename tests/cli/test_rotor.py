@@ -79,8 +79,8 @@ def test_two_shafts_beside_a_joint(cardan, tmp_path):
     said = done.content
     assert (said["first"]["shaft"], said["second"]["shaft"]) == (2, 3)
     assert said["residual"] < 1e-6
-    hanging = said["orders"]["first_um"][said["orders"]["order"].index(0)]
-    assert hanging == pytest.approx(said["first"]["sag_um"], rel=0.05)
+    sommerfeld = said["orders"]["first_um"][said["orders"]["order"].index(0)]
+    assert sommerfeld == pytest.approx(said["first"]["sag_um"], rel=0.05)
     assert (tmp_path / "j.svg").stat().st_size > 1000
 
 

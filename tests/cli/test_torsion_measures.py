@@ -12,9 +12,9 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.cli.torsion import torsion_absorber, torsion_optimise
 from cardan.questions.torsion.absorber import absorber as absorbers
-from cardan.questions.torsion.calm import calm as calms
-from cardan.questions.torsion.calm.answer import reasons
-from cardan.questions.torsion.calm.calm import Grid
+from cardan.questions.torsion.optimise import optimise as calms
+from cardan.questions.torsion.optimise.answer import reasons
+from cardan.questions.torsion.optimise.optimise import Grid
 from cardan.units import rpm
 from tests.cli.test_forces import plain, widest
 
@@ -48,7 +48,7 @@ def each_search_once(monkeypatch):
     """Let commands and tests that ask the same share the answer; what is asked otherwise is searched."""
     for name, module, real in (
         ("ask", torsion_absorber, absorbers.absorber),
-        ("calm", torsion_optimise, calms.calm),
+        ("optimise_torsion", torsion_optimise, calms.optimise_torsion),
     ):
 
         def once(drive, name=name, real=real, progress=None, **options):
@@ -129,7 +129,7 @@ def test_a_design_is_found_and_written(cardan, rig, tmp_path):
     done = cardan(*ask, "-o", "better.toml", "--plot", "after.png")
     assert done.code == 0
     assert widest(done.out) <= 80
-    found = calms.calm(files.load(rig), free={YOKE: (-45.0, 45.0)}, method=Grid(points=7))
+    found = calms.optimise_torsion(files.load(rig), free={YOKE: (-45.0, 45.0)}, method=Grid(points=7))
     text = plain(done.out)
     assert "the largest alternating torque falls from" in text
     assert "Joint 1 stands in the node" in text

@@ -10,8 +10,8 @@ import pytest
 from cardan import Drive, InputError
 from cardan.drive.body import body_length, pieces, softness
 from cardan.drive.material import Material
-from cardan.drive.models.train import train
-from cardan.drive.shaft import Layup, Lump, Ply, Segment, Shaft
+from cardan.drive.models.dynamics_model import train
+from cardan.drive.shaft import Layup, Ply, PointMass, Segment, Shaft
 from cardan.io import dumps, loads
 
 DRIVE = Drive.from_points([(-0.3, 0, 0), (0, 0, 0), (1.0, 0, 0), (1.5, 0, -0.1)])
@@ -46,7 +46,10 @@ def test_a_stepped_body_weighs_what_its_stretches_do() -> None:
 
 
 def test_what_a_shaft_carries_comes_on_top() -> None:
-    parts = (Lump(position=0.1, mass=2.0, polar_inertia=0.01, diametral_inertia=0.006), Lump(position=0.9, mass=1.0))
+    parts = (
+        PointMass(position=0.1, mass=2.0, polar_inertia=0.01, diametral_inertia=0.006),
+        PointMass(position=0.9, mass=1.0),
+    )
     found = train(with_shaft(mass=3.0, centre_of_mass=0.5, inertia=0.02, transverse_inertia=0.25, masses=parts))
     assert found.mass[1] == 6.0
     assert found.centre_of_mass[1] == pytest.approx((0.2 + 0.9 + 1.5) / 6)
@@ -59,7 +62,7 @@ def test_what_a_shaft_carries_comes_on_top() -> None:
 
 def test_on_the_input_shaft_places_count_from_joint_1() -> None:
     body = (Segment(length=0.1, outer=0.03), Segment(length=0.1, outer=0.06))
-    found = train(with_shaft(number=1, segments=body, masses=(Lump(position=-0.2, mass=1.0),)))
+    found = train(with_shaft(number=1, segments=body, masses=(PointMass(position=-0.2, mass=1.0),)))
     one, other = 7850 * np.pi / 4 * 0.1 * np.asarray([0.03**2, 0.06**2])
     assert found.centre_of_mass[0] == pytest.approx(0.3 + (-0.15 * one - 0.05 * other - 0.2) / (one + other + 1.0))
     # The body begins 0.1 behind the input point, its second stretch 0.2.
@@ -96,9 +99,9 @@ def test_stretches_are_drawn_to_fit_between_the_joints() -> None:
         ({"segments": STEPS, "wall": 0.002}, ["shafts[1].wall"]),
         ({"wear_factor": 0.8}, ["shafts[1].wear_factor"]),
         ({"outer": 0.05, "wear_factor": 1.1}, ["shafts[1].wear_factor"]),
-        ({"masses": (Lump(position=0.1, mass=-1.0),)}, ["shafts[1].masses[0].mass"]),
-        ({"masses": (Lump(position=1.1, mass=1.0),)}, ["shafts[1].masses[0].position"]),
-        ({"number": 1, "masses": (Lump(position=0.1, mass=1.0),)}, ["shafts[0].masses[0].position"]),
+        ({"masses": (PointMass(position=0.1, mass=-1.0),)}, ["shafts[1].masses[0].mass"]),
+        ({"masses": (PointMass(position=1.1, mass=1.0),)}, ["shafts[1].masses[0].position"]),
+        ({"number": 1, "masses": (PointMass(position=0.1, mass=1.0),)}, ["shafts[0].masses[0].position"]),
     ],
 )
 def test_contradictions(keys: dict[str, object], found: list[str]) -> None:
@@ -106,7 +109,9 @@ def test_contradictions(keys: dict[str, object], found: list[str]) -> None:
 
 
 def test_files_keep_bodies() -> None:
-    drive = with_shaft(segments=STEPS, masses=(Lump(position=0.25, mass=1.5, polar_inertia=2e-3),), wear_factor=0.75)
+    drive = with_shaft(
+        segments=STEPS, masses=(PointMass(position=0.25, mass=1.5, polar_inertia=2e-3),), wear_factor=0.75
+    )
     for form in ("toml", "json"):
         assert loads(dumps(drive, form=form), form=form) == drive
 

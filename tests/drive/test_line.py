@@ -10,7 +10,6 @@ import pytest
 from cardan import Drive, InputError
 from cardan.drive.duty import Duty, Harmonic
 from cardan.drive.joints import Hooke
-from cardan.drive.line import shaft_places
 from cardan.drive.machine import (
     AsynchronousMachine,
     ConstantTorque,
@@ -22,6 +21,7 @@ from cardan.drive.machine import (
 )
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
+from cardan.drive.torsional_layout import shaft_places
 from cardan.units import deg
 
 DRIVE = Drive.from_angles([10 * deg, 12 * deg])

@@ -13,7 +13,7 @@ from cardan.catalogue.completion import completed, shortened
 from cardan.catalogue.rows import JointSize
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
-from cardan.drive.shaft import Lump, Shaft
+from cardan.drive.shaft import PointMass, Shaft
 from cardan.drive.support import Support
 from cardan.drive.yokes import unweighed, with_yokes, yoke_mass
 from cardan.questions.bending.balance import balance
@@ -58,7 +58,7 @@ def test_twice_is_once_and_what_a_file_says_stands():
     made = with_yokes(drive())
     assert with_yokes(made) == made
     assert with_yokes(drive(mass=4.0)).shafts[1].masses == ()
-    own = Lump(position=0.1, mass=0.9)
+    own = PointMass(position=0.1, mass=0.9)
     kept = with_yokes(drive(masses=(own,))).shafts[1].masses
     assert [lump.mass for lump in kept] == [0.9, pytest.approx(YOKE)]
     still = with_yokes(drive(inertia=0.01)).shafts[1].masses

@@ -179,7 +179,7 @@ def test_each_phase_polygon_starts_in_the_middle_and_ends_at_its_irregularity():
 
 
 def test_sides_of_the_polygon_are_hyperbolic_lines_of_the_joints_lengths():
-    from cardan.drive.models.chain import chain
+    from cardan.drive.models.kinematics_model import chain
 
     found = phases(SIX)
     joint_angle = chain(SIX).joint_angle

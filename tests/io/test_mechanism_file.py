@@ -38,7 +38,9 @@ def problems(text):
 
 
 def test_lengths_are_read_in_their_units():
-    found = loads_mechanism(HINGE.replace("axis =", "misfit_um = [0, 0, 0]\naxis =").replace("misfit_um", "misfit_mm"))
+    found = loads_mechanism(
+        HINGE.replace("axis =", "misalignment_um = [0, 0, 0]\naxis =").replace("misalignment_um", "misalignment_mm")
+    )
     assert found.joints[0].point == (0.0, 0.02, 0.0)
     screw = loads_mechanism(HINGE.replace('"R"', '"H"') + "pitch_mm_per_turn = 5\n")
     assert screw.joints[0].pitch == pytest.approx(5e-3 / 6.283185307179586)

@@ -31,7 +31,7 @@ from cardan.drive.machine import (
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Random, Spectrum, Table
 from cardan.drive.settings import Settings
-from cardan.drive.shaft import Lump, Shaft, Spline
+from cardan.drive.shaft import PointMass, Shaft, Spline
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
 from cardan.io import dumps, loads
@@ -177,7 +177,7 @@ def shafts(draw: st.DrawFn) -> Shaft:
             stiffness=st.floats(1.0, 1e6),
             spline=st.none() | splines,
             segments=st.just(()),
-            masses=st.lists(things(Lump, position=st.just(0.0)), max_size=2).map(tuple),
+            masses=st.lists(things(PointMass, position=st.just(0.0)), max_size=2).map(tuple),
             wear_factor=st.none(),
             **{name: st.none() for name in none},
         )

@@ -17,8 +17,8 @@ from cardan.register import QUESTIONS, groups
 from cardan.report import subject as subjects
 from cardan.report.answers import answered, subject, told
 from cardan.report.content import loaded, moved
-from cardan.report.lights import Applicable, lights, sentence, settings, synchronous, with_remedies
 from cardan.report.subject import Subject
+from cardan.report.verdict_list import Applicable, lights, sentence, settings, synchronous, with_remedies
 from cardan.units import deg
 
 SAME = {"forces", "losses", "accuracy", "life", "strength", "mobility", "assembly", "bending"}

@@ -298,7 +298,7 @@ def work_of(
 def _misfits(asked: DriveEvaluator, points: Points) -> Iterator[Problem]:
     """Yield fields that are given words where they hold numbers, and the like."""
     first = points.values(0, 1)
-    found = (spot.misfit(first[spot.path]) for spot in asked.spots)
+    found = (spot.problem(first[spot.path]) for spot in asked.spots)
     yield from (one for one in found if one is not None)
 
 

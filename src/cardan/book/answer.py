@@ -8,7 +8,7 @@ from cardan.answers.answer import Answer, Cell, Column, Table
 from cardan.answers.quantity import Quantity, say
 from cardan.answers.question import Lacking
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import unmapped
+from cardan.drive.models.kinematics_model import unmapped
 from cardan.questions.motion.equivalence import SYNCHRONOUS, each_uniform
 from cardan.texts import _
 

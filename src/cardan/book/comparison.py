@@ -11,7 +11,7 @@ from typing import Any, Literal, TypeAlias
 
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.kinematics_model import Chain
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real, unit_complex
 from cardan.questions.motion.equivalence import equivalent_joint

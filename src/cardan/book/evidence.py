@@ -8,8 +8,8 @@ import numpy as np
 
 from cardan.drive.bodies.solids import arms
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import Chain, chain
 from cardan.drive.models.geometry import Geometry, geometry
+from cardan.drive.models.kinematics_model import Chain, chain
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames
 from cardan.questions.motion.equivalence import equivalent_joint

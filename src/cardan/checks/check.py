@@ -10,7 +10,7 @@ from cardan.answers.question import Gathering
 from cardan.catalogue.provenance import unconfirmed
 from cardan.catalogue.rows import UNSURE, sureness
 from cardan.drive.joints import Joint
-from cardan.drive.models.chain import mixed, unmapped
+from cardan.drive.models.kinematics_model import mixed, unmapped
 from cardan.texts import _
 
 from .design import Design

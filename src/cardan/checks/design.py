@@ -18,8 +18,8 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.fields.paths import bare_path, place
-from cardan.drive.models.chain import Chain, given_chain, turning, unmapped
 from cardan.drive.models.geometry import geometry, geometry_from_points, points_from_angles
+from cardan.drive.models.kinematics_model import Chain, given_chain, turning, unmapped
 from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames
@@ -29,8 +29,8 @@ from cardan.questions.forces.turn_loads import TurnLoads, at_joint_angle
 from cardan.questions.motion.turning import Swing, swing
 from cardan.texts import _
 
-from .carried import largest_joint_angles, largest_of
-from .case import Case, largest
+from .load_case import Case, largest
+from .movement_loads import largest_joint_angles, largest_of
 
 _STEP = re.compile(r"([a-z_][a-z0-9_]*)((?:\[\d+\])*)$")
 _GEOMETRY = re.compile(

@@ -177,7 +177,7 @@ def _bare(shaft: Shaft, length: float | None) -> Weight:
     return Weight(mass, inertia, across, centre)
 
 
-class Softness(NamedTuple):
+class Compliance(NamedTuple):
     """How the stretches of a shaft give way, in order."""
 
     start: tuple[float, ...]
@@ -188,16 +188,16 @@ class Softness(NamedTuple):
     """1/EA [1/N]; zero where the body is not given."""
 
 
-def softness(shaft: Shaft, length: float | None) -> Softness:
+def softness(shaft: Shaft, length: float | None) -> Compliance:
     """Return how a shaft gives way along its length.
 
     length [m]: length of its body; one without stretches needs none.
     """
     body = pieces(shaft, 1.0 if length is None and shaft.outer is not None else length)
     if not body:
-        return Softness((-np.inf,), (0.0,), (0.0,))
+        return Compliance((-np.inf,), (0.0,), (0.0,))
     youngs = [one.material.youngs for one in body]
-    return Softness(
+    return Compliance(
         (-np.inf, *(one.start for one in body[1:])),
         tuple(1.0 / (e * one.second_moment) for e, one in zip(youngs, body, strict=True)),
         tuple(1.0 / (e * one.area) for e, one in zip(youngs, body, strict=True)),

@@ -16,8 +16,8 @@ from cardan.texts import _
 
 from .drive import Drive
 from .fields.validity import COINCIDENT
-from .models.chain import Chain, refuse_kinds, turning_chain
 from .models.geometry import geometry_from_points
+from .models.kinematics_model import Chain, refuse_kinds, turning_chain
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

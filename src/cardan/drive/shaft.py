@@ -85,7 +85,7 @@ class Segment:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Lump:
+class PointMass:
     """Yoke, flange or other part that a shaft carries, beside its body."""
 
     position: float = quantity(
@@ -145,7 +145,7 @@ class Shaft:
     segments: tuple[Segment, ...] = plain(
         (), doc="stretches of a stepped body from start to end, in place of `outer`; they add up to the shaft's length"
     )
-    masses: tuple[Lump, ...] = plain((), doc="yokes, flanges and other parts on the shaft, beside its body")
+    masses: tuple[PointMass, ...] = plain((), doc="yokes, flanges and other parts on the shaft, beside its body")
     wear_factor: float | None = plain(
         None,
         doc="critical speed of the real shaft over the computed one; 0.9 with a spline and 1 without when not given",

@@ -8,7 +8,7 @@ from .body import body_length
 from .drive import Drive
 from .fields.parts import known_lengths
 from .joints import Joint
-from .shaft import Lump, Shaft
+from .shaft import PointMass, Shaft
 
 BESIDE = 1.5
 """Spans of a joint within which a part that a shaft carries is taken for its yoke."""
@@ -73,7 +73,9 @@ def _carries(shaft: Shaft, joint: Joint, place: float | None) -> bool:
     )
 
 
-def _yoke(shaft: Shaft, joint: Joint, place: float, way: float, length: float | None, at_joint: bool) -> Lump | None:
+def _yoke(
+    shaft: Shaft, joint: Joint, place: float, way: float, length: float | None, at_joint: bool
+) -> PointMass | None:
     """Return the yoke of a joint on a shaft, None where the shaft says what it weighs there, or nothing does."""
     mass, span = yoke_mass(joint), joint.span or 0.0
     if not mass or _carries(shaft, joint, place):
@@ -81,4 +83,4 @@ def _yoke(shaft: Shaft, joint: Joint, place: float, way: float, length: float | 
     inset = 0.0 if at_joint else min(0.5 * span, span if length is None else 0.5 * length)
     turning = 0.0 if shaft.inertia is not None else mass * span**2 / 8.0
     across = 0.0 if shaft.transverse_inertia is not None else mass * span**2 * (1.0 / 16.0 + 1.0 / 12.0)
-    return Lump(position=place + way * inset, mass=mass, polar_inertia=turning, diametral_inertia=across)
+    return PointMass(position=place + way * inset, mass=mass, polar_inertia=turning, diametral_inertia=across)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 
-from cardan.drive.models.train import FIT
+from cardan.drive.models.dynamics_model import FIT
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
-from cardan.maths.curves.over_turn import mean_between
+from cardan.maths.curves.cycle_statistics import mean_between
 from cardan.maths.kernel.elliptic import complete
 from cardan.texts import _
 

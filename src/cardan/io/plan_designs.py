@@ -65,7 +65,7 @@ class Search:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Owing:
+class SensitivityPlan:
     """``[sensitivity]``: which share of the variance of answers each field brings about."""
 
     ask: DriveEvaluator  # what answers over the fields that the plan draws from distributions
@@ -112,7 +112,7 @@ class Following:
         )
 
 
-Design: TypeAlias = Search | Owing | Following
+Design: TypeAlias = Search | SensitivityPlan | Following
 
 
 def design_of(plan: Plan, name: str) -> Design:
@@ -171,7 +171,7 @@ def _start(ask: DriveEvaluator, bounds: tuple[tuple[float, float], ...], given: 
     return tuple(found)
 
 
-def _owing(plan: Plan, table: Table) -> Owing | None:
+def _owing(plan: Plan, table: Table) -> SensitivityPlan | None:
     drawn = next((axis for axis in plan.axes if isinstance(axis, SampledAxis)), None)
     if drawn is None:
         table.refuse("", _("needs a [[vary]] with design and fields: how they are distributed"))
@@ -185,7 +185,7 @@ def _owing(plan: Plan, table: Table) -> Owing | None:
     ask = _asked(plan, table, tuple(drawn.distributions))
     if ask is None:
         return None
-    return Owing(
+    return SensitivityPlan(
         ask=ask,
         spread=tuple(drawn.distributions.values()),
         answers=answers,
@@ -250,7 +250,7 @@ def _between(plan: Plan, table: Table) -> tuple[DriveEvaluator | None, tuple[tup
             continue
         bounds.append((float(pair[0]), float(pair[1])))
     ask = _asked(plan, table, tuple(given))
-    misfits = [] if ask is None else [spot.misfit(np.zeros(1)) for spot in ask.spots]
+    misfits = [] if ask is None else [spot.problem(np.zeros(1)) for spot in ask.spots]
     table.problems += [Problem(f'{table.at("between")}."{one.field}"', one.message) for one in misfits if one]
     return (ask, tuple(bounds)) if len(bounds) == len(given) else (None, ())
 

@@ -22,7 +22,7 @@ from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
 from cardan.drive.pose import Pose
 from cardan.drive.settings import Settings
-from cardan.drive.shaft import Layup, Lump, Notch, Ply, Segment, Shaft, Spline, Unbalance
+from cardan.drive.shaft import Layup, Notch, Ply, PointMass, Segment, Shaft, Spline, Unbalance
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
 from cardan.mechanism.mechanism import Mechanism, Pair
@@ -182,7 +182,7 @@ def sections() -> tuple[tuple[str, type], ...]:
         ("`[[shafts]]`", Shaft),
         ("`material`", Material),
         ("`segments` of a shaft", Segment),
-        ("`masses` of a shaft", Lump),
+        ("`masses` of a shaft", PointMass),
         ("`spline` of a shaft", Spline),
         ("`notch` of a shaft", Notch),
         ("`layup` of a shaft", Layup),

@@ -214,8 +214,8 @@ class Pair:
     axis: Point | None = plain(None, doc="its axis, or the normal of its plane; any length [x, y, z]")
     axis2: Point | None = plain(None, doc="second axis of a universal pair, axis of the cylinder on a plane [x, y, z]")
     pitch: float | None = quantity("pitch", None, doc="lead of a helical pair, right-handed positive")
-    misfit: Point = quantity("length", (0.0, 0.0, 0.0), doc="how far its second half is off as built [x, y, z]")
-    misfit_turn: Point = quantity("angle", (0.0, 0.0, 0.0), doc="how far its second half is turned off [x, y, z]")
+    misalignment: Point = quantity("length", (0.0, 0.0, 0.0), doc="how far its second half is off as built [x, y, z]")
+    misalignment_turn: Point = quantity("angle", (0.0, 0.0, 0.0), doc="how far its second half is turned off [x, y, z]")
 
     @property
     def kind(self) -> Kind:

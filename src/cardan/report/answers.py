@@ -17,8 +17,8 @@ from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.keys import key_of
-from cardan.drive.models.chain import unmapped
 from cardan.drive.models.geometry import Geometry, geometry
+from cardan.drive.models.kinematics_model import unmapped
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.questions.gathering import gather, principal

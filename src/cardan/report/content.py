@@ -14,7 +14,7 @@ from cardan.catalogue import Catalogue
 from cardan.drive.bodies.solids import Solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.chain import unmapped
+from cardan.drive.models.kinematics_model import unmapped
 from cardan.errors import InputError
 from cardan.figures import Figure
 from cardan.figures.drive import space_figure

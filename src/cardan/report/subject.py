@@ -14,8 +14,8 @@ from cardan.catalogue import Catalogue
 from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.chain import Chain, as_hooke, mixed, turning_chain
 from cardan.drive.models.geometry import Geometry, geometry
+from cardan.drive.models.kinematics_model import Chain, as_hooke, mixed, turning_chain
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.questions.motion.articulation import Articulation, articulation

@@ -19,8 +19,8 @@ from cardan.drive.bodies.assembly import FRAMES, assembled, extent, turns
 from cardan.drive.bodies.build import Build, Solid
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import pose_drives
-from cardan.drive.models.chain import mixed
 from cardan.drive.models.geometry import geometry
+from cardan.drive.models.kinematics_model import mixed
 from cardan.drive.models.machine_held import machine_held
 from cardan.drive.shapes import floor_frame
 from cardan.errors import InputError, refuse

@@ -13,7 +13,7 @@ from cardan.batch.search.boundary import boundary
 from cardan.batch.search.goals import Goal, Limit
 from cardan.batch.search.optimise import Global, optimise
 from cardan.batch.search.pareto import pareto, pareto_search
-from cardan.batch.search.sobol import sensitivity, swings
+from cardan.batch.search.sobol import one_at_a_time, sensitivity
 from cardan.batch.table.views import Ranks
 from cardan.figures.figure import Bars, Cells, Curve, Note, Rule
 from cardan.figures.render_plotly import described
@@ -111,7 +111,7 @@ def test_whom_the_spread_is_owed_to():
 
 
 def test_one_field_at_a_time():
-    found = swings(SUM, [0.0] * 3, [-1.0] * 3, [1.0] * 3)
+    found = one_at_a_time(SUM, [0.0] * 3, [-1.0] * 3, [1.0] * 3)
     figure = drawn(figures.for_result(found)[0])
     low, high = of(figure, Bars)
     np.testing.assert_array_equal(low.size, [0.0, -1.0, -3.0])

@@ -7,7 +7,7 @@ import pytest
 
 from cardan.batch.answering.asking import Formula
 from cardan.batch.points.distributions import Uniform
-from cardan.batch.search.sobol import RESAMPLES, _design, sensitivity, swings
+from cardan.batch.search.sobol import RESAMPLES, _design, one_at_a_time, sensitivity
 from cardan.errors import InputError
 
 A, B = 7.0, 0.1
@@ -116,7 +116,7 @@ def test_more_samples_than_memory_holds_are_refused():
 
 
 def test_one_at_a_time():
-    found = swings(ISHIGAMI, [0.0, 0.0, 0.0], [-1.0, -1.0, -1.0], [1.0, 2.0, 1.0])
+    found = one_at_a_time(ISHIGAMI, [0.0, 0.0, 0.0], [-1.0, -1.0, -1.0], [1.0, 2.0, 1.0])
     np.testing.assert_allclose(found.at_high[0], [math.sin(1.0), 7.0 * math.sin(2.0) ** 2, 0.0])
     np.testing.assert_allclose(found.at_low[2], [-2.0, -1.0, 0.0])
     np.testing.assert_allclose(found.middle, [0.0, 2.0, 0.0])

@@ -15,8 +15,8 @@ from cardan.drive.duty import Block, Duty, Harmonic, History, Limits
 from cardan.drive.joint_parts import Needles, Section, Yoke
 from cardan.drive.joints import Hooke
 from cardan.drive.material import Material
-from cardan.drive.models.chain import chain
-from cardan.drive.shaft import Layup, Lump, Notch, Ply, Segment, Shaft, Spline
+from cardan.drive.models.kinematics_model import chain
+from cardan.drive.shaft import Layup, Notch, Ply, PointMass, Segment, Shaft, Spline
 from cardan.maths.kernel import mobius
 from cardan.questions.forces.turn_loads import turn_loads
 from cardan.units import deg, mm, rpm
@@ -248,7 +248,7 @@ def test_a_wall_buckles_as_timoshenko_has_it():
 
 
 def test_weight_bends_a_tube_as_handbooks_have_it():
-    tube = Shaft(number=2, outer=80 * mm, wall=3 * mm, length=2.0, masses=(Lump(position=0.5, mass=4.0),))
+    tube = Shaft(number=2, outer=80 * mm, wall=3 * mm, length=2.0, masses=(PointMass(position=0.5, mass=4.0),))
     drive = replace(Drive.from_angles([0.1, 0.1]), shafts=(tube,))
     line = 7850.0 * math.pi / 4 * (0.08**2 - 0.074**2) * 9.80665
     at = np.linspace(0, 2, 200_001)

@@ -7,8 +7,8 @@ import pytest
 
 from cardan.drive.bodies.solids import arms, solids
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import chain
 from cardan.drive.models.geometry import geometry
+from cardan.drive.models.kinematics_model import chain
 from cardan.maths.kernel import frames
 from cardan.questions.motion.motion import initial_phases, motion
 from cardan.units import deg

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from cardan import Drive, InputError
 from cardan.drive.joints import Hooke
-from cardan.drive.models.chain import chain
 from cardan.drive.models.geometry import geometry, geometry_from_points, points_from_angles
+from cardan.drive.models.kinematics_model import chain
 from cardan.drive.shaft import Shaft
 from cardan.errors import JointAngleLimitError
 from cardan.units import deg

@@ -28,8 +28,8 @@ from cardan.drive.joints import (
     Tripod,
     Weiss,
 )
-from cardan.drive.models.chain import NEGLIGIBLE, chain, given_chain, left_over, turning_chain
 from cardan.drive.models.geometry import geometry
+from cardan.drive.models.kinematics_model import NEGLIGIBLE, chain, given_chain, left_over, turning_chain
 from cardan.drive.shaft import Shaft
 from cardan.errors import InputError
 from cardan.questions.motion.equivalence import equivalent_joint

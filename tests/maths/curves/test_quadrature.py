@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from cardan.maths.curves.over_turn import mean_between
+from cardan.maths.curves.cycle_statistics import mean_between
 
 
 def test_kinks_do_not_spoil_the_mean():

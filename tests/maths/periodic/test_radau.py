@@ -25,7 +25,7 @@ class Falling:
         return self.residual(time, y, slope), self.rate * one, one
 
 
-class Held:
+class Determinacy:
     """x' = -x + z beside z + 0.1 z³ = x cos t, which holds no derivative."""
 
     def residual(self, time: np.ndarray, y: np.ndarray, slope: np.ndarray) -> np.ndarray:
@@ -75,7 +75,7 @@ def test_unknowns_without_a_derivative_of_their_own() -> None:
     wanted = solve_ivp(
         lambda t, y: [-y[0] + other(t, y[0])], (0.0, 3.0), [2.0], method="DOP853", rtol=1e-12, atol=1e-13
     )
-    radau = Radau(Held(), 0.0, [2.0, other(0.0, 2.0)], 3.0, scale=lambda y: 1e-8 * (1.0 + np.abs(y)), first=1e-2)
+    radau = Radau(Determinacy(), 0.0, [2.0, other(0.0, 2.0)], 3.0, scale=lambda y: 1e-8 * (1.0 + np.abs(y)), first=1e-2)
     ended(radau, 3.0)
     assert radau.y[0] == pytest.approx(wanted.y[0, -1], abs=1e-11)
     assert radau.y[1] == pytest.approx(other(3.0, radau.y[0]), abs=1e-11)

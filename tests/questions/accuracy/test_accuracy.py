@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from cardan import Drive, InputError, motion
 from cardan.drive.accuracy import Error
 from cardan.drive.joints import Hooke
-from cardan.drive.models.chain import Chain, chain
+from cardan.drive.models.kinematics_model import Chain, chain
 from cardan.drive.support import Support
 from cardan.questions.accuracy.accuracy import TURNS, WAYS, course, one_turn, sensitivity, transmission_error
 from cardan.sweeps import Drives

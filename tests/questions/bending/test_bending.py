@@ -12,7 +12,7 @@ from cardan.book.stepped import Node, stepped_speeds
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
 from cardan.drive.material import Material
-from cardan.drive.shaft import Lump, Segment, Shaft, Spline
+from cardan.drive.shaft import PointMass, Segment, Shaft, Spline
 from cardan.drive.support import Support
 from cardan.formulas.critical_speed import speed_margin, uniform_speed
 from cardan.maths.linear.rotor_beams import round_section
@@ -44,7 +44,7 @@ def two_piece(**keys):
     return replace(
         drive,
         joints=joints,
-        shafts=(Shaft(number=2, masses=(Lump(position=0.7, mass=1.0),), **tube), Shaft(number=3, **tube)),
+        shafts=(Shaft(number=2, masses=(PointMass(position=0.7, mass=1.0),), **tube), Shaft(number=3, **tube)),
         supports=(Support(shaft=2, position=0.7, stiffness=2e5),),
         **keys,
     )
@@ -92,7 +92,7 @@ def test_end_shafts_with_bearings_belong_to_the_line():
                     Segment(length=0.25, outer=0.05, material=STEEL),
                     Segment(length=0.1, outer=0.07, material=STEEL),
                 ),
-                masses=(Lump(position=0.0, mass=2.0, polar_inertia=0.004, diametral_inertia=0.003),),
+                masses=(PointMass(position=0.0, mass=2.0, polar_inertia=0.004, diametral_inertia=0.003),),
             ),
             Shaft(number=2, **TUBE),
         ),
@@ -281,7 +281,7 @@ def test_a_map_over_length_moves_what_stands_on_the_shaft():
     longer = replace(
         line_of(1.2, 0.9),
         joints=tuple(replace(b, cross=a.cross) for a, b in zip(drive.joints, line_of(1.2, 0.9).joints, strict=True)),
-        shafts=(replace(drive.shafts[1], masses=(Lump(position=1.05, mass=1.0),)), drive.shafts[2]),
+        shafts=(replace(drive.shafts[1], masses=(PointMass(position=1.05, mass=1.0),)), drive.shafts[2]),
         supports=(replace(drive.supports[0], position=1.05),),
     )
     np.testing.assert_allclose(found.speed[1], bending_speeds(longer).speed, rtol=1e-3)

@@ -10,7 +10,7 @@ from cardan import Drive, InputError
 from cardan.drive.body import weight
 from cardan.drive.crack import ShaftCrack
 from cardan.drive.machine import RunUp
-from cardan.drive.shaft import Lump, Shaft, Unbalance
+from cardan.drive.shaft import PointMass, Shaft, Unbalance
 from cardan.io import example
 from cardan.questions.bending.cracked_rotor import cracked_rotor
 from cardan.questions.bending.rotor import joined_rotors, rotor, rotor_response, rotor_run
@@ -52,7 +52,7 @@ def test_unbalances_count_by_where_they_sit_and_look():
 
 @pytest.mark.slow
 def test_a_lump_amid_the_shaft_adds_its_whole_mass():
-    lump = Lump(position=0.5 * LENGTH, mass=3.0)
+    lump = PointMass(position=0.5 * LENGTH, mass=3.0)
     bare, laden = rotor(beam()), rotor(beam(masses=(lump,)))
     assert laden.mass == pytest.approx(bare.mass + 3.0, rel=1e-2)  # the shape moves a little
     assert laden.stiffness == pytest.approx(bare.stiffness, rel=1e-2)

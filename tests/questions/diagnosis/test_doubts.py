@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from cardan.io import example
+from cardan.questions.diagnosis.drive_model import plant
 from cardan.questions.diagnosis.features import FAR, MISFIT, PLACELESS, SIZELESS, doubts
-from cardan.questions.diagnosis.plant import plant
 from cardan.questions.diagnosis.signals.signal import Signal
 from cardan.questions.diagnosis.signals.turning import estimate_rotation
 from cardan.questions.diagnosis.simulate import TestSchedule, simulate_fault

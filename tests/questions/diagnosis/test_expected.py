@@ -6,8 +6,8 @@ import pytest
 from cardan import Drive, InputError, equivalent_joint
 from cardan.io import example
 from cardan.questions.bending.cracked_rotor import Crack, cracked_rotor
+from cardan.questions.diagnosis.drive_model import plant
 from cardan.questions.diagnosis.expected import FAULTS, LOSSES, expected_orders
-from cardan.questions.diagnosis.plant import plant
 from cardan.units import deg
 
 

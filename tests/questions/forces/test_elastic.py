@@ -6,10 +6,10 @@ import pytest
 from cardan import assembly, example, forces
 from cardan.drive.accuracy import Error
 from cardan.drive.duty import Duty
-from cardan.drive.models.train import train, train_of_points
+from cardan.drive.models.dynamics_model import train, train_of_points
 from cardan.drive.shaft import Segment
 from cardan.questions.forces.forces import kinetostatics
-from cardan.questions.forces.reactions import Held
+from cardan.questions.forces.reactions import Determinacy
 
 PUMP = example("overconstrained-pump")
 FITTING = replace(
@@ -25,7 +25,7 @@ def test_torque_and_misfit_add():
     largest = np.max(np.abs(whole.reaction))
     np.testing.assert_allclose(whole.reaction, loaded.reaction + alone.reaction, atol=1e-11 * largest)
     np.testing.assert_allclose(whole.joint_force, loaded.joint_force + alone.joint_force, atol=1e-11 * largest)
-    assert int(whole.status) == Held.INDETERMINATE
+    assert int(whole.status) == Determinacy.INDETERMINATE
 
 
 def test_what_is_determinate_does_not_care_for_misfit():

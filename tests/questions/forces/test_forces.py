@@ -14,15 +14,15 @@ from cardan.book.joint_forces import double_joint_forces, single_joint_forces
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty, Harmonic
 from cardan.drive.joints import Hooke
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.dynamics_model import Train, spline_grip, train, train_of_points
 from cardan.drive.models.geometry import points_from_angles
-from cardan.drive.models.train import Train, spline_grip, train, train_of_points
+from cardan.drive.models.kinematics_model import Chain
 from cardan.drive.settings import Settings
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.support import Support
 from cardan.maths.kernel import frames
 from cardan.questions.forces.forces import kinetostatics
-from cardan.questions.forces.reactions import Held
+from cardan.questions.forces.reactions import Determinacy
 from cardan.questions.losses.chain_friction import chain_friction
 from cardan.units import deg
 from tests.builders.trains import one, shaft_rests, trains
@@ -223,7 +223,7 @@ def test_a_free_spline_leaves_the_pair_of_forces_of_the_double_joint() -> None:
     np.testing.assert_allclose(size[1], closed.pair_force, atol=1e-9)
     np.testing.assert_allclose(np.abs(free.axial[0]), closed.first_axial, atol=1e-9)
     np.testing.assert_allclose(np.abs(free.axial[3]), closed.last_axial, atol=1e-9)
-    assert free.status == fixed.status == Held.DETERMINATE
+    assert free.status == fixed.status == Determinacy.DETERMINATE
     e2, e3 = free.axis[1, 0], free.axis[2, 0]
     pair = fixed.joint_force[1] - (fixed.joint_force[1] @ e2)[:, None] * e2
     np.testing.assert_allclose(fixed.joint_force[1] @ e2, -(pair @ e3) / (e2 @ e3), atol=1e-9)
@@ -412,7 +412,7 @@ def test_a_loose_drive_in_a_batch_has_a_status() -> None:
     place = many.position.copy()
     place[1, 1] = place[1, 0]
     found = kinetostatics(replace(many, position=place), ANGLE, torque=100.0)
-    assert found.status.tolist() == [Held.DETERMINATE, Held.LOOSE, Held.DETERMINATE]
+    assert found.status.tolist() == [Determinacy.DETERMINATE, Determinacy.LOOSE, Determinacy.DETERMINATE]
     assert np.isnan(found.reaction[1]).all()
     assert np.isfinite(found.reaction[[0, 2]]).all()
     assert np.isfinite(found.shaft_torque).all()

@@ -13,9 +13,9 @@ from cardan.checks import check
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Duty, Harmonic
 from cardan.drive.joints import Hooke
-from cardan.drive.models.chain import given_chain
+from cardan.drive.models.dynamics_model import train_of_points
 from cardan.drive.models.geometry import points_from_angles
-from cardan.drive.models.train import train_of_points
+from cardan.drive.models.kinematics_model import given_chain
 from cardan.drive.shaft import Shaft
 from cardan.questions.forces.answer import answer, ask
 from cardan.questions.forces.forces import forces, kinetostatics

@@ -110,7 +110,7 @@ def test_the_couple_of_a_constant_velocity_joint_halves_the_angle_of_its_shafts(
 
 def test_a_joint_that_turns_as_a_cross_carries_as_one():
     """A double joint bent at its first cross only is a Hooke joint; a law of the same map gives the same couples."""
-    from cardan.drive.models.chain import Chain, alike
+    from cardan.drive.models.kinematics_model import Chain, alike
     from cardan.questions.forces.kinetostatics import kind_arms
     from cardan.questions.motion.motion import motion
 

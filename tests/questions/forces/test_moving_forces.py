@@ -15,7 +15,7 @@ from cardan.drive.models.geometry import geometry
 from cardan.drive.movement import Harmonic as Swing
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.support import Support
-from cardan.questions.forces.kinetostatics import parallel_ends, swing_couple
+from cardan.questions.forces.kinetostatics import gyroscopic_couple, parallel_ends
 from cardan.questions.motion.moving_chain import moving_centres
 from cardan.questions.motion.moving_points import moving_path
 
@@ -146,7 +146,7 @@ def test_the_couple_of_a_swinging_shaft_is_the_rate_of_its_momentum() -> None:
 
     axes, spins = parallel_ends(joint_angle(0.05), 6.7, speed=120.0, yoke_angle=0.3)
     middle = axes[0][1], axes[1][1], axes[2][1]
-    found = swing_couple(middle, spins.spin[1], 0.02, 0.4)
+    found = gyroscopic_couple(middle, spins.spin[1], 0.02, 0.4)
     h = 1e-4
     rate = (momentum(0.05 - 2 * h) - 8 * momentum(0.05 - h) + 8 * momentum(0.05 + h) - momentum(0.05 + 2 * h)) / (
         12 * h

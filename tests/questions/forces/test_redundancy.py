@@ -3,7 +3,7 @@ import pytest
 
 from cardan import InputError
 from cardan.questions.forces.elastic import redundancy
-from cardan.questions.forces.held import Layout, actions, balance
+from cardan.questions.forces.support_statics import Layout, actions, balance
 
 AXIS = np.asarray([[1.0, 0, 0], [0.8, 0.6, 0], [0.8, 0.0, 0.6]])
 

@@ -9,8 +9,8 @@ from cardan import Drive, example
 from cardan.drive.cross import Cross
 from cardan.drive.joints import Hooke
 from cardan.drive.support import Support
-from cardan.questions.forces.held import Layout, actions, balance
 from cardan.questions.forces.reactions import reaction_groups, solving_order
+from cardan.questions.forces.support_statics import Layout, actions, balance
 
 FULL, SIDE, ALONG = ("radial", "axial"), ("radial",), ("axial",)
 RNG = np.random.default_rng(5)

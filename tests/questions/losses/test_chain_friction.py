@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cardan import Drive, InputError, motion
-from cardan.drive.models.chain import chain
+from cardan.drive.models.kinematics_model import chain
 from cardan.formulas.friction import Turning, joint_friction
 from cardan.questions.losses.chain_friction import chain_friction, kinks, stance
 from cardan.sweeps import Drives, stack

@@ -5,7 +5,7 @@ import pytest
 
 from cardan import Drive, motion
 from cardan.drive.cross import Cross
-from cardan.drive.models.train import train
+from cardan.drive.models.dynamics_model import train
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.support import Support
 from cardan.questions.forces.forces import kinetostatics

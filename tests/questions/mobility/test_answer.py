@@ -67,7 +67,7 @@ def test_remedies_name_the_keys_of_the_file():
 def test_readers_are_told_in_their_units_and_language():
     found = mobility(PUMP)
     said = data(answer(PUMP, found), INCHES)
-    assert said["misalignment_in"] == pytest.approx(found.misfit / 0.0254)
+    assert said["misalignment_in"] == pytest.approx(found.misalignment / 0.0254)
     assert said["remedies"][0]["redundant_after"] == 0
     warning = next(one["text"] for one in said["remarks"] if "do not fit" in one["text"])
     assert "0,00175 in have to be forced into place" in warning

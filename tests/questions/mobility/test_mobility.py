@@ -153,40 +153,40 @@ def test_local_and_parasitic_motions_are_told_apart():
 
 
 def test_misfit_strains_what_it_cannot_move():
-    def off(mechanism, joint, **misfit):
+    def off(mechanism, joint, **misalignment):
         k = mechanism.index(joint)
         joints = list(mechanism.joints)
-        joints[k] = replace(joints[k], **misfit)
+        joints[k] = replace(joints[k], **misalignment)
         return mobility(replace(mechanism, joints=tuple(joints)))
 
-    loose = off(hooke(kinds="RRRSG"), "D", misfit=(1e-3, 2e-3, 0.0))
-    assert loose.misfit == 0.0
-    held = off(hooke(), "D", misfit=(0.0, 1e-3, 0.0))
-    assert held.misfit > 0.0
-    assert held.joints[3].misfit == pytest.approx(held.misfit)
+    loose = off(hooke(kinds="RRRSG"), "D", misalignment=(1e-3, 2e-3, 0.0))
+    assert loose.misalignment == 0.0
+    held = off(hooke(), "D", misalignment=(0.0, 1e-3, 0.0))
+    assert held.misalignment > 0.0
+    assert held.joints[3].misalignment == pytest.approx(held.misalignment)
     # A displacement that the hinge leaves free is no misfit at all.
-    turned = off(hooke(), "D", misfit_turn=row(1e-3 * np.asarray(hooke().joints[3].axis)))
-    assert turned.misfit == 0.0
+    turned = off(hooke(), "D", misalignment_turn=row(1e-3 * np.asarray(hooke().joints[3].axis)))
+    assert turned.misalignment == 0.0
 
 
 def test_misfit_is_what_no_small_motion_takes_up():
     rng = np.random.default_rng(5)
     base = hooke()
     joints = tuple(
-        replace(one, misfit=row(1e-3 * rng.normal(size=3)), misfit_turn=row(1e-3 * rng.normal(size=3)))
+        replace(one, misalignment=row(1e-3 * rng.normal(size=3)), misalignment_turn=row(1e-3 * rng.normal(size=3)))
         for one in base.joints
     )
     found = mobility(replace(base, joints=joints))
     system = constraints(base)
     gaps = []
     for one, held in zip(joints, system.wrenches, strict=True):
-        turn = np.asarray(one.misfit_turn)
-        shift = np.asarray(one.misfit) / system.size + np.cross(system.place(one.point), turn)
+        turn = np.asarray(one.misalignment_turn)
+        shift = np.asarray(one.misalignment) / system.size + np.cross(system.place(one.point), turn)
         gaps.append(held @ np.concatenate((turn, shift)))
     gap = np.concatenate(gaps)
     matrix = system.matrix()
     rest = gap - matrix @ np.linalg.lstsq(matrix, gap, rcond=1e-9)[0]
-    assert found.misfit == pytest.approx(np.linalg.norm(rest) * system.size, rel=1e-9)
+    assert found.misalignment == pytest.approx(np.linalg.norm(rest) * system.size, rel=1e-9)
 
 
 def test_motions_leave_every_joint_whole():

@@ -4,8 +4,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cardan import InputError
+from cardan.questions.mobility.constraint_release import release
 from cardan.questions.mobility.mobility import mobility
-from cardan.questions.mobility.repair import release
 from tests.builders.mechanisms import anyhow, hooke
 
 

@@ -6,7 +6,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from cardan import Drive, equivalent_joint, motion
-from cardan.drive.models.chain import chain
+from cardan.drive.models.kinematics_model import chain
 from cardan.maths.kernel.frames import rotate
 from cardan.questions.motion.equivalence import SYNCHRONOUS, angle_of_largest_acceleration, largest_acceleration
 from cardan.questions.motion.extremes import extremes

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError, phases
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.kinematics_model import Chain
 from cardan.questions.phases.batch import synchronous_yokes
 from cardan.sweeps import Drives, stack
 from tests.builders import closing

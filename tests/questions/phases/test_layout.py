@@ -117,7 +117,7 @@ def test_two_joints_with_held_yokes_are_brought_to_the_twist_that_suits_them(gam
     # x.
     start, here, _moved, end = found.points
 
-    def misfit(side, x):
+    def misalignment(side, x):
         line = np.stack((start, here, (x, *side), end))
         (one, two), axes = joint_angles(line), np.diff(line, axis=0)
         normals = np.cross(axes[:-1], axes[1:])
@@ -125,7 +125,7 @@ def test_two_joints_with_held_yokes_are_brought_to_the_twist_that_suits_them(gam
         return one - two, np.sin(np.arctan2(across, normals[0] @ normals[1]) + gamma)
 
     for x in found.points[2, 0] + np.linspace(-0.02, 0.02, 9):
-        side, _info, solved, _text = fsolve(misfit, found.points[2, 1:], (x,), full_output=True, xtol=1e-12)
+        side, _info, solved, _text = fsolve(misalignment, found.points[2, 1:], (x,), full_output=True, xtol=1e-12)
         inside = abs(x - 1.0) <= 0.5 and abs(side[0] - 0.1) <= 0.3 and abs(side[1] - 0.1) <= 0.3
         if solved == 1 and inside:
             line = np.stack((start, here, (x, *side), end))

@@ -12,7 +12,7 @@ import pytest
 from cardan.figures.figure import Curve, Figure, Panel, Row
 from cardan.report.block import Block, Cell, Column, Page, Picture, Points, Table, Words, number, words
 from cardan.report.content import Excerpt
-from cardan.report.render.paper import LINE, PAPER, headed
+from cardan.report.render.sheet import LINE, PAPER, headed
 from cardan.report.render.workbook import excerpt
 
 from .test_workbook import opened

@@ -18,7 +18,7 @@ from cardan.io.edit import edit
 from cardan.register import QUESTIONS, groups
 from cardan.report.answers import subject
 from cardan.report.block import Page
-from cardan.report.lights import Applicable, settings
+from cardan.report.verdict_list import Applicable, settings
 from cardan.texts import _, speaking
 
 from . import widgets

@@ -14,7 +14,7 @@ from cardan.app.state.work import REMEDIES, VERDICTS, result
 from cardan.errors import CardanError
 from cardan.report.answers import subject
 from cardan.report.block import SIGNS
-from cardan.report.lights import MOST, Applicable, Light, sentence, synchronous
+from cardan.report.verdict_list import MOST, Applicable, Light, sentence, synchronous
 from cardan.texts import _
 
 from .answers import applied

@@ -19,10 +19,10 @@ from cardan.report.answers import answered, subject
 from cardan.report.block import Page
 from cardan.report.compare import Variant, compared
 from cardan.report.content import content
-from cardan.report.lights import Light, lights, with_remedies
 from cardan.report.recorded import Recorded
 from cardan.report.render.exports import Exported, exported
 from cardan.report.render.renderer import renderer_for
+from cardan.report.verdict_list import Light, lights, with_remedies
 from cardan.texts import _, speaking
 
 from . import recordings

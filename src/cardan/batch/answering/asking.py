@@ -11,11 +11,11 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
-from cardan.batch.points.fields import TEXT_STATUS, Maker, Spot, spots_of
+from cardan.batch.points.fields import TEXT_STATUS, Maker, VaryingField, spots_of
 from cardan.batch.work import STATUS, Column, Rows, Status
 from cardan.catalogue import Catalogue, catalogue
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import mixed, unmapped
+from cardan.drive.models.kinematics_model import mixed, unmapped
 from cardan.errors import CardanError, InputError, MissingExtraError, Problem, check
 from cardan.later import later
 from cardan.maths.arrays import Array
@@ -109,7 +109,7 @@ class DriveEvaluator:
     """
 
     drive: Drive
-    spots: tuple[Spot, ...]
+    spots: tuple[VaryingField, ...]
     questions: tuple[str, ...]
     known: Catalogue = field(default_factory=catalogue)
     device: Device = "cpu"
@@ -294,7 +294,7 @@ def evaluator(
     (array([14.05239431,         nan]), array([0, 1], dtype=int8))
     """
     problems: list[Problem] = []
-    spots: tuple[Spot, ...] = ()
+    spots: tuple[VaryingField, ...] = ()
     named: tuple[SweepQuestion, ...] = ()
     try:
         spots = spots_of(drive, paths)

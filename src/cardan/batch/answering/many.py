@@ -12,8 +12,8 @@ import numpy as np
 from cardan.checks.angles.acceleration import swings
 from cardan.drive.drive import Drive
 from cardan.drive.fields.validity import COINCIDENT, TINY, axis_points
-from cardan.drive.models.chain import Chain, given_chain, mixed, turning, unmapped
 from cardan.drive.models.geometry import Number, Vector, columns, geometry, polyline, table
+from cardan.drive.models.kinematics_model import Chain, given_chain, mixed, turning, unmapped
 from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.method import Method
@@ -75,7 +75,7 @@ class Many:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Seen(Many):
+class FollowedDrive(Many):
     """One drive with joints that turn by laws of their own, as its motion over a turn shows it; n = 1."""
 
     seen: Swing
@@ -109,7 +109,7 @@ def one(drive: Drive) -> Many:
         given, **{f: getattr(given, f)[None] for f in ("joint_angle", "plane_twist", "yoke_angle", "start_phase")}
     )
     place = geometry(drive)
-    return Seen(
+    return FollowedDrive(
         chain=rows,
         joint_angle=rows.joint_angle,
         length=place.length[None] if drive.form == "points" else None,

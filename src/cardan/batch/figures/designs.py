@@ -10,7 +10,7 @@ from cardan.answers.reader import significant
 from cardan.batch.search.boundary import Boundary
 from cardan.batch.search.optimise import Optimum
 from cardan.batch.search.pareto import ParetoSet
-from cardan.batch.search.sobol import Sensitivity, Swings
+from cardan.batch.search.sobol import OneAtATime, Sensitivity
 from cardan.batch.table.views import Ranks
 from cardan.batch.work import Column
 from cardan.figures.axes import axis
@@ -97,12 +97,12 @@ def _owed(found: Sensitivity, answer: int) -> str:
     return said + "."
 
 
-def swings_figures(found: Swings) -> tuple[Figure, ...]:
+def one_at_a_time_figures(found: OneAtATime) -> tuple[Figure, ...]:
     """Return a figure for each answer: how far each field alone moves it."""
-    return tuple(swings_figure(found, k) for k in range(len(found.answers)))
+    return tuple(one_at_a_time_figure(found, k) for k in range(len(found.answers)))
 
 
-def swings_figure(found: Swings, answer: int = 0) -> Figure:
+def one_at_a_time_figure(found: OneAtATime, answer: int = 0) -> Figure:
     """Return how far one answer moves when one field at a time goes from end to end, the farthest on top.
 
     found: of one drive.

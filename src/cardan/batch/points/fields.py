@@ -27,7 +27,7 @@ _MOTION = re.compile(
 
 
 @dataclass(frozen=True, kw_only=True)
-class Spot:
+class VaryingField:
     """A field that varies."""
 
     path: str  # with its unit, as in the drive file
@@ -66,7 +66,7 @@ class Spot:
             return np.ones(values.shape, dtype=bool)
         return np.asarray([in_range(key, one) for one in values.tolist()], dtype=bool)
 
-    def misfit(self, values: Array) -> Problem | None:
+    def problem(self, values: Array) -> Problem | None:
         """Return why a column (n,) cannot vary this field: words where numbers stand, and the like."""
         kind = self.there.field.type
         for _step in range(self.there.inside):
@@ -94,14 +94,14 @@ class Spot:
         return one
 
 
-def spots_of(drive: Drive, paths: Iterable[str]) -> tuple[Spot, ...]:
+def spots_of(drive: Drive, paths: Iterable[str]) -> tuple[VaryingField, ...]:
     """Return where paths lead in a drive.
 
     >>> spots_of(Drive.from_angles([0.1, 0.2]), ["joints[1].joint_angle_deg"])[0].unit
     'deg'
     """
     problems: list[Problem] = []
-    spots: list[Spot] = []
+    spots: list[VaryingField] = []
     for path in paths:
         try:
             there = place(drive, path)
@@ -111,7 +111,7 @@ def spots_of(drive: Drive, paths: Iterable[str]) -> tuple[Spot, ...]:
                 problems.append(
                     Problem(path, _("holds a list; vary one of its numbers, as in {path}[0]").format(path=path))
                 )
-            spots.append(Spot(path=path, bare=bare_path(drive, path), there=there))
+            spots.append(VaryingField(path=path, bare=bare_path(drive, path), there=there))
         except InputError as error:
             problems += error.problems
     bare = [one.bare for one in spots]
@@ -149,7 +149,7 @@ class Maker:
     """Makes the drive of a point: the given one with other values, checked as a file would be."""
 
     drive: Drive  # the drive that everything else stands in
-    spots: tuple[Spot, ...]
+    spots: tuple[VaryingField, ...]
     known: Catalogue = field(default_factory=catalogue)  # where grades and sizes are looked up anew
 
     @cached_property

@@ -12,7 +12,7 @@ from cardan.batch.work import STATUS, Column, Rows
 from cardan.errors import Problem, check
 from cardan.later import later
 from cardan.maths.arrays import Array
-from cardan.maths.curves.fronts import front
+from cardan.maths.curves.pareto import front
 from cardan.texts import _, mark
 
 from .goals import Evaluator, Goal, Limit, Progress, StoppedError, check_names, excess, tell

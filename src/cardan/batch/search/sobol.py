@@ -117,7 +117,7 @@ def sensitivity(
 
     See Also
     --------
-    swings, evaluator
+    one_at_a_time, evaluator
 
     Notes
     -----
@@ -260,7 +260,7 @@ def _ranges(values: Array, confidence: float, seed: int) -> tuple[Array, Array]:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Swings:
+class OneAtATime:
     """What answers (s) do when one field (d) at a time goes from one end of its range to the other.
 
     Attributes
@@ -286,7 +286,7 @@ class Swings:
     at_high: Array
 
 
-def swings(ask: Evaluator, here: Sequence[float], low: Sequence[float], high: Sequence[float]) -> Swings:
+def one_at_a_time(ask: Evaluator, here: Sequence[float], low: Sequence[float], high: Sequence[float]) -> OneAtATime:
     """Return the answers with one field at a time at either end of its range: 2d + 1 points.
 
     Parameters
@@ -308,7 +308,7 @@ def swings(ask: Evaluator, here: Sequence[float], low: Sequence[float], high: Se
     --------
     >>> from cardan.batch.answering.asking import Formula
     >>> ask = Formula.of(["x", "y"], {"z": lambda x, y: 3.0 * x + y})
-    >>> found = swings(ask, [0.0, 0.0], [-1.0, -1.0], [1.0, 1.0])
+    >>> found = one_at_a_time(ask, [0.0, 0.0], [-1.0, -1.0], [1.0, 1.0])
     >>> print(found.at_low, found.at_high)
     [[-3. -1.]] [[3. 1.]]
     """
@@ -320,7 +320,7 @@ def swings(ask: Evaluator, here: Sequence[float], low: Sequence[float], high: Se
         points[rows, np.arange(d)] = end
     rows_of = ask(points)
     table = np.stack([np.asarray(rows_of[column.name], dtype=float) for column in ask.answers])
-    return Swings(
+    return OneAtATime(
         fields=ask.points,
         answers=ask.answers,
         here=middle,

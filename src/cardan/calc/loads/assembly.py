@@ -9,13 +9,22 @@ import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.calc.motion.kinematics import START, YOKES, between, points
-from cardan.drive.models.train import train_of_points
+from cardan.drive.models.dynamics_model import train_of_points
 from cardan.errors import Problem
 from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import peaks
 from cardan.maths.kernel import frames
 from cardan.questions.forces.forces import kinetostatics
-from cardan.questions.forces.held import Crosses, Hold, Layout, actions, crosses, joint_gap, misfit, shaft_flexibility
+from cardan.questions.forces.support_statics import (
+    Crosses,
+    Hold,
+    Layout,
+    actions,
+    crosses,
+    joint_gap,
+    misalignment,
+    shaft_flexibility,
+)
 from cardan.reading.given import at_least_zero, flag, given, joint_angle, positive, rows, word
 from cardan.texts import _
 from cardan.units import mm
@@ -120,7 +129,7 @@ def _assembly_forces(v: Values) -> Any:
     def answer(angle: Array) -> tuple[Any, Array]:
         stand = _stand(axis, angle)
         gap = joint_gap(axis, np.asarray([[-1.0, 0.0, 0.0]]), stand, error)
-        return misfit(acting, layout, stand, compliance, gap, np.zeros(count)), gap[0]
+        return misalignment(acting, layout, stand, compliance, gap, np.zeros(count)), gap[0]
 
     found, gap = answer(np.atleast_1d(v.phi1))
     force = found.unknowns[..., :3]

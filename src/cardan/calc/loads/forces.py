@@ -11,13 +11,13 @@ import numpy as np
 from cardan.book.joint_forces import double_joint_forces, largest_middle_couple, single_joint_forces, spline_thrust
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.calc.motion.kinematics import ACCELERATION, ANGLE, START, between, points
-from cardan.drive.models.train import Hold, Train, spline_grip, train_of_points
+from cardan.drive.models.dynamics_model import Hold, Train, spline_grip, train_of_points
 from cardan.errors import Problem
 from cardan.maths.curves import paths
 from cardan.maths.kernel import frames
 from cardan.questions.forces.forces import kinetostatics
 from cardan.questions.forces.gap_closure import gap_closure
-from cardan.questions.forces.kinetostatics import parallel_ends, swing_couple
+from cardan.questions.forces.kinetostatics import gyroscopic_couple, parallel_ends
 from cardan.reading.given import RIGHT, at_least_zero, flag, given, joint_angle, positive, rows, whole, word
 from cardan.texts import _
 
@@ -367,7 +367,7 @@ def _moving_axis_gyro(v: Values) -> Any:
     joint_angle = paths.plus(paths.resting(np.asarray(v.alpha0, dtype=float)), swung)
     axes, spins = parallel_ends(joint_angle, v.phi1, speed=v.omega1, yoke_angle=v.gamma2)
     middle = axes[0][..., 1, :], axes[1][..., 1, :], axes[2][..., 1, :]
-    found = swing_couple(middle, spins.spin[..., 1], v.J_polar, v.J_transverse)
+    found = gyroscopic_couple(middle, spins.spin[..., 1], v.J_polar, v.J_transverse)
     return {
         "alpha_rad": joint_angle[0],
         "alpha_dot_rad_s": joint_angle[1],

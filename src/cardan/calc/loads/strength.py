@@ -11,7 +11,7 @@ import numpy as np
 
 from cardan.calc.bores import bores, segment_bores
 from cardan.calc.calculation import Calculation, Formulas, Problems, Values
-from cardan.drive.models.train import spline_grip
+from cardan.drive.models.dynamics_model import spline_grip
 from cardan.drive.shaft import Layup, Ply
 from cardan.formulas.critical_speed import uniform_speed
 from cardan.formulas.part_strength import journal_stress, spline_stress, yoke_stress

@@ -13,8 +13,8 @@ from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives
 from cardan.drive.fields.validity import point_problems
-from cardan.drive.models.chain import chain
 from cardan.drive.models.geometry import geometry_from_points
+from cardan.drive.models.kinematics_model import chain
 from cardan.errors import Problem
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.motion import Motion, initial_phases, motion

@@ -10,7 +10,7 @@ from cardan.catalogue import catalogue
 from cardan.catalogue.rows import AnglePair, BalanceNorm, Lubrication, PartLimit, SpeedAngleLimit
 from cardan.choices.selection import JointDuty, select_joint
 from cardan.errors import Problem
-from cardan.formulas.upkeep import lubrication_shares, shaft_sections
+from cardan.formulas.maintenance import lubrication_shares, shaft_sections
 from cardan.questions.bending.balance import allowed_unbalance
 from cardan.questions.motion.angle_limits import TABLE_INERTIA, angle_limits, broken_rules, compound_angle
 from cardan.reading.given import RIGHT, at_least_zero, flag, given, gives, joint_angle, positive, word

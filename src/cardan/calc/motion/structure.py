@@ -10,9 +10,9 @@ from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.errors import InputError, Problem, check
 from cardan.mechanism.counting import MOST, Join, group, minus_groups, partition, zero_groups
 from cardan.mechanism.mechanism import PAIRS, Mechanism, Pair, pair_problems
+from cardan.questions.mobility.constraint_release import release
 from cardan.questions.mobility.finite_mobility import CLOSED, finite_mobility
 from cardan.questions.mobility.mobility import mobility
-from cardan.questions.mobility.repair import release
 from cardan.reading.given import given, gives, positive, record, rows, vector, whole, word
 from cardan.texts import _
 

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan.catalogue.rows import AngleNorm
-from cardan.checks.case import Case
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.load_case import Case
 from cardan.checks.verdict import Verdict, as_drawn, at_top_speed, joined
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.kinematics_model import Chain
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import mobius
 from cardan.questions.motion.equivalence import after_each_joint, largest_acceleration

@@ -9,9 +9,9 @@ import numpy as np
 
 from cardan.catalogue import Catalogue
 from cardan.catalogue.rows import UNSURE, JointType
-from cardan.checks.case import largest
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.load_case import largest
 from cardan.checks.moving import largest_joint_angle
 from cardan.checks.verdict import Verdict
 from cardan.drive.joints import Joint

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan.catalogue.rows import JointType
-from cardan.checks.case import largest
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.load_case import largest
 from cardan.checks.verdict import Verdict
 from cardan.texts import _, mark
 

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan.checks.case import largest
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.load_case import largest
 from cardan.checks.verdict import Verdict, as_drawn, joined
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.texts import _, mark

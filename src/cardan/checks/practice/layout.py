@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import BELOW, Verdict
-from cardan.formulas.upkeep import ONE_SHAFT, TWO_SHAFTS
+from cardan.formulas.maintenance import ONE_SHAFT, TWO_SHAFTS
 from cardan.texts import _, mark, plural
 
 

@@ -8,7 +8,7 @@ from cardan.catalogue.rows import Lubrication
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import BELOW, Verdict
-from cardan.formulas.upkeep import SEVERE
+from cardan.formulas.maintenance import SEVERE
 from cardan.texts import _, mark
 
 COUNTERS = {"hours": ("duration", "h"), "distance": ("length", "km"), "years": ("", "")}

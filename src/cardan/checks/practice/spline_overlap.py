@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan.checks.carried import extreme_lengths
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.movement_loads import extreme_lengths
 from cardan.checks.verdict import Verdict
 from cardan.maths.arrays import Array
 from cardan.texts import _, mark

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan.answers.quantity import Text, numbered, say
-from cardan.checks.case import Case, blocks
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.load_case import Case, blocks
 from cardan.checks.speeds.shaft_inertia import shaft_inertia
 from cardan.checks.verdict import Verdict, joined
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.kinematics_model import Chain
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.forces.gap_closure import least_load

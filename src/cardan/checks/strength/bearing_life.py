@@ -8,9 +8,9 @@ from functools import lru_cache
 import numpy as np
 
 from cardan.answers.quantity import Quantity, say
-from cardan.checks.case import Case
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.load_case import Case
 from cardan.checks.moving import stands
 from cardan.checks.verdict import Verdict
 from cardan.drive.drive import Drive

@@ -10,13 +10,13 @@ from functools import lru_cache
 import numpy as np
 
 from cardan.catalogue import Catalogue
-from cardan.checks.case import Case
 from cardan.checks.design import Design, design
+from cardan.checks.load_case import Case
 from cardan.checks.moving import stood, stopped, worst_of_poses
 from cardan.checks.verdict import Verdict
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.train import train
+from cardan.drive.models.dynamics_model import train
 from cardan.errors import InputError, Problem, check
 from cardan.formulas.joint_rating import POWER
 from cardan.maths.arrays import Array

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan.checks.case import Case
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.load_case import Case
 from cardan.checks.verdict import Verdict
 from cardan.drive.shaft import Notch
 from cardan.formulas.shaft_strength import Fatigue, shaft_fatigue

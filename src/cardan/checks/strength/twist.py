@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan.checks.case import Case
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.load_case import Case
 from cardan.checks.verdict import Verdict
 from cardan.formulas.shaft_strength import RATED_TWIST, polar_moment
 from cardan.maths.arrays import Array

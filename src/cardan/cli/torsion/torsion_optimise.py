@@ -14,8 +14,8 @@ from cardan.cli.shared.tell import tell
 from cardan.errors import Problem, check
 from cardan.io.edit import edit
 from cardan.maths.curves.search import Evolution
-from cardan.questions.torsion.calm.answer import answer
-from cardan.questions.torsion.calm.calm import Grid, calm
+from cardan.questions.torsion.optimise.answer import answer
+from cardan.questions.torsion.optimise.optimise import Grid, optimise_torsion
 from cardan.texts import _
 
 from .torsion_band import Element, Out, SpeedBand, asked_of, band_of, check_out, elements_of, repeated, stepped, written
@@ -69,7 +69,9 @@ def torsion_optimise(
     drive = on_duty(drive, speed_rpm, torque)
     method = Evolution(rounds=rounds, seed=seed) if grid is None else Grid(points=grid)
     with asked_of(file, OPTIONS), keeping(_("searching designs")) as progress:
-        found = calm(drive, free=ranges, speeds=band, elements=elements_of(element), method=method, progress=progress)
+        found = optimise_torsion(
+            drive, free=ranges, speeds=band, elements=elements_of(element), method=method, progress=progress
+        )
     if out is not None:
         changed = {one.path: found.values[one.path] for one in found.free if found.values[one.path] != one.built}
         written(file, text, out, lambda: edit(text, changed, folder=file.parent) if changed else text, found.drive)

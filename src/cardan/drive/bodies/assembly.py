@@ -16,8 +16,8 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.joints import ConstantVelocity
 from cardan.drive.joints.common.site import length_text
-from cardan.drive.models.chain import Chain, given_chain
 from cardan.drive.models.geometry import Geometry, geometry, geometry_from_points
+from cardan.drive.models.kinematics_model import Chain, given_chain
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.shapes import ACROSS, bearing, bracket, disc, flange, floor_frame, ring, rubber, washer
 from cardan.drive.station import Station

@@ -14,8 +14,8 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
-from cardan.drive.models.chain import Chain, given_chain
 from cardan.drive.models.geometry import Geometry, geometry
+from cardan.drive.models.kinematics_model import Chain, given_chain
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames
 

@@ -12,11 +12,11 @@ from cardan.drive.cross import Cross
 from cardan.drive.described import Described
 from cardan.drive.duty import Vehicle
 from cardan.drive.joint_parts import Needles
-from cardan.drive.line import is_elastic, line_length, shaft_places
 from cardan.drive.machine import MachineTorque, TorqueHistory
 from cardan.drive.material import Material
 from cardan.drive.movement import Movement
 from cardan.drive.shaft import Shaft, Spline
+from cardan.drive.torsional_layout import is_elastic, line_length, shaft_places
 from cardan.errors import Problem
 from cardan.reading.ranges import HUGE
 from cardan.texts import _

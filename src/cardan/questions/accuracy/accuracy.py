@@ -11,7 +11,7 @@ import numpy as np
 from cardan.drive.accuracy import Error
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, crosses
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.kinematics_model import Chain
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.kernel import loops

@@ -11,7 +11,7 @@ import scipy
 
 from cardan.drive.accuracy import Tolerance
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import chain
+from cardan.drive.models.kinematics_model import chain
 from cardan.errors import Problem, check
 from cardan.later import later
 from cardan.maths.arrays import Array

@@ -10,7 +10,7 @@ import numpy as np
 
 from cardan.drive.accuracy import Tolerance
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import refuse_kinds
+from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _

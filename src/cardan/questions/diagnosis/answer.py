@@ -10,6 +10,7 @@ from cardan.answers.answer import Answer, Cell, Column, KeyFigure, Remark, Table
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.texts import _
 
+from .drive_model import plant
 from .examination import Examination
 from .expected import Expected
 from .fault_answer import by_torque, grows
@@ -17,7 +18,6 @@ from .figures.orders import DIMENSIONS, amplitude_of, order_text, quantity_word
 from .figures.signals import LIKELY, causes_figure, examination_figures, verdict
 from .findings import Finding
 from .match import Signs
-from .plant import plant
 
 __all__ = ["answer", "answer_of_signs"]
 

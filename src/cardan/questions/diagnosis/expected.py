@@ -15,7 +15,7 @@ from cardan.questions.bending.cracked_rotor import GRAVITY
 from cardan.texts import _, mark
 from cardan.units import deg
 
-from .plant import Housing, Plant, plant
+from .drive_model import DriveModel, Housing, plant
 
 FAULTS = {
     "healthy": "",
@@ -160,7 +160,7 @@ def expected_orders(
     )
 
 
-def _moved(base: Plant, fault: str, severity: float) -> Plant:
+def _moved(base: DriveModel, fault: str, severity: float) -> DriveModel:
     """Return the drive with the critical speed where the fault has it."""
     top = base.speed[1]
     if fault == "half_critical":
@@ -233,7 +233,7 @@ class Bursts:
 
 
 def _spread(
-    base: Plant,
+    base: DriveModel,
     shares: dict[int, float],
     *,
     order: float,
@@ -268,7 +268,7 @@ def _ends(chosen: int, force: float) -> dict[int, float]:
     return {chosen: 0.5 * force, chosen + 1: 0.5 * force}
 
 
-def _couples(base: Plant, joint_angle: Array) -> dict[int, float]:
+def _couples(base: DriveModel, joint_angle: Array) -> dict[int, float]:
     """Return the forces of the secondary couples of all joints, that of each over its shorter shaft."""
     length = [
         float(min(base.length[max(k - 1, 0)], base.length[min(k, base.length.size - 1)]))
@@ -277,7 +277,7 @@ def _couples(base: Plant, joint_angle: Array) -> dict[int, float]:
     return {k: base.torque * math.tan(float(one)) / length[k] for k, one in enumerate(joint_angle)}
 
 
-def _turning(base: Plant, uneven: float, source: str = UNEVEN) -> Iterator[ExpectedOrder]:
+def _turning(base: DriveModel, uneven: float, source: str = UNEVEN) -> Iterator[ExpectedOrder]:
     """Yield what an uneven output makes: its speed, and the torque that its inertia takes at both ends."""
     top, last = base.speed[1], base.joint_angle.size - 1
     house = base.housings[-1]
@@ -286,7 +286,7 @@ def _turning(base: Plant, uneven: float, source: str = UNEVEN) -> Iterator[Expec
     yield from _spread(base, {0: swing, last: swing}, order=2.0, power=2.0, source=source)
 
 
-def in_order(base: Plant, fault: str, severity: float) -> Iterator[ExpectedOrder]:
+def in_order(base: DriveModel, fault: str, severity: float) -> Iterator[ExpectedOrder]:
     """Yield what a drive in order shows as well."""
     top = base.speed[1]
     for k, allowed in enumerate(base.allowed):
@@ -317,22 +317,22 @@ def in_order(base: Plant, fault: str, severity: float) -> Iterator[ExpectedOrder
     yield from _turning(base, base.uneven + 0.03 * math.tan(0.5 * float(np.max(base.joint_angle))) ** 2)
 
 
-def _nothing(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+def _nothing(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     yield from ()
 
 
-def _unbalance(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+def _unbalance(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     force = TIMES * severity * float(base.allowed[chosen]) * base.speed[1] ** 2
     source = f"{GRADES}; {BOOK}"
     yield from _spread(base, _ends(chosen, force), order=1.0, power=2.0, source=source, axial=0.15, amplified=True)
 
 
-def _lost_weight(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+def _lost_weight(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     force = 0.7 * TIMES * severity * float(base.allowed[chosen]) * base.speed[1] ** 2
     yield from _spread(base, {chosen + 1: force}, order=1.0, power=2.0, source=GRADES, axial=0.15)
 
 
-def _bent(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+def _bent(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     out = max(RUNOUT, 5.0 * float(base.allowed[chosen] / base.mass[chosen])) * severity
     force = 2.0 / math.pi * out * float(base.mass[chosen]) * base.speed[1] ** 2
     ends = _ends(chosen, force)
@@ -342,20 +342,20 @@ def _bent(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
         yield _line(house, "axial", order, share * force / house.mass, 2.0, TRADE)
 
 
-def _joint_angles(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+def _joint_angles(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     last = float(base.joint_angle[-1])
     yield from _turning(
         base, abs(math.tan(0.5 * (last + 0.5 * WRONG_JOINT_ANGLE * severity)) ** 2 - math.tan(0.5 * last) ** 2)
     )
 
 
-def _phase(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+def _phase(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     turn = min(WRONG_PHASE * severity, 0.5 * math.pi)
     uneven = 2.0 * math.sin(turn) * math.tan(0.5 * float(base.joint_angle[-1])) ** 2
     yield from _turning(base, uneven)
 
 
-def _tight(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+def _tight(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     couple = TIGHT * severity * base.torque / float(base.length[chosen])
     # A couple of friction turns its sense with the swing of the joint: a square wave, whose orders in space are even.
     for order, share in ((1.0, 0.6), (2.0, 1.0), (4.0, 0.5)):
@@ -370,7 +370,7 @@ def _tight(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]
         )
 
 
-def _crack(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+def _crack(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     across, along = (min(0.8, one * severity) for one in LOSSES)
     weight = float(base.mass[chosen]) * GRAVITY
     for order, share in (
@@ -382,13 +382,13 @@ def _crack(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]
         yield from _spread(base, _ends(chosen, force), order=order, power=0.0, source=PAPER, axial=0.1, amplified=True)
 
 
-def _play(base: Plant, severity: float, chosen: int) -> float:
+def _play(base: DriveModel, severity: float, chosen: int) -> float:
     """Return the force of a shaft off centre by its play, at top speed."""
     mass = float(base.mass[chosen])
     return severity * max(PLAY * mass, 2.5 * float(base.allowed[chosen])) * base.speed[1] ** 2
 
 
-def _worn_joint(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+def _worn_joint(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     force = _play(base, severity, chosen)
     one = {chosen + 1: force}
     yield from _spread(base, one, order=1.0, power=2.0, source=TRADE, axial=0.15, torque=(1.0, 0.3, -0.6))
@@ -396,7 +396,7 @@ def _worn_joint(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedO
     yield from _spread(base, two, order=2.0, power=1.0, source=TRADE, axial=0.15, torque=(0.4, 0.0, 0.6))
 
 
-def _worn_spline(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+def _worn_spline(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     force = _play(base, severity, chosen)
     yield from _spread(
         base,
@@ -409,7 +409,7 @@ def _worn_spline(base: Plant, severity: float, chosen: int) -> Iterator[Expected
     )
 
 
-def _centre(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+def _centre(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     force = 0.6 * _play(base, severity, chosen)
     for order, share in ((0.5, 0.5), (1.0, 0.5), (1.5, 0.35), (2.0, 0.5), (3.0, 0.3)):
         for house in base.housings:
@@ -434,7 +434,7 @@ MAKERS = {
 }
 
 
-def bursts_of(base: Plant, fault: str, severity: float) -> tuple[Bursts, ...]:
+def bursts_of(base: DriveModel, fault: str, severity: float) -> tuple[Bursts, ...]:
     """Return the knocks of a fault."""
     times = {"worn_joint": 2, "worn_spline": 1}.get(fault)
     if times is None:

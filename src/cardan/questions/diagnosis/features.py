@@ -21,6 +21,7 @@ from cardan.questions.diagnosis.signals.rotation import LEAST_TURNS, Rotation
 from cardan.texts import _
 from cardan.units import rpm
 
+from .drive_model import DriveModel, plant
 from .expected import Expected, expected_orders
 from .levels import (
     ORDERS,
@@ -34,7 +35,6 @@ from .levels import (
     no_vibration,
     stands_out,
 )
-from .plant import Plant, plant
 from .signals.orders import TrackedOrders, tracked_orders
 from .signals.signal import Channel, Progress, Signal, Watch
 from .signals.turning import estimate_rotation
@@ -102,7 +102,7 @@ class Features:
 
 
 @lru_cache(maxsize=16)
-def _known(drive: Drive) -> tuple[Plant, Expected]:
+def _known(drive: Drive) -> tuple[DriveModel, Expected]:
     return plant(drive), expected_orders(drive)
 
 
@@ -220,7 +220,7 @@ def _levels(
     out: dict[str, float],
     radial: list[Track],
     healthy: Expected,
-    base: Plant,
+    base: DriveModel,
     held: float,
     torque: Array,
     high: Array,
@@ -256,7 +256,7 @@ def _levels(
 
 
 def _over_speed(
-    out: dict[str, float], radial: list[Track], first: TrackedOrders, torque: Array, told: bool, base: Plant
+    out: dict[str, float], radial: list[Track], first: TrackedOrders, torque: Array, told: bool, base: DriveModel
 ) -> tuple[float, float]:
     """Fill in exponents and peaks over the speed; return the speeds of the peaks of orders 2 and 3."""
     slowest, fastest = float(np.min(first.speed)), float(np.max(first.speed))
@@ -330,7 +330,7 @@ def _sideways(out: dict[str, float], radial: list[Track], axial: list[Track], hi
         out["axial_share"] = math.log10(max(shares)[1])
 
 
-def _uneven(out: dict[str, float], signal: Signal, shaft: Rotation, base: Plant) -> None:
+def _uneven(out: dict[str, float], signal: Signal, shaft: Rotation, base: DriveModel) -> None:
     """Fill in how unevenly the output turns, over what the joints make and a small tolerance of their yokes."""
     usual = base.uneven + 0.03 * math.tan(0.5 * float(np.max(base.joint_angle))) ** 2
     for k, channel in enumerate(signal.channels):
@@ -365,7 +365,7 @@ SILENT = 0.4
 """Share of the confidence that is left where order 1, which every shaft has, does not rise over the noise."""
 
 
-def doubts(signal: Signal, shaft: Rotation, base: Plant) -> Iterator[tuple[str, float]]:
+def doubts(signal: Signal, shaft: Rotation, base: DriveModel) -> Iterator[tuple[str, float]]:
     """Yield what does not fit, each with the share of confidence that it leaves."""
     yield from _speeds(shaft, base)
     yield from _other_speeds(signal, shaft)
@@ -382,7 +382,7 @@ def doubts(signal: Signal, shaft: Rotation, base: Plant) -> Iterator[tuple[str, 
         yield text.format(names=names, places=places), PLACELESS
 
 
-def _speeds(shaft: Rotation, base: Plant) -> Iterator[tuple[str, float]]:
+def _speeds(shaft: Rotation, base: DriveModel) -> Iterator[tuple[str, float]]:
     """Yield a speed that the drive does not have."""
     if "duty.speed" in base.assumed:
         return

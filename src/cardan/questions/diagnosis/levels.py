@@ -12,8 +12,8 @@ from cardan.maths.arrays import Array
 from cardan.questions.diagnosis.signals.rotation import Rotation
 from cardan.texts import _
 
+from .drive_model import DriveModel
 from .expected import Expected
-from .plant import Plant
 from .signals.orders import TrackedOrders, tracked_orders
 from .signals.signal import Channel, Signal, Watch
 
@@ -59,7 +59,7 @@ def _shakes(channel: Channel) -> bool:
 
 
 def accelerations(
-    signal: Signal, shaft: Rotation, base: Plant, watch: Watch | None = None
+    signal: Signal, shaft: Rotation, base: DriveModel, watch: Watch | None = None
 ) -> tuple[list[Track], list[Track]]:
     """Return the orders at the radial and at the axial sensors; those of the first radial one, whoever says stop."""
     radial: list[Track] = []

@@ -18,7 +18,7 @@ from cardan.drive.fields.keys import spelled
 from cardan.drive.models.machine_held import machine_held, machines_of, proposed, tables_of
 from cardan.errors import InputError, Problem
 from cardan.figures.figure import Figure
-from cardan.maths.curves.over_turn import harmonics
+from cardan.maths.curves.cycle_statistics import harmonics
 from cardan.maths.ties import foremost, largest
 from cardan.questions.motion.kinds import steep_joints
 from cardan.texts import _, mark, plural
@@ -46,7 +46,7 @@ from .force_tables import (
 from .forces import Forces, forces
 from .gap_closure import Gaps, gaps
 from .moving_forces import MovingForces, moving_forces
-from .reactions import Held, reaction_groups
+from .reactions import Determinacy, reaction_groups
 
 __all__ = ["COLUMNS", "Carried", "answer", "ask", "lacking"]
 
@@ -187,7 +187,7 @@ def _remarks(drive: Drive, result: Carried, machines: tuple[int, ...]) -> Iterat
         yield Remark(text=say(text, **_parts(problem)), tone="warning", alarm=k == 0)
     yield from steep_joints(drive)
     yield from held_by_machines(machines if found.reaction is not None else ())
-    surplus = int(found.status == Held.INDETERMINATE) and found.unknowns - found.equations
+    surplus = int(found.status == Determinacy.INDETERMINATE) and found.unknowns - found.equations
     if surplus:
         text = _(
             "Warning: statically indeterminate, degree {n}: the supports share the forces by their stiffness, "
@@ -255,7 +255,7 @@ def balanced(found: Forces) -> Remark:
 
 def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
     """Yield what was left out because the file does not say."""
-    if any(joint.error is not None for joint in drive.joints) and int(found.status) != Held.INDETERMINATE:
+    if any(joint.error is not None for joint in drive.joints) and int(found.status) != Determinacy.INDETERMINATE:
         text = _("Errors of the joints as made load nothing here: the supports give way to them, or there are none.")
         yield Remark(text=text, code="without_error")
     names = [joint.name for joint in drive.joints]
@@ -372,7 +372,7 @@ def _facts(drive: Drive, found: Forces) -> dict[str, Any]:
     orders = harmonics(found.angle, found.shaft_torque, count=ORDERS).amplitude
     return {
         **duty_facts(drive),
-        "status": Held(int(found.status)).name.lower(),
+        "status": Determinacy(int(found.status)).name.lower(),
         "equations": found.equations,
         "unknowns": found.unknowns,
         "solving_order": [list(group) for group in reaction_groups(drive)],

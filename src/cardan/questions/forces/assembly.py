@@ -10,10 +10,10 @@ import numpy as np
 from cardan.drive.accuracy import Error
 from cardan.drive.drive import Drive
 from cardan.drive.fields.validity import wrong_count
-from cardan.drive.models.chain import refuse_kinds
+from cardan.drive.models.dynamics_model import Train, lengths_off, train
 from cardan.drive.models.geometry import Geometry, geometry
+from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.drive.models.machine_held import machine_held, tables_proposed
-from cardan.drive.models.train import Train, lengths_off, train
 from cardan.errors import check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import peaks
@@ -22,9 +22,9 @@ from cardan.questions.motion.motion import positions
 from cardan.texts import _
 
 from .elastic import Redundancy, compliance, gaps, housing_gap, redundancy, refuse_soft
-from .held import WIDTH, Hold, Misfit, crosses, misfit
 from .kinetostatics import standing
 from .reactions import Frame, forces_of, frame
+from .support_statics import WIDTH, Hold, Misalignment, crosses, misalignment
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -64,9 +64,9 @@ class AssemblyForces:
     energy_peak, torque_peak : Peak
         Largest stored energy and largest torque to either side.
     degree : int
-        Degree of statical indeterminacy; at 0 no misfit causes any force.
+        Degree of statical indeterminacy; at 0 no misalignment causes any force.
     strained, spare : tuple of str
-        Keys of what misfit can load, and of what could be let go, all at once, to make the drive determinate; see
+        Keys of what misalignment can load, and of what could be let go, all at once, to make the drive determinate; see
         `kept` for what stays too many where no more can go.
     rigid : tuple of int
         Numbers of the shafts taken as rigid, as their outer diameter is not given.
@@ -210,7 +210,7 @@ class _Question:
         """Direction of the shaft at each support, array (k, 3)."""
         return self.place.axis[[shaft for shaft, _holds in self.whole.bearings]]
 
-    def answer(self, angle: Array) -> tuple[Misfit, Array, Frame]:
+    def answer(self, angle: Array) -> tuple[Misalignment, Array, Frame]:
         """Return forces and gaps at the angles (p,), and the frame they belong to."""
         stand = standing(self.whole.chain, self.place.axis, self.place.normal, angle, speed=1.0)
         held = frame(self.whole, stand, self.whole.points[None])
@@ -219,11 +219,11 @@ class _Question:
         if not self.strained:
             none = np.zeros(angle.shape)
             zero = np.zeros((angle.size, held.matrix.shape[-1]))
-            return Misfit(unknowns=zero, energy=none, torque=none), gap[0], held
+            return Misalignment(unknowns=zero, energy=none, torque=none), gap[0], held
         soft, housing = compliance(self.whole, held), housing_gap(self.whole, held)
-        return misfit(held.acting, held.layout, arms, soft, gap, housing), gap[0], held
+        return misalignment(held.acting, held.layout, arms, soft, gap, housing), gap[0], held
 
-    def forces(self, angle: Array) -> tuple[Misfit, Array, Array, Array, Array]:
+    def forces(self, angle: Array) -> tuple[Misalignment, Array, Array, Array, Array]:
         """Return energy and torque, gaps, joint forces, reactions and couples, parts before positions."""
         answer, gap, held = self.answer(angle)
         tables = (gap, *forces_of(held, answer.unknowns))

@@ -8,17 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cardan.drive.models.dynamics_model import Train
 from cardan.drive.models.geometry import geometry_from_points
-from cardan.drive.models.train import Train
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.linear import beams
 from cardan.maths.linear.systems import RANK, least_energy, surplus
 from cardan.texts import _, plural
 
-from .held import HOLDS, WIDTH, Crosses, Hold, Layout, crosses, joint_gap, shaft_flexibility, stretches
-from .kinetostatics import Couples, Stand
+from .kinetostatics import Couples, KinematicState
 from .reactions import Frame, Load
+from .support_statics import HOLDS, WIDTH, Crosses, Hold, Layout, crosses, joint_gap, shaft_flexibility, stretches
 
 KEYS: dict[Hold, str] = {"radial": "stiffness", "axial": "axial_stiffness", "tilt": "tilt_stiffness"}
 """Key of a support that says how stiff it holds."""
@@ -120,7 +120,7 @@ def bent_by_loads(whole: Train, held: Frame, found: Couples, loads: list[Load], 
 
 
 def elastic(
-    whole: Train, held: Frame, stand: Stand, found: Couples, loads: list[Load], thrust: Array, known: Array
+    whole: Train, held: Frame, stand: KinematicState, found: Couples, loads: list[Load], thrust: Array, known: Array
 ) -> Array:
     """Return the unknowns of a frame that is held too much, array (..., p, u).
 
@@ -128,8 +128,8 @@ def elastic(
     stand, found: how crosses stand, and what they carry.
     loads, thrust, list of Load, array (..., p, number of splines): other known forces.
     known (..., p, rows): known side of the balance.
-    Least complementary energy under load and misfit at once: d of `least_energy` holds the offsets of the housings,
-    the gaps in the joints, and what the loads bend the shafts by.
+    Least complementary energy under load and misalignment at once: d of `least_energy` holds the offsets of the
+    housings, the gaps in the joints, and what the loads bend the shafts by.
     """
     xp = namespace(known)
     off, _rate = gaps(whole, held, crosses(stand.axis, stand.driving_arm, stand.driven_arm))
@@ -182,7 +182,7 @@ class Redundancy:
     """How far a drive is statically indeterminate, and where."""
 
     degree: int  # how many forces and couples the balance of the shafts leaves open
-    strained: tuple[tuple[int, Hold], ...] = ()  # bearings, counted from 0, and what of them misfit can load
+    strained: tuple[tuple[int, Hold], ...] = ()  # bearings, counted from 0, and what of them misalignment can load
     # what could be let go all at once without setting anything free: the components too many. Another choice among
     # `strained` may do as well.
     spare: tuple[tuple[int, Hold], ...] = ()
@@ -193,7 +193,7 @@ def redundancy(matrix: Array, layout: Layout, *, field: str = "supports") -> Red
 
     matrix (m, u) or (p, m, u): balance of the shafts, at one position or at several.
     Degree = unknowns - rank A, loose = equations - rank A; statics of rigid shafts. A force state that balances itself
-    is a null vector of A: what has a share in it can be loaded by misfit. A shaft that can move without a bearing
+    is a null vector of A: what has a share in it can be loaded by misalignment. A shaft that can move without a bearing
     giving way is a null vector of Aᵀ.
     """
     rows = np.reshape(matrix, (-1, *matrix.shape[-2:]))

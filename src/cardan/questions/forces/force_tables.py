@@ -15,7 +15,7 @@ from cardan.drive.joints.joint import Joint
 from cardan.drive.shaft import Shaft
 from cardan.figures.palette import colour, shaft
 from cardan.maths.arrays import Array
-from cardan.maths.curves.over_turn import Turn, harmonics, over_turn
+from cardan.maths.curves.cycle_statistics import Turn, harmonics, over_turn
 from cardan.maths.kernel import frames
 from cardan.maths.ties import TIE, foremost
 from cardan.texts import _, plural

@@ -10,10 +10,10 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.chain import refuse_kinds
+from cardan.drive.models.dynamics_model import Train, mass_problems, place_of, train
 from cardan.drive.models.geometry import geometry
+from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.drive.models.machine_held import machine_held, tables_proposed
-from cardan.drive.models.train import Train, mass_problems, place_of, train
 from cardan.drive.movement import Movement
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
@@ -25,8 +25,8 @@ from cardan.questions.motion.moving_points import moving_path, start_time
 from cardan.texts import _
 
 from .elastic import elastic, redundancy, refuse_soft
-from .kinetostatics import Couples, Stand, couples, resisted, standing, swinging
-from .reactions import Frame, Held, Load, forces_of, frame, right_side, solved, thrusts, weights, whole_balance
+from .kinetostatics import Couples, KinematicState, couples, resisted, standing, swinging
+from .reactions import Determinacy, Frame, Load, forces_of, frame, right_side, solved, thrusts, weights, whole_balance
 
 __all__ = ["Forces", "forces", "kinetostatics"]
 
@@ -206,7 +206,7 @@ def _harmonics(harmonics: Sequence[tuple[float, float, float]], torque_at: str, 
     return sum(size * xp.cos(order * at + phase) for order, size, phase in harmonics)
 
 
-def _carried(whole: Train, stand: Stand, given: Array, torque_at: str) -> tuple[Couples, Array]:
+def _carried(whole: Train, stand: KinematicState, given: Array, torque_at: str) -> tuple[Couples, Array]:
     """Return the couples for a torque at either end, and the torque that resists the output."""
     if torque_at == "output":
         return couples(whole, stand, given), given
@@ -419,7 +419,7 @@ class Forces:
 
 def forces_from(
     whole: Train,
-    stand: Stand,
+    stand: KinematicState,
     points: Array,
     acceleration: Array | None,
     angle: Array,
@@ -524,12 +524,12 @@ def _amounts(whole: Train, held: Frame, known: Array, field: str, share: Callabl
     if known.ndim == 2:
         many = redundancy(np.asarray(held.matrix), held.layout, field=field)
         refuse_soft(whole, many, field)
-        return share() if many.degree else amounts, _status(fits, Held.INDETERMINATE)
+        return share() if many.degree else amounts, _status(fits, Determinacy.INDETERMINATE)
     if columns > rows and whole.stiffness is not None:
         amounts = share()
-    return amounts, _status(fits, Held.LOOSE if columns <= rows else Held.INDETERMINATE)
+    return amounts, _status(fits, Determinacy.LOOSE if columns <= rows else Determinacy.INDETERMINATE)
 
 
-def _status(fits: Array, otherwise: Held) -> Array:
+def _status(fits: Array, otherwise: Determinacy) -> Array:
     xp = namespace(fits)
     return xp.astype(~fits, xp.int64) * int(otherwise)

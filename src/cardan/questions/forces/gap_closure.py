@@ -10,8 +10,8 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Harmonic
-from cardan.drive.models.chain import Chain
-from cardan.drive.models.train import Train, place_of, train
+from cardan.drive.models.dynamics_model import Train, place_of, train
+from cardan.drive.models.kinematics_model import Chain
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import peak, peaks
 from cardan.questions.motion.motion import motion

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.drive.models.chain import Chain
-from cardan.drive.models.train import Train
+from cardan.drive.models.dynamics_model import Train
+from cardan.drive.models.kinematics_model import Chain
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.curves.paths import Jet
 from cardan.maths.kernel import frames
@@ -25,7 +25,7 @@ STILL = 1e-12
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Stand:
+class KinematicState:
     """How shafts and crosses stand and turn; the leading axes are those of the drives, then that of the positions."""
 
     axis: Array  # (..., p or 1, n+1, 3): directions e_i of the shafts
@@ -85,7 +85,7 @@ class Couples:
 
 def standing(
     chain: Chain, axis: Array, normal: Array, angle: Array, *, speed: ArrayLike, acceleration: ArrayLike = 0.0
-) -> Stand:
+) -> KinematicState:
     """Return how drives whose axes stand still turn.
 
     chain (...): yoke angles and start phase; axis (..., n+1, 3): directions of the shafts.
@@ -116,14 +116,14 @@ def standing(
 
 def standing_kinds(
     chain: Chain, axis: Array, normal: Array, angle: Array, *, speed: ArrayLike, acceleration: ArrayLike
-) -> Stand:
+) -> KinematicState:
     """Return how drives with joints of any kinds turn, their axes at rest; see `standing`."""
     xp = namespace(axis, angle)
     omega, gain = real(speed, xp)[..., None, None], real(acceleration, xp)[..., None, None]
     found = motion(chain, angle)
     ratio, slope = (xp.moveaxis(part, -2, -1) for part in (found.shaft_ratio, found.shaft_slope))
     driving, driven, way = kind_arms(chain, axis, normal, found)
-    return Stand(
+    return KinematicState(
         axis=axis[..., None, :, :],
         axis_rate=None,
         axis_acceleration=None,
@@ -135,8 +135,8 @@ def standing_kinds(
     )
 
 
-def _stand(axis: Array, rate: Array | None, curve: Array | None, spins: Spins) -> Stand:
-    return Stand(
+def _stand(axis: Array, rate: Array | None, curve: Array | None, spins: Spins) -> KinematicState:
+    return KinematicState(
         axis=axis,
         axis_rate=rate,
         axis_acceleration=curve,
@@ -147,12 +147,12 @@ def _stand(axis: Array, rate: Array | None, curve: Array | None, spins: Spins) -
     )
 
 
-def swinging(axes: tuple[Array, Array, Array], spins: Spins) -> Stand:
+def swinging(axes: tuple[Array, Array, Array], spins: Spins) -> KinematicState:
     """Return how a drive whose axes move turns, from the jet of its axes (p, n+1, 3) and its spins."""
     return _stand(*axes, spins)
 
 
-def couples(train: Train, stand: Stand, load: Array) -> Couples:
+def couples(train: Train, stand: KinematicState, load: Array) -> Couples:
     """Return torques and couples of all shafts, backwards from the load.
 
     train (...): masses and friction; stand (..., p): how shafts and crosses stand and turn.
@@ -224,7 +224,7 @@ def couples(train: Train, stand: Stand, load: Array) -> Couples:
     )
 
 
-def resisted(train: Train, stand: Stand, drive: Array) -> Array:
+def resisted(train: Train, stand: KinematicState, drive: Array) -> Array:
     """Return the torque at the output that a torque at the input holds, array (..., p) [N·m].
 
     train (...): masses and friction, no joint locked; stand (..., p): how shafts and crosses stand and turn.
@@ -256,7 +256,7 @@ def resisted(train: Train, stand: Stand, drive: Array) -> Array:
     return tau - _own(train, stand, train.joints)
 
 
-def _own(train: Train, stand: Stand, i: int) -> Array:
+def _own(train: Train, stand: KinematicState, i: int) -> Array:
     """Return what resists shaft i besides the next one, torque and inertia, array (..., p) [N·m]."""
     rest = 0.0 * stand.speed[..., i]
     if train.resisting_torque is not None:
@@ -274,7 +274,7 @@ class _CrossSwing:
     rate: tuple[Array, Array, Array]
 
 
-def _cross_swing(train: Train, stand: Stand, i: int, arms: tuple[Array, Array, Array]) -> _CrossSwing | None:
+def _cross_swing(train: Train, stand: KinematicState, i: int, arms: tuple[Array, Array, Array]) -> _CrossSwing | None:
     """Return how cross i turns and what that takes; None where its inertia does not count.
 
     Ω_c = Ω_i + p u with p = (Ω_{i+1} - Ω_i)·u; Ω̇_c = Ω̇_i + ṗ u + p Ω_i×u. u, v and n are principal axes that turn
@@ -299,7 +299,9 @@ def _cross_swing(train: Train, stand: Stand, i: int, arms: tuple[Array, Array, A
     return _CrossSwing(turning, (rate[0], rate[1], rate[2]))
 
 
-def _journal_rates(stand: Stand, i: int, u: Array, v: Array, lean: Array) -> tuple[tuple[Array, Array], list[Array]]:
+def _journal_rates(
+    stand: KinematicState, i: int, u: Array, v: Array, lean: Array
+) -> tuple[tuple[Array, Array], list[Array]]:
     """Return the rates p, q [rad/s] of cross i against its driving yoke about u and against the driven one about v.
 
     Also the senses of both, ±1: where one stands still for an instant, the sense right after, with the axes at rest
@@ -318,7 +320,7 @@ def _journal_rates(stand: Stand, i: int, u: Array, v: Array, lean: Array) -> tup
     return rates, [xp.where(xp.abs(rate) > least, xp.sign(rate), then) for rate, then in zip(rates, later, strict=True)]
 
 
-def swing_need(train: Train, stand: Stand, i: int) -> Array | float:
+def swing_need(train: Train, stand: KinematicState, i: int) -> Array | float:
     """Return the couple that swings the axis of shaft i, J ω ė + I_t e×ë, array (p, 3) [N·m]; 0 where it rests."""
     if stand.axis_rate is None or stand.axis_acceleration is None:
         return 0.0
@@ -327,10 +329,10 @@ def swing_need(train: Train, stand: Stand, i: int) -> Array | float:
         return None if table is None else table[..., None, i]
 
     jet = stand.axis[..., i, :], stand.axis_rate[..., i, :], stand.axis_acceleration[..., i, :]
-    return -swing_couple(jet, stand.speed[..., i], own(train.inertia), own(train.transverse_inertia)).whole
+    return -gyroscopic_couple(jet, stand.speed[..., i], own(train.inertia), own(train.transverse_inertia)).whole
 
 
-def _secondary(train: Train, stand: Stand, driving: list[Array], driven: list[Array]) -> list[Array]:
+def _secondary(train: Train, stand: KinematicState, driving: list[Array], driven: list[Array]) -> list[Array]:
     """Return S_i of every shaft: what the couples at its ends, and its swinging, leave across its axis."""
     found = []
     for i in range(train.joints + 1):
@@ -379,7 +381,7 @@ def kind_arms(chain: Chain, axis: Array, normal: Array, found: Motion) -> tuple[
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class SwingCouple:
+class GyroscopicCouple:
     """Couples that the shaft puts on what holds it while its axis swings, both across the axis."""
 
     gyroscopic: Array  # (..., 3) [N·m]: -J ω ė, Book (125)
@@ -391,29 +393,18 @@ class SwingCouple:
         return self.gyroscopic + self.transverse
 
 
-def swing_couple(
+def gyroscopic_couple(
     axis: Jet, speed: ArrayLike, inertia: ArrayLike | None, transverse_inertia: ArrayLike | None
-) -> SwingCouple:
-    """Return the couples of a turning shaft whose axis swings.
+) -> GyroscopicCouple:
+    """Return the couples of a turning shaft whose axis swings, by H = J ω e + I_t e×ė.
 
-    Parameters
-    ----------
-    axis : Jet (..., 3)
-        e and its rates [1/s, 1/s²].
-    speed : array (...) [rad/s]
-        ω, part of the angular velocity along e.
-    inertia, transverse_inertia : array (...) [kg m²] or None
-        J about the axis and I_t across, about the centre of mass; None for none.
+    axis (..., 3): e and its rates [1/s, 1/s²]; speed (...) [rad/s]: ω, part of the angular velocity along e.
+    inertia, transverse_inertia (...) [kg m²]: J about the axis and I_t across, about the centre of mass; None for none.
+    Book (125) keeps the first couple only; for a swinging axis the second is often larger.
 
-    Notes
-    -----
-    From H = J ω e + I_t e×ė. Book (125) keeps the first couple only; for a swinging axis the second is often larger.
-
-    Examples
-    --------
     >>> import numpy as np
     >>> x, y, z = np.eye(3)
-    >>> found = swing_couple((x, 0.9 * y, 12.0 * y), 120.0, 0.02, 0.4)
+    >>> found = gyroscopic_couple((x, 0.9 * y, 12.0 * y), 120.0, 0.02, 0.4)
     >>> found.gyroscopic, found.transverse
     (array([ 0.  , -2.16,  0.  ]), array([ 0. ,  0. , -4.8]))
     """
@@ -423,7 +414,7 @@ def swing_couple(
     spin = real(speed, xp)
     gyroscopic = zero if inertia is None else -(real(inertia, xp) * spin)[..., None] * rate
     across = zero if transverse_inertia is None else -real(transverse_inertia, xp)[..., None] * frames.cross(e, curve)
-    return SwingCouple(gyroscopic=gyroscopic + zero, transverse=across + zero)
+    return GyroscopicCouple(gyroscopic=gyroscopic + zero, transverse=across + zero)
 
 
 def parallel_ends(

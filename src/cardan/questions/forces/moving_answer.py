@@ -31,7 +31,7 @@ from .force_tables import (
     tidy,
 )
 from .moving_forces import MovingForces
-from .reactions import Held
+from .reactions import Determinacy
 
 __all__ = ["answer"]
 
@@ -158,7 +158,7 @@ def _remarks(result: MovingForces) -> Iterator[Remark]:
     if result.cancelled:
         yield Remark(text=_("Warning: stopped; this is of the turns looked at by then."), tone="warning")
     yield Remark(text=_looked_at(result))
-    if int(result.forces.status) == int(Held.INDETERMINATE):
+    if int(result.forces.status) == int(Determinacy.INDETERMINATE):
         text = _(
             "Warning: statically indeterminate: the supports share the forces by their stiffness, misalignment "
             "included."
@@ -190,7 +190,7 @@ def _facts(drive: Drive, result: MovingForces) -> dict[str, Any]:
     return {
         "movements": [one.name or one.kind for one in result.movements],
         **duty_facts(drive),
-        "status": Held(int(found.status)).name.lower(),
+        "status": Determinacy(int(found.status)).name.lower(),
         "turns": result.turns,
         "complete": result.complete and not result.cancelled,
         **({} if found.reaction is not None else {"supports": []}),

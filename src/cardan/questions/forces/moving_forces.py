@@ -11,7 +11,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.chain import refuse_kinds
+from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.errors import refuse
 from cardan.maths.arrays import Array

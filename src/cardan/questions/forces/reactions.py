@@ -13,17 +13,17 @@ from enum import IntEnum
 import numpy as np
 
 from cardan.drive.drive import Drive
+from cardan.drive.models.dynamics_model import Train, place_of, train
 from cardan.drive.models.machine_held import machine_held
-from cardan.drive.models.train import Train, place_of, train
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import frames
 from cardan.maths.linear.systems import RANK, broadcast_shapes, solve_regular, surplus
 
-from .held import Actions, Layout, actions, balance, crosses, sliding
-from .kinetostatics import Couples, Stand, standing, swing_need
+from .kinetostatics import Couples, KinematicState, standing, swing_need
+from .support_statics import Actions, Layout, actions, balance, crosses, sliding
 
 
-class Held(IntEnum):
+class Determinacy(IntEnum):
     """Whether the supports hold a drive just enough."""
 
     DETERMINATE = 0
@@ -70,7 +70,7 @@ def layout_of(train: Train) -> Layout:
     return Layout(joints=train.joints, bearings=train.bearings, slides=train.slides, splines=train.splines)
 
 
-def frame(train: Train, stand: Stand, points: Array) -> Frame:
+def frame(train: Train, stand: KinematicState, points: Array) -> Frame:
     """Return how a train is held.
 
     train (...): supports and splines; stand (..., p); points (..., p or 1, n+2, 3) [m]: B_0 … B_{n+1}.
@@ -101,7 +101,7 @@ def _cut(train: Train) -> Array | None:
     return None if train.cut is None or not train.splines else train.cut[..., None, :]
 
 
-def weights(train: Train, frame: Frame, stand: Stand, acceleration: Array | None) -> list[Load]:
+def weights(train: Train, frame: Frame, stand: KinematicState, acceleration: Array | None) -> list[Load]:
     """Return weight and inertia force of shafts and crosses.
 
     frame: where the points lie.
@@ -226,7 +226,7 @@ def forces_of(frame: Frame, unknowns: Array) -> tuple[Array, Array, Array]:
 def whole_balance(
     train: Train,
     frame: Frame,
-    stand: Stand,
+    stand: KinematicState,
     couples: Couples,
     loads: list[Load],
     held: tuple[Array, Array],
@@ -272,7 +272,7 @@ def whole_balance(
     return frames.norm(force) / safe, frames.norm(moment) / xp.where(most > 0.0, most, 1.0)
 
 
-def _turning_need(train: Train, stand: Stand, couples: Couples, i: int) -> Array:
+def _turning_need(train: Train, stand: KinematicState, couples: Couples, i: int) -> Array:
     """Return what shaft i needs to turn as it does: its resisting torque, its inertia, the swing of its axis."""
     e = stand.axis[..., i, :]
     total = 0.0 * couples.secondary[..., i, :]

@@ -14,7 +14,7 @@ from cardan.drive.conditions import LoadCase
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Harmonic
 from cardan.drive.joints import Joint
-from cardan.drive.models.chain import Chain, Laws, given_chain, turning
+from cardan.drive.models.kinematics_model import Chain, Laws, given_chain, turning
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import peak
 from cardan.questions.motion.motion import motion
@@ -91,7 +91,7 @@ def turn_loads(
 
     Examples
     --------
-    >>> from cardan.drive.models.chain import chain
+    >>> from cardan.drive.models.kinematics_model import chain
     >>> from cardan.drive.drive import Drive
     >>> found = turn_loads(chain(Drive.from_angles([0.35])), 100.0)
     >>> print(found.high.round(3), found.bending.round(3))

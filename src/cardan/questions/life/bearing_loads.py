@@ -10,12 +10,12 @@ import numpy as np
 from cardan.drive.conditions import LoadCase
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.chain import Chain
-from cardan.drive.models.train import Train
+from cardan.drive.models.dynamics_model import Train
+from cardan.drive.models.kinematics_model import Chain
 from cardan.errors import Problem, check
 from cardan.formulas.joint_rating import POWER
 from cardan.maths.arrays import Array
-from cardan.maths.curves.over_turn import mean_between
+from cardan.maths.curves.cycle_statistics import mean_between
 from cardan.questions.losses.chain_friction import kinks
 from cardan.questions.losses.loss_model import Model, flowing, moving
 from cardan.texts import _

@@ -12,8 +12,8 @@ import numpy as np
 from cardan.drive.conditions import Condition, LoadCase, in_poses, load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.chain import refuse_kinds
-from cardan.drive.models.train import train
+from cardan.drive.models.dynamics_model import train
+from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.errors import Problem, check, refuse
 from cardan.formulas.joint_rating import POWER, book_life, lasting, nominal_torque
 from cardan.maths.arrays import Array

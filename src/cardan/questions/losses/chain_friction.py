@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, crosses
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.kinematics_model import Chain
 from cardan.errors import refuse
 from cardan.formulas.friction import joint_friction, swings
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
-from cardan.maths.curves.over_turn import mean_between
+from cardan.maths.curves.cycle_statistics import mean_between
 from cardan.texts import _
 
 

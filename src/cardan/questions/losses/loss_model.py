@@ -11,10 +11,10 @@ from typing import Protocol
 import numpy as np
 
 from cardan.drive.duty import Harmonic
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.kinematics_model import Chain
 from cardan.formulas.friction import swings
 from cardan.maths.arrays import Array, ArrayLike, namespace
-from cardan.maths.curves.over_turn import RESTS, mean_between
+from cardan.maths.curves.cycle_statistics import RESTS, mean_between
 from cardan.questions.motion.motion import Motion, motion
 
 from .chain_friction import kinks

@@ -10,12 +10,12 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.chain import refuse_kinds
-from cardan.drive.models.train import Train, place_of, train
+from cardan.drive.models.dynamics_model import Train, place_of, train
+from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
-from cardan.questions.forces.kinetostatics import Stand, standing
+from cardan.questions.forces.kinetostatics import KinematicState, standing
 from cardan.questions.forces.reactions import Frame, Load, forces_of, frame, right_side, solved, weights
 from cardan.questions.motion.articulation import articulation
 from cardan.texts import _
@@ -232,7 +232,7 @@ def response(train: Train, drag: Array, angle: Array) -> Response:
     return Response(weight=solved_for(still, weights(train, held, stand, None)), pull=parts[0], rub=parts[1])
 
 
-def _held(train: Train, angle: Array) -> tuple[Stand, Frame]:
+def _held(train: Train, angle: Array) -> tuple[KinematicState, Frame]:
     """Return how the drive stands at input angles (p,), and how it is held."""
     place = place_of(train)
     stand = standing(train.chain, place.axis, place.normal, angle, speed=1.0)

@@ -19,11 +19,11 @@ from cardan.mechanism.counting import Partition, joins, partition
 from cardan.mechanism.mechanism import PAIRS, Mechanism
 from cardan.texts import _, mark, plural
 
+from .constraint_release import Repair, advice, repairs, strain
 from .drive_mechanism import SUPPORT, support_name
 from .figure import closure_figures, mobility_figures, turn_figures
 from .finite_mobility import FiniteMobility, MobilityTurn, finite_mobility, mobility_over_turn
 from .mobility import JointHold, Mobility, mobility
-from .repair import Repair, advice, repairs, strain
 
 __all__ = ["COLUMNS", "Turned", "answer", "ask", "lacking", "otherwise", "turned"]
 
@@ -160,7 +160,9 @@ def _joints(result: Mobility, shown: Sequence[JointHold], *, links: bool) -> Tab
     """Return the table of joints, with the links they join where there is room."""
     between = (Column(key="links", heading=_("between"), values=[" – ".join(one.links) for one in shown], left=True),)
     gap = (
-        Column(key="misalignment", heading=_("part error"), values=[one.misfit for one in shown], dimension="length"),
+        Column(
+            key="misalignment", heading=_("part error"), values=[one.misalignment for one in shown], dimension="length"
+        ),
     )
     return Table(
         title=_("What part errors can load"),
@@ -168,7 +170,7 @@ def _joints(result: Mobility, shown: Sequence[JointHold], *, links: bool) -> Tab
             Column(key="joint", heading=_("joint"), values=[one.id for one in shown], left=True),
             Column(key="kind", heading=_("kind"), values=[_(PAIRS[one.type].name) for one in shown], left=True),
             *(between if links else ()),
-            *(gap if result.misfit else ()),
+            *(gap if result.misalignment else ()),
             Column(
                 key="strained_by",
                 heading=_("redundant constraint"),
@@ -183,9 +185,9 @@ def _joints(result: Mobility, shown: Sequence[JointHold], *, links: bool) -> Tab
 def _remarks(
     thing: Drive | Mechanism, result: Mobility, remedies: Sequence[Repair], around: Turned | None
 ) -> Iterator[Remark]:
-    if result.misfit:
+    if result.misalignment:
         text = _("Warning: as given the parts do not fit: {gap} have to be forced into place.")
-        yield Remark(text=say(text, gap=Quantity(result.misfit, "length", 3)), tone="warning")
+        yield Remark(text=say(text, gap=Quantity(result.misalignment, "length", 3)), tone="warning")
     yield from _loose(result)
     if not result.certain:
         text = _("Warning: it stands next to a special position, and the numbers are uncertain: move it a little.")
@@ -323,7 +325,7 @@ def _facts(
         "adrift": result.adrift,
         "certain": result.certain,
         "checked_by_loops": result.agrees,
-        "misalignment": Quantity(result.misfit, "length"),
+        "misalignment": Quantity(result.misalignment, "length"),
         "joints": [
             {
                 "joint": one.id,
@@ -335,7 +337,7 @@ def _facts(
                 "strained_by": strain(one) or None,
                 "force": Quantity(one.force, "force"),
                 "couple": Quantity(one.couple, "torque"),
-                "misalignment": Quantity(one.misfit, "length"),
+                "misalignment": Quantity(one.misalignment, "length"),
             }
             for one in result.joints
         ],

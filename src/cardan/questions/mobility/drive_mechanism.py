@@ -194,4 +194,4 @@ def _support(drive: Drive, place: Geometry, support: Support, index: int) -> Ite
 
 
 def _with_offset(pair: Pair, support: Support) -> Pair:
-    return replace(pair, misfit=support.offset)
+    return replace(pair, misalignment=support.offset)

@@ -281,7 +281,7 @@ class _Loops:
         """Return the least sum of squares near a guess, and where it is."""
         state = guess.copy()
         state[self.driven] = amount
-        rest, slope = self._misfit(state)
+        rest, slope = self._misalignment(state)
         error, damping = float(rest @ rest), 1e-9
         for _round in range(ROUNDS):
             normal, right = slope.T @ slope, slope.T @ rest
@@ -291,7 +291,7 @@ class _Loops:
             step = np.linalg.solve(normal + weight * np.eye(len(normal)), right)
             trial = state.copy()
             trial[self.free] -= step
-            ahead, steeper = self._misfit(trial)
+            ahead, steeper = self._misalignment(trial)
             better = float(ahead @ ahead)
             near = error < NEAR
             if better < error:
@@ -307,7 +307,7 @@ class _Loops:
         return error, state
 
     def _told(self, state: Array) -> tuple[float, float, float, Array]:
-        rest, _slope = self._misfit(state)
+        rest, _slope = self._misalignment(state)
         parts = rest.reshape(-1, 2, 3)
         sizes = np.max(frames.norm(parts), axis=0, initial=0.0)
         shift = np.eye(4)
@@ -329,7 +329,7 @@ class _Loops:
             places[link] = there @ (step if self.tree.along[link] > 0.0 else screws.inverse(step))
         return np.asarray([places[link] for link in range(len(places) - 1)])
 
-    def _misfit(self, state: Array) -> tuple[Array, Array]:
+    def _misalignment(self, state: Array) -> tuple[Array, Array]:
         """Return gaps and turns at the cut joints, and their derivatives by the coordinates that are not driven."""
         joints = self._joints(state)
         links = self._links(joints)

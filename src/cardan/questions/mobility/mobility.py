@@ -38,7 +38,7 @@ class JointHold:
     # link on the second and couple about its point, in its own axes, up to a factor
     force: Array
     couple: Array  # (m, 3) [N·m]
-    misfit: float  # [m]: how much of what it is off the mechanism cannot take up
+    misalignment: float  # [m]: how much of what it is off the mechanism cannot take up
 
     @property
     def strained(self) -> bool:
@@ -85,7 +85,7 @@ class Mobility:
         point at the origin moves.
     adrift : tuple of str
         Links that can move while the input link stands still.
-    misfit : float [m]
+    misalignment : float [m]
         How much of what the parts are off has to be forced into place: root of the sum of squares of what the joints
         must give, shared as evenly as can be.
     """
@@ -107,7 +107,7 @@ class Mobility:
     joints: tuple[JointHold, ...]
     motion: Array
     adrift: tuple[str, ...]
-    misfit: float
+    misalignment: float
 
     @property
     def agrees(self) -> bool:
@@ -204,7 +204,7 @@ def _mobility(mechanism: Mechanism) -> Mobility:
         joints=tuple(_hold(pair, system, shares, j) for j, pair in enumerate(mechanism.joints)),
         motion=_in_metres(system, motion),
         adrift=_adrift(mechanism, system, matrix, len(motion) - (driven or 0)),
-        misfit=_misfit(mechanism.joints, system, shares),
+        misalignment=_misalignment(mechanism.joints, system, shares),
     )
 
 
@@ -284,7 +284,7 @@ def _hold(pair: Pair, system: Constraints, shares: Array, j: int) -> JointHold:
         sliding=sliding,
         force=table[:, :3],
         couple=table[:, 3:] * system.size,
-        misfit=off if off > TAKES_PART * system.size else 0.0,
+        misalignment=off if off > TAKES_PART * system.size else 0.0,
     )
 
 
@@ -309,12 +309,12 @@ def _echelon(rows: Array) -> Array:
 
 
 def _off(pair: Pair, system: Constraints) -> Array:
-    """Return the misfit of a joint as a small displacement (6,) of its second link, about the middle."""
-    turn, shift = np.asarray(pair.misfit_turn), np.asarray(pair.misfit) / system.size
+    """Return the misalignment of a joint as a small displacement (6,) of its second link, about the middle."""
+    turn, shift = np.asarray(pair.misalignment_turn), np.asarray(pair.misalignment) / system.size
     return np.concatenate((turn, shift + frames.cross(system.place(pair.point), turn)))
 
 
-def _misfit(pairs: Sequence[Pair], system: Constraints, shares: Array) -> float:
+def _misalignment(pairs: Sequence[Pair], system: Constraints, shares: Array) -> float:
     gap = sum((shares[:, j] @ _off(pair, system) for j, pair in enumerate(pairs)), np.zeros(len(shares)))
     found = float(np.linalg.norm(gap)) * system.size
     return found if found > TAKES_PART * system.size else 0.0

@@ -12,7 +12,7 @@ from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark,
 from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import given_chain, mixed, unmapped
+from cardan.drive.models.kinematics_model import given_chain, mixed, unmapped
 from cardan.figures.figure import Figure
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role

@@ -13,8 +13,8 @@ from cardan.answers.quantity import Quantity, Text, say
 from cardan.drive.drive import Drive
 from cardan.drive.fields.ranges import range_problems
 from cardan.drive.fields.validity import movement_problems
-from cardan.drive.models.chain import refuse_kinds
 from cardan.drive.models.geometry import Geometry, geometry
+from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.errors import JointAngleLimitError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike

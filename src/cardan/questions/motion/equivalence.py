@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
-from cardan.drive.models.chain import Chain, turning_chain, unmapped
+from cardan.drive.models.kinematics_model import Chain, turning_chain, unmapped
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import mobius
 

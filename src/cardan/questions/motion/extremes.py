@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.kinematics_model import Chain
 from cardan.errors import refuse
 from cardan.later import later
 from cardan.maths.arrays import Array, namespace

@@ -9,8 +9,8 @@ from enum import IntEnum
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import Chain, turning
 from cardan.drive.models.geometry import Geometry, geometry_from_points
+from cardan.drive.models.kinematics_model import Chain, turning
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.curves.paths import Jet, Path

@@ -9,7 +9,7 @@ from cardan.answers.quantity import Quantity, Say, say
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.joints.joint import Inside
-from cardan.drive.models.chain import given_chain
+from cardan.drive.models.kinematics_model import given_chain
 from cardan.texts import _
 
 

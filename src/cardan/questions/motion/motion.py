@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
-from cardan.drive.models.chain import Chain, given_chain, unmapped
+from cardan.drive.models.kinematics_model import Chain, given_chain, unmapped
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real, unit_complex
 from cardan.maths.kernel import mobius
@@ -170,7 +170,7 @@ def motion(
     Notes
     -----
     Joints of other kinds whose map is tan θ' = κ tan θ count as the Hooke joints that turn alike, see
-    `cardan.drive.models.chain`; a drive with a joint that turns by another law is followed joint by joint.
+    `cardan.drive.models.kinematics_model`; a drive with a joint that turns by another law is followed joint by joint.
 
     Every shaft directly from φ_1 by the product of the joints' Möbius matrices: i = 1/\\|b̄ w + ā\\|², w = e^(2iφ_1);
     equal to the recurrences of Book (32), (33), (38) to rounding, and the cost of a position does not grow with n.

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import Chain, turning
+from cardan.drive.models.dynamics_model import Train
 from cardan.drive.models.geometry import geometry, geometry_from_points, in_form
-from cardan.drive.models.train import Train
+from cardan.drive.models.kinematics_model import Chain, turning
 from cardan.drive.movement import Movement, Oscillation
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames

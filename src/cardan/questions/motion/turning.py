@@ -8,7 +8,7 @@ from typing import TypeAlias
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import unmapped
+from cardan.drive.models.kinematics_model import unmapped
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import peak
 

@@ -14,7 +14,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import given_chain, mixed, unmapped
+from cardan.drive.models.kinematics_model import given_chain, mixed, unmapped
 from cardan.errors import InputError
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role

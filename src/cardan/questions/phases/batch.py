@@ -11,7 +11,7 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
 from cardan.drive.fields.validity import wrong_count
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.kinematics_model import Chain
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import mobius, polygon

@@ -13,7 +13,7 @@ from itertools import product
 import numpy as np
 import scipy
 
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.kinematics_model import Chain
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius, polygon
 from cardan.maths.kernel.mobius import Pair

@@ -13,8 +13,8 @@ import scipy
 
 from cardan.drive.drive import Drive
 from cardan.drive.fields.validity import axis_points
-from cardan.drive.models.chain import Chain, refuse_kinds
 from cardan.drive.models.geometry import geometry, geometry_from_points
+from cardan.drive.models.kinematics_model import Chain, refuse_kinds
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames, mobius

@@ -13,7 +13,7 @@ import scipy
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import pose_drives
 from cardan.drive.fields.validity import wrong_count
-from cardan.drive.models.chain import Chain, nearly_turning_chain
+from cardan.drive.models.kinematics_model import Chain, nearly_turning_chain
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import polygon

@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.kinematics_model import Chain
 from cardan.maths.arrays import Array, namespace, unit_complex
 from cardan.maths.kernel import mobius
 from cardan.maths.kernel.mobius import Pair
@@ -142,7 +142,7 @@ def sensitivity(chain: Chain) -> Array:
     δ = 4 |a| |b|, exactly differentiated. At closure the slope is 4 |a| |db/dγ|, for small joint angles
     8 |Σ_{k≥j} τ_k e^{2iΨ_k}|.
 
-    >>> from cardan.drive.models.chain import chain
+    >>> from cardan.drive.models.kinematics_model import chain
     >>> from cardan.drive.drive import Drive
     >>> sensitivity(chain(Drive.from_angles([20 * deg, 20 * deg]))) * deg
     array([0.00434...])
@@ -162,7 +162,7 @@ def growth(chain: Chain, yoke_angle: Array, error: float = deg) -> Array:
     yoke_angle (..., n-1) [rad]: settings of its yokes; error [rad]: how far each yoke stands off, one at a time.
     max δ(γ ± error) - δ(γ), exact. At a smooth minimum the slope, see `sensitivity`, is 0 and this is not.
 
-    >>> from cardan.drive.models.chain import chain
+    >>> from cardan.drive.models.kinematics_model import chain
     >>> from cardan.drive.drive import Drive
     >>> drive = chain(Drive.from_angles([20 * deg, 20.01 * deg]))
     >>> growth(drive, drive.yoke_angle), bool(abs(sensitivity(drive)) < 1e-12)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from cardan.drive.models.chain import Chain
+from cardan.drive.models.kinematics_model import Chain
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius, polygon

@@ -15,7 +15,7 @@ from cardan.texts import _
 
 from .chart_data import CODE, ChartData, Looks
 from .charts import split
-from .paper import LINE, Paper
+from .sheet import LINE, Paper
 
 SKETCH = 260.0
 """Pixels of the drive on the first page, from top to bottom."""

@@ -15,7 +15,7 @@ from cardan.drive.duty import Duty, Harmonic
 from cardan.drive.joints import Hooke
 from cardan.drive.machine import ConstantTorque, Engine, EngineHarmonic, HarmonicTorque, LinearTorque
 from cardan.drive.material import Material
-from cardan.drive.shaft import Lump, Segment, Shaft, Spline
+from cardan.drive.shaft import PointMass, Segment, Shaft, Spline
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.questions.torsion.model.torsional_balance import places
 from cardan.questions.torsion.model.torsional_modes import straight_modes
@@ -66,7 +66,10 @@ def test_stretches_splines_and_parts_are_in_their_places() -> None:
         number=2,
         length=1.0,
         segments=steps,
-        masses=(Lump(position=0.0, mass=1.0, polar_inertia=0.004), Lump(position=0.6, mass=1.0, polar_inertia=0.01)),
+        masses=(
+            PointMass(position=0.0, mass=1.0, polar_inertia=0.004),
+            PointMass(position=0.6, mass=1.0, polar_inertia=0.01),
+        ),
         spline=Spline(position=0.1, stiffness=2e5, backlash=0.003),
     )
     model = torsional_model(drive(stepped))

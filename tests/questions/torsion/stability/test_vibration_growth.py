@@ -9,8 +9,8 @@ import numpy as np
 from cardan import example
 from cardan.questions.torsion.model.torsional_model import torsional_line
 from cardan.questions.torsion.stability.stability_kernel import vibration_growth
+from cardan.questions.torsion.steady.alternating_torque import torque_swings
 from cardan.questions.torsion.steady.run_stability import floquet
-from cardan.questions.torsion.steady.torque_swing import torque_swings
 from cardan.questions.torsion.steady.torsion_response import loaded_model
 from cardan.units import rpm
 

@@ -34,7 +34,7 @@ LOST = 0.5
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Sound:
+class CleanChannel:
     """Values of a channel, made whole."""
 
     values: Array  # (n,): all finite; gaps are bridged by straight lines
@@ -42,7 +42,7 @@ class Sound:
     cautions: tuple[str, ...]  # what was doubtful
 
 
-def sound(name: str, values: Array, *, swings: bool = True, steady: bool = False) -> Sound | None:
+def sound(name: str, values: Array, *, swings: bool = True, steady: bool = False) -> CleanChannel | None:
     """Return the values of a channel with its gaps filled and what is doubtful in them, None where it holds nothing.
 
     values (n,): as read; nan where there is none.
@@ -66,7 +66,7 @@ def sound(name: str, values: Array, *, swings: bool = True, steady: bool = False
         trust *= max(0.1, 1.0 - 4.0 * share)
     if np.ptp(values) == 0.0 and not (steady and values[0] != 0.0):
         told.append(_("{name}: constant; the sensor may be dead or not connected.").format(name=name))
-        return Sound(values=values, trust=0.0, cautions=tuple(told))
+        return CleanChannel(values=values, trust=0.0, cautions=tuple(told))
     wrapped = _wrapped(values)
     if wrapped:
         text = _("{name}: jumps through its whole range {count} times; its numbers have overflown.")
@@ -82,7 +82,7 @@ def sound(name: str, values: Array, *, swings: bool = True, steady: bool = False
         text = _("{name}: clipped at its limits, {share} % of its values; peaks are cut and orders made up.")
         told.append(text.format(name=name, share=f"{100.0 * flat:.0f}" if flat > 0.1 else f"{100.0 * flat:.2g}"))
         trust *= max(0.2, 1.0 - 10.0 * flat)
-    return Sound(values=values, trust=trust, cautions=tuple(told))
+    return CleanChannel(values=values, trust=trust, cautions=tuple(told))
 
 
 def _still(values: Array) -> float:

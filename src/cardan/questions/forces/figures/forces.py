@@ -21,7 +21,7 @@ from cardan.maths.kernel import frames
 from cardan.maths.ties import foremost, foremost_on
 from cardan.questions.forces.force_tables import senses
 from cardan.questions.forces.forces import Forces
-from cardan.questions.forces.reactions import Held
+from cardan.questions.forces.reactions import Determinacy
 from cardan.texts import _
 from cardan.units import deg, mm
 
@@ -149,7 +149,7 @@ def reactions_figure(found: Forces, names: Sequence[str] = ()) -> Figure:
     most = worst(found)
     pushed = bool(np.any(np.abs(np.asarray(found.axial)) > NOTHING * max(most.size, LEAST)))
     source = _("Balance of forces and moments of every shaft in one linear system; rigid shafts and crosses")
-    if int(np.max(np.asarray(found.status))) == int(Held.INDETERMINATE):
+    if int(np.max(np.asarray(found.status))) == int(Determinacy.INDETERMINATE):
         source = _("Balance of every shaft, shared by least energy among bearings and shafts that give way")
     paths = tuple(_radial_paths(found, most.size))
     if paths:

@@ -17,7 +17,7 @@ from cardan.formulas.pendulum import tuned_length
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torsional_balance import places
 from cardan.questions.torsion.model.torsional_modes import StraightModes, straight_modes
-from cardan.questions.torsion.steady.torque_swing import TorqueSwings
+from cardan.questions.torsion.steady.alternating_torque import TorqueSwings
 from cardan.questions.torsion.steady.torsion_response import Progress
 from cardan.texts import _
 
@@ -282,7 +282,7 @@ def absorber(
 
     See Also
     --------
-    calm, torsion_response
+    optimise_torsion, torsion_response
 
     Notes
     -----

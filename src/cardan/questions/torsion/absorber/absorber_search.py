@@ -18,7 +18,7 @@ from cardan.questions.torsion.model.shaft_line import ShaftLine, shaft_line
 from cardan.questions.torsion.model.torsional_layouts import chosen
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
-from cardan.questions.torsion.steady.torque_swing import torque_swings
+from cardan.questions.torsion.steady.alternating_torque import torque_swings
 from cardan.texts import _
 from cardan.units import nearest
 

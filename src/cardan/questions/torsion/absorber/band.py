@@ -19,14 +19,14 @@ from cardan.questions.torsion.model.torsional_layouts import chosen
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained, in_time, stacked, torsional_train
 from cardan.questions.torsion.stability.stability_kernel import vibration_growth
+from cardan.questions.torsion.steady.alternating_torque import TorqueSwings, torque_swings
 from cardan.questions.torsion.steady.orbit import straight_frequencies
-from cardan.questions.torsion.steady.torque_swing import TorqueSwings, torque_swings
 from cardan.questions.torsion.steady.torsion_response import Progress, loaded_model
 from cardan.texts import _
 
 # The design whose torques swing least over a band of speeds: peaks between the speeds looked at are met on the way.
 
-Swings: TypeAlias = Callable[[Array, Array], Array]
+OneAtATime: TypeAlias = Callable[[Array, Array], Array]
 """From places (D, v) in the unit box and speeds (S,) to swings of torques (D, S, E) [N·m], all finite."""
 
 Closer: TypeAlias = Callable[[Array], Array]
@@ -83,7 +83,7 @@ class LeastSwing:
     closer: `Closer`; None where these speeds are all that count.
     """
 
-    def __init__(self, swings: Swings, speed: Array, closer: Closer | None, watched: Watched) -> None:
+    def __init__(self, swings: OneAtATime, speed: Array, closer: Closer | None, watched: Watched) -> None:
         self.swings, self.speed, self.closer, self.watched = swings, speed, closer, watched
         self.best: Array = np.zeros(0)
         self.least = np.inf

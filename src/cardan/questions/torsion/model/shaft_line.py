@@ -12,9 +12,9 @@ from cardan.answers.reader import USUAL
 from cardan.drive.body import Piece, body_length, pieces
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
-from cardan.drive.line import Place, line_length, shaft_places
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import ToNext
+from cardan.drive.torsional_layout import Place, line_length, shaft_places
 from cardan.errors import Problem
 from cardan.texts import _
 

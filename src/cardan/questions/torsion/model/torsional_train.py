@@ -18,8 +18,8 @@ from cardan.answers.reader import USUAL
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Joint
-from cardan.drive.models.chain import Chain, nearly_turning_chain
 from cardan.drive.models.geometry import geometry
+from cardan.drive.models.kinematics_model import Chain, nearly_turning_chain
 from cardan.drive.yokes import with_yokes
 from cardan.errors import Problem, check, refuse
 from cardan.formulas.damping import LOSS

@@ -13,7 +13,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
-from cardan.drive.models.chain import given_chain
+from cardan.drive.models.kinematics_model import given_chain
 from cardan.errors import refuse
 from cardan.formulas.damping import LOSS
 from cardan.questions.torsion.model.answer import assumptions, ranges

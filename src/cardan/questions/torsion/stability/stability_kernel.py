@@ -243,7 +243,7 @@ WORTH = 3000.0
 def vibration_growth(orbit: Orbit, rows: Array) -> Array:
     """Return by how much disturbances of motions grow in a period, ln max|ρ|: array (b,).
 
-    orbit (...): as `cardan.questions.torsion.steady.torque_swing.torque_swings` gives it.
+    orbit (...): as `cardan.questions.torsion.steady.alternating_torque.torque_swings` gives it.
     rows (b,) of int: which motions, counted through the leading axes.
     Returns: negative where every disturbance dies out; nan where there is no motion.
     As `run_stability.floquet`, but that the drift of free drives to another mean speed is always left out,

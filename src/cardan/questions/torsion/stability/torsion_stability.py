@@ -10,7 +10,7 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.paths import place, read, with_values
-from cardan.drive.models.chain import given_chain, turning
+from cardan.drive.models.kinematics_model import given_chain, turning
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.questions.motion.motion import initial_phases

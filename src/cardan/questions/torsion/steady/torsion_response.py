@@ -40,7 +40,7 @@ SHARE = 0.35
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Apart:
+class NonsynchronousOrder:
     """A torque whose order no two turns hold a whole number of times, as the straight line answers it."""
 
     order: float  # of the input shaft
@@ -71,7 +71,7 @@ class TorsionResponse:
     train: TorsionalTrain
     steady: SteadyResponse
     floquet: Floquet
-    apart: tuple[Apart, ...]
+    apart: tuple[NonsynchronousOrder, ...]
     assumed: tuple[str, ...]
 
     @property
@@ -259,14 +259,14 @@ def parted(model: TorsionalModel) -> tuple[TorsionalModel, tuple[Torque, ...]]:
     return replace(model, torques=tuple(t for t, fit in zip(model.torques, fits, strict=True) if fit)), loose
 
 
-def _apart(model: TorsionalModel, loose: tuple[Torque, ...], speeds: Array) -> Iterator[Apart]:
+def _apart(model: TorsionalModel, loose: tuple[Torque, ...], speeds: Array) -> Iterator[NonsynchronousOrder]:
     """Yield how the straight line answers torques of other orders."""
     for torque in loose:
         law = torque.law
         assert isinstance(law, Swinging)
         amplitude = np.asarray(law.amplitude) * np.exp(1j * (np.asarray(law.phase) - 0.5 * np.pi))
         found = straight_waves(model, torque.station, amplitude, law.frequency * np.abs(speeds))
-        yield Apart(order=law.frequency, station=torque.station, torque=found.torque, angle=found.angle)
+        yield NonsynchronousOrder(order=law.frequency, station=torque.station, torque=found.torque, angle=found.angle)
 
 
 def _scaled(progress: Progress | None, low: float, high: float) -> Progress | None:

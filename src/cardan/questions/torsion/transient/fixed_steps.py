@@ -22,8 +22,8 @@ from cardan.questions.torsion.model.torsional_layouts import chosen, leading, li
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.texts import _
 
-from .marching import breaks_of, contact_period, forced_rate, own_rates
 from .simulation import Extremes, Progress, Simulation, Status, reported
+from .time_integration import breaks_of, contact_period, forced_rate, own_rates
 
 compiled = later("cardan.maths.compiled.torsion_block")
 

@@ -13,7 +13,7 @@ from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torsional_balance import balance, element_torques, energy, places
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 
-from .marching import WITHIN, Freedom, Piece
+from .time_integration import WITHIN, Freedom, Piece
 
 Progress: TypeAlias = Callable[[float], object]
 """Called with the share done; answering "stop" ends the work."""

@@ -23,8 +23,8 @@ from cardan.questions.torsion.steady.torsion_response import parted
 from cardan.texts import _
 
 from .fixed_steps import FixedStep
-from .marching import own_rates
 from .simulation import Progress, Simulation, Status
+from .time_integration import own_rates
 from .transient import Adaptive, Method, simulate
 
 Start: TypeAlias = Literal["even", "settled"]
@@ -71,9 +71,9 @@ class Transient:
     start: Start
 
     @property
-    def hangs(self) -> tuple[Hang, ...]:
+    def hangs(self) -> tuple[Sommerfeld, ...]:
         """Where a motor hung on a resonance: its speed stopped rising while power was there."""
-        return hanging(self.train.model, self.motion)
+        return sommerfeld(self.train.model, self.motion)
 
     @property
     def complete(self) -> bool:
@@ -269,7 +269,7 @@ MATTERS = 0.05
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Hang:
+class Sommerfeld:
     """A stretch of time in which the speed did not rise although torque was left over."""
 
     start: float  # [s]
@@ -280,7 +280,7 @@ class Hang:
     power: float  # [W]: mean power that went into swinging
 
 
-def hanging(model: TorsionalModel, found: Simulation) -> tuple[Hang, ...]:
+def sommerfeld(model: TorsionalModel, found: Simulation) -> tuple[Sommerfeld, ...]:
     """Return where a drive that torques turn hung on a resonance.
 
     model: one drive, as it was simulated; found: with some samples in every turn.
@@ -314,7 +314,7 @@ def hanging(model: TorsionalModel, found: Simulation) -> tuple[Hang, ...]:
         if gain * length > MATTERS * float(np.mean(mean[part])):
             rise = float(np.mean(did[part]))
             hangs.append(
-                Hang(
+                Sommerfeld(
                     start=float(middle[first]),
                     end=float(middle[last]),
                     speed=float(sense * np.mean(mean[part])),

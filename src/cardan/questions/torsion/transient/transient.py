@@ -20,13 +20,14 @@ from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.texts import _
 
 from .fixed_steps import FixedStep, stepped
-from .marching import (
+from .simulation import Extremes, Progress, Record, Simulation, Status, reported
+from .time_integration import (
     Explicit,
     Freedom,
     Implicit,
     Piece,
+    Section,
     Stepper,
-    Upto,
     breaks_of,
     contact_period,
     forced_rate,
@@ -37,7 +38,6 @@ from .marching import (
     sides_of,
     twists,
 )
-from .simulation import Extremes, Progress, Record, Simulation, Status, reported
 
 SAMPLES = 1001
 """Samples where none are asked for."""
@@ -406,7 +406,7 @@ class _Walk:
         restless = 0
         for end in breaks_of(task.model, task.motion, *task.span):
             if task.motion is not None:
-                self.freedom = replace(self.freedom, motion=Upto(whole=task.motion, end=end))
+                self.freedom = replace(self.freedom, motion=Section(whole=task.motion, end=end))
             while self.state[0] < end:
                 begin = self.state[0]
                 for piece in self._smooth(end):

@@ -1,0 +1,173 @@
+"""Small things that every part uses: dialogs, menus, messages, timers, HTML changed by a message of its own."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable, Iterable, Iterator
+from contextlib import contextmanager
+from html import escape
+from inspect import isawaitable
+
+from nicegui import background_tasks, events, ui
+from nicegui.element import Element
+
+from cardan.app.state.session import Session
+from cardan.errors import InputError
+from cardan.texts import _
+
+# HTML that is changed by a message of its own: what follows an edit at once does not wait for the rest of the page.
+
+
+class Live(Element, component="live.js"):
+    """A piece of the page whose content changes with every edit.
+
+    An update of an element has the browser look through the whole page; a message to it changes what it shows and
+    nothing else.
+    """
+
+    def __init__(self, html: str = "") -> None:
+        super().__init__()
+        self._props["html"] = html
+
+    @property
+    def html(self) -> str:
+        """What it shows."""
+        return str(self._props["html"])
+
+    def show(self, html: str) -> None:
+        """Show other HTML."""
+        if html != self.html:
+            with self._props.suspend_updates():
+                self._props["html"] = html
+            self.run_method("show", html)
+
+    def say(self, text: str) -> None:
+        """Show plain words."""
+        self.show(escape(text))
+
+
+# Timers of a part of the page.
+
+
+class Timer:
+    """Calls a function after a while, in the user's language; it ends with the part it belongs to.
+
+    seconds: until it calls, and from call to call.
+    what: what it calls; it may be awaited.
+    once: whether it calls a single time.
+    Unlike NiceGUI's timer it is no element: the browser hears nothing of it.
+    """
+
+    def __init__(
+        self, session: Session, body: ui.element, seconds: float, what: Callable[[], object], *, once: bool
+    ) -> None:
+        self._session = session
+        self._body = body
+        self._seconds = seconds
+        self._what = what
+        self._once = once
+        self._task = background_tasks.create(self._run(), name="timer of a part of the page")
+
+    def cancel(self) -> None:
+        """Call no more."""
+        self._task.cancel()
+
+    async def _run(self) -> None:
+        while True:
+            await asyncio.sleep(self._seconds)
+            if self._body.is_deleted:
+                return
+            with self._body, self._session.speaking():
+                called = self._what()
+                if isawaitable(called):
+                    await called
+            if self._once:
+                return
+
+
+# Dialogs that belong to the window, not to the part that asked for them: they stay when that part is built anew.
+
+
+@contextmanager
+def asking(mark: str, *, names: str = "", role: str = "dialog", whole: bool = False) -> Iterator[ui.dialog]:
+    """Open a dialog with what is built within; it goes once it is closed.
+
+    names: classes of its look; role: what it is for readers of the screen.
+    """
+    with ui.context.client.content:
+        dialog = ui.dialog().props("maximized" if whole else "")
+        with dialog, ui.card().classes(names or "dialog").props(f'role={role} data-mark="{mark}"'):
+            yield dialog
+        dialog.on("hide", dialog.delete)
+        dialog.open()
+
+
+def sending(
+    mark: str,
+    title: str,
+    taken: Callable[[events.UploadEventArguments], Awaitable[Callable[[], object]]],
+    *,
+    upload: str,
+    suffixes: Iterable[str],
+    most: int,
+) -> None:
+    """Ask for a file from the user's disk.
+
+    mark, upload: what tests call the dialog, and the field within it.
+    taken: takes the file in, and returns what is done with it once the dialog is closed.
+    suffixes: ends of names that are offered; most: bytes that a file may have.
+    """
+    larger = _("The file is larger than {size} MB.").format(size=most // 10**6)
+    with asking(mark) as dialog:
+
+        async def came(event: events.UploadEventArguments) -> None:
+            then = await taken(event)
+            dialog.close()
+            then()
+
+        ui.label(title).classes("head")
+        ui.upload(on_upload=came, on_rejected=lambda: refused(larger), max_file_size=most, auto_upload=True).props(
+            f'accept={",".join(suffixes)} flat bordered data-mark="{upload}"'
+        )
+        ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
+
+
+# What the page tells in passing.
+
+READ = 8000
+"""Milliseconds that leave time to read several lines."""
+
+
+def refused(why: InputError | str) -> None:
+    """Tell why something was not done, all reasons at once."""
+    ui.notify(str(why), type="negative", position="top", multi_line=True, timeout=READ)
+
+
+def done(what: str) -> None:
+    """Tell that something was done."""
+    ui.notify(what, type="positive", position="top")
+
+
+# Menus that the browser opens and closes by itself.
+#
+# NiceGUI's own menus have the server say back whether they are open: on a busy server the answer to a click comes after
+# the next one, and closes a menu the user has just opened, or opens one that was closed.
+
+
+def drop_down(title: str, mark: str, *, icon: str = "", look: str = "", closes: bool = True) -> ui.element:
+    """Return a button with a menu below it; what is built within stands in the menu.
+
+    icon: name of the icon before the title, none if empty; look: more of the button's properties.
+    closes: whether a click in the menu closes it.
+    """
+    button = ui.element("q-btn-dropdown").props("flat dense no-caps color=primary").props(look)
+    button.props["label"] = title
+    button.props["data-mark"] = mark
+    if icon:
+        button.props["icon"] = icon
+    return button.props("auto-close" if closes else "")
+
+
+def pop_up() -> ui.element:
+    """Return a menu that opens when what it stands in is clicked, and stays while its content is used."""
+    return ui.element("q-menu").props("max-height=80vh")

@@ -1,0 +1,158 @@
+"""What a movement makes of the joints of a drive, or of many that differ in where their joints are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache
+
+import numpy as np
+
+from cardan.drive.joints import Joint
+from cardan.drive.models.geometry import geometry_from_points
+from cardan.drive.models.kinematics_model import Chain, turning
+from cardan.drive.movement import Movement
+from cardan.maths.arrays import Array
+from cardan.maths.curves.extremes import turning_points
+from cardan.maths.kernel import frames
+from cardan.questions.motion.moving_chain import moving_shafts
+from cardan.questions.motion.moving_points import default_times, moving_points
+
+FEW = 40
+"""Up to so many drives are looked at at all instants of a movement."""
+
+INSTANTS = 41
+"""Instants at which each of more drives is looked at, at most: enough for what swings a few times."""
+
+TOGETHER = 50_000
+"""Drives times instants looked at together."""
+
+
+def largest_joint_angles(points: Array, movements: Sequence[Movement]) -> Array:
+    """Return the largest joint angle of every joint over the instants of a movement, array (..., n) [rad].
+
+    points (..., n+2, 3) [m]: points of the axis as drawn.
+    Where a movement carries points is an affine function of where they are.
+    """
+    found = [np.max(_joint_angles(moved)[0], axis=-2) for _part, moved in _moved(points, movements)]
+    return np.concatenate(found).reshape(*points.shape[:-2], -1)
+
+
+def largest_of(
+    ask: Callable[[Chain], Array],
+    kinematic: Chain,
+    points: Array,
+    movements: Sequence[Movement],
+    joints: Sequence[Joint],
+    *,
+    mean: bool = False,
+) -> Array:
+    """Return the largest or the mean answer over the instants of a movement, as if it stood at each, array (..., k).
+
+    ask: from kinematic halves (m, t) to answers (m, t, k).
+    kinematic (..., n): with the yoke angles and the start phase; points (..., n+2, 3) [m]: points of the axis as drawn.
+    mean: take the mean over the time instead of the largest.
+    Returns: infinite where a joint bends 90° or more at an instant.
+    """
+    outer, count = points.shape[:-2], kinematic.joints - 1
+    yokes = np.broadcast_to(kinematic.yoke_angle, (*outer, count)).reshape(math.prod(outer), 1, count)
+    phase = np.broadcast_to(kinematic.start_phase, outer).reshape(-1, 1)
+    found = []
+    for part, moved in _moved(points, movements):
+        possible = np.all(_joint_angles(moved)[1] > 1e-15, axis=-1)
+        straight = np.arange(moved.shape[-2])[:, None] * np.asarray((1.0, 0.0, 0.0))
+        frozen = geometry_from_points(np.where(possible[..., None, None], moved, straight))
+        turned = Chain(
+            joint_angle=frozen.joint_angle,
+            plane_twist=frozen.plane_twist,
+            yoke_angle=yokes[part],
+            start_phase=phase[part],
+        )
+        answers = np.where(possible[..., None], ask(turning(turned, joints)), np.inf)
+        between = 0.5 * (answers[:, 1:] + answers[:, :-1])
+        found.append(np.mean(between, axis=-2) if mean else np.max(answers, axis=-2))
+    return np.concatenate(found).reshape(*outer, -1)
+
+
+def extreme_lengths(points: Array, movements: Sequence[Movement]) -> tuple[Array, Array]:
+    """Return the least and the greatest length of every shaft over the instants of a movement, arrays (..., n+1) [m].
+
+    points (..., n+2, 3) [m]: points of the axis as drawn.
+    Up to `FEW` different drives exactly, as `motion.articulation` has them; of more the parabola through the
+    extreme instant and its neighbours.
+    """
+    count = points.shape[-2]
+    flat, back = np.unique(points.reshape(-1, 3 * count), axis=0, return_inverse=True)
+    rows = flat.reshape(-1, count, 3)
+    if rows.shape[0] > FEW:
+        lengths = [frames.norm(np.diff(moved, axis=-2)) for _part, moved in _moved(rows, movements)]
+        low = np.concatenate([-_tops(-one) for one in lengths])
+        high = np.concatenate([_tops(one) for one in lengths])
+    else:
+        ends = np.stack([_extremes(row, movements) for row in rows])
+        low, high = ends[..., 0], ends[..., 1]
+    shape = (*points.shape[:-2], count - 1)
+    return low[back.ravel()].reshape(shape), high[back.ravel()].reshape(shape)
+
+
+def _extremes(points: Array, movements: Sequence[Movement]) -> Array:
+    """Return least and greatest length of every shaft of one drive, array (n+1, 2) [m]; nan where its ends meet."""
+    times = default_times(movements)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        shafts = moving_shafts(moving_points(points, movements, times))
+    found = np.full((points.shape[0] - 1, 2), np.nan)
+    for k, ends in enumerate(found):
+        good = np.isfinite(shafts.length_acceleration[:, k])
+        if np.any(good):
+            parts = (shafts.length, shafts.length_rate, shafts.length_acceleration)
+            values = turning_points((times[good], *(part[good, k] for part in parts)))[1]
+            ends[:] = np.min(values), np.max(values)
+    return found
+
+
+def _tops(values: Array) -> Array:
+    """Return the largest of values (m, t, k) over the instants, between them by a parabola, array (m, k)."""
+    last = values.shape[1] - 1
+    at = np.argmax(values, axis=1)[:, None]
+    before, most, after = (np.take_along_axis(values, np.clip(at + step, 0, last), axis=1)[:, 0] for step in (-1, 0, 1))
+    curve = 2.0 * most - before - after
+    inside = (at[:, 0] > 0) & (at[:, 0] < last) & (curve > 0.0)
+    rise = (after - before) ** 2 / (8.0 * np.where(inside, curve, 1.0))
+    found: Array = most + np.where(inside, rise, 0.0)
+    return found
+
+
+def _moved(points: Array, movements: Sequence[Movement]) -> Iterator[tuple[slice, Array]]:
+    """Yield which of the drives, one after another, and their points at the instants of a movement (m, t, n+2, 3)."""
+    count = points.shape[-2]
+    rows = points.reshape(-1, count, 3)
+    times = default_times(movements)
+    if rows.shape[0] == 1:
+        yield slice(0, 1), moving_points(rows[0], movements, times)[0][None]
+        return
+    every = -(-times.size // INSTANTS) if rows.shape[0] > FEW else 1
+    still, slopes = _carried(tuple(movements), count, every)
+    size = still.size // (3 * count)
+    step = max(1, TOGETHER // size)
+    for first in range(0, rows.shape[0], step):
+        part = slice(first, first + step)
+        yield part, (rows[part].reshape(-1, 3 * count) @ slopes + still).reshape(-1, size, count, 3)
+
+
+@lru_cache(maxsize=8)
+def _carried(movements: tuple[Movement, ...], count: int, every: int) -> tuple[Array, Array]:
+    """Return where movements carry points at the origin (k,), and how that goes with each coordinate (3(n+2), k)."""
+    times = default_times(movements)[::every]
+    still = moving_points(np.zeros((count, 3)), movements, times)[0].ravel()
+    units = np.eye(3 * count).reshape(3 * count, count, 3)
+    return still, np.stack([moving_points(unit, movements, times)[0].ravel() - still for unit in units])
+
+
+def _joint_angles(points: Array) -> tuple[Array, Array]:
+    """Return the joint angles of points (..., n+2, 3) and their cosines, arrays (..., n); one may be 90° and more."""
+    along = np.diff(points, axis=-2)
+    length = frames.norm(along)
+    axis = along / np.where(length > 0.0, length, 1.0)[..., None]
+    before, after = axis[..., :-1, :], axis[..., 1:, :]
+    cosine = frames.dot(before, after)
+    return np.arctan2(frames.norm(frames.cross(before, after)), cosine), cosine

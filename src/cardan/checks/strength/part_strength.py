@@ -1,0 +1,187 @@
+"""What every joint and every shaft of a drive goes through: torque, couples, stresses, fatigue."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cardan.checks.design import Design
+from cardan.checks.load_case import Case
+from cardan.formulas.joint_rating import Contact
+from cardan.formulas.part_strength import PartStress, SplineStress
+from cardan.formulas.shaft_strength import Fatigue, ShaftStress, shaft_stress, torsion_modulus
+from cardan.maths.ties import foremost_of
+from cardan.questions.life.rainflow import rainflow, time_at_level
+
+from . import contact_pressure, journal_strength, yoke_strength
+from .journal_strength import journal_load
+from .needle_static import static_capacity
+from .section import Section, modulus, sections
+from .spline_pressure import lacking, stresses
+from .tube_buckling import composite_buckling
+from .tube_fatigue import STRENGTHS, fatigue, of_loads
+from .twist import compliance
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ShaftStrength:
+    """What a shaft goes through; None where the drive does not say enough."""
+
+    number: int  # 1 is the input shaft
+    # torque, bending [N·m]: largest torque and largest secondary couple over all ways of running, shocks counted
+    torque: float
+    bending: float  # [N·m]
+    # [N·m]: largest bending moment of its own weight between its joints; not part of the stresses. nan if not known.
+    weight_bending: float = math.nan
+    stress: ShaftStress | None = None  # of the stretch that is worst off
+    stretch: int = 1  # which stretch that is, from 1
+    fatigue: Fatigue | None = None  # of the stretch and the way of running with the least safety
+    # [s]: running time until the shaft breaks by Palmgren's and Miner's rule; infinite where it does not, nan where not
+    # known
+    fatigue_life: float = math.nan
+    twist: float = math.nan  # [rad]: under its largest torque, without shocks; nan where not known
+    spline: SplineStress | None = None
+    buckling_torque: float = math.nan  # [N·m]: of a tube of composite; else nan
+
+
+def shaft_strength(design: Design, k: int) -> ShaftStrength:
+    """Return what a shaft of one drive under torque goes through, counted from 0."""
+    shock, shaft = float(design.shock), design.drive.shafts[k]
+    torque, shocked = (
+        float(design.most(lambda case: case.shaft_torque[..., k], shocks=one)[0]) for one in (False, True)
+    )
+    soft, buckles = compliance(design, k)[0], composite_buckling(design, k)
+    found = list(sections(design, k))
+    plain = ShaftStrength(
+        number=k + 1,
+        torque=shock * shocked,
+        bending=shock * float(design.most(lambda case: case.end_bending[..., k])[0]),
+        weight_bending=weight_bending(design, k),
+        twist=math.nan if soft is None else float(soft) * torque,
+        spline=None if shaft.spline is None or lacking(design, k) else stresses(design, k)[0],
+        buckling_torque=math.nan if buckles is None else float(buckles),
+    )
+    if not found or shaft.layup is not None:
+        return plain
+    worst = foremost_of(range(len(found)), lambda s: 1.0 / float(torsion_modulus(found[s].outer, found[s].inner)))
+    case = foremost_of(design.loaded, lambda one: one.severity * float(one.mises_moment[k]))
+    size = shock * case.severity
+    moments = size * float(case.shaft_torque[k]), size * float(case.end_bending[k])
+    stress = shaft_stress(*moments, found[worst].outer, found[worst].inner)
+    plain = replace(plain, stress=stress, stretch=worst + 1)
+    if design.missing(*(one.of_material(name) for one in found for name in STRENGTHS)):
+        return plain
+    every = (fatigue(design, k, one, c) for one in found for c in design.loaded)
+    tired = foremost_of(every, lambda one: float(one.safety), least=True)
+    moving = any(one.speed for one in lasting(design)) or design.duty.torque_history is not None
+    return replace(plain, fatigue=tired, fatigue_life=_life(design, k, found) if moving else math.nan)
+
+
+def lasting(design: Design) -> Sequence[Case]:
+    """Return the ways of running that make up the time of a duty by themselves: none where a torque was measured."""
+    history = design.duty.torque_history
+    measured = history is not None and bool(history.torques)
+    return [one for one in design.running if float(one.share) > 0.0 and (one.block or not measured)]
+
+
+def _life(design: Design, k: int, found: Sequence[Section]) -> float:
+    """Return the time until the worst stretch breaks, by Palmgren and Miner [s]."""
+    rates = [_damage(design, k, one) + _measured(design, k, one) for one in found]
+    return min(1.0 / rate if rate > 0.0 else math.inf for rate in rates)
+
+
+def _damage(design: Design, k: int, section: Section) -> float:
+    """Return the damage a second of every turn."""
+    rate = 0.0
+    for case in lasting(design):
+        cycles = float(fatigue(design, k, section, case).cycles)
+        rate += float(case.share) * abs(float(case.speed or 0.0)) / (2.0 * math.pi * max(cycles, 1.0))
+    return rate
+
+
+def _measured(design: Design, k: int, section: Section) -> float:
+    """Return the damage a second of a torque history: its own cycles, and the turns at its levels."""
+    duty = design.duty
+    history = duty.torque_history
+    if history is None or not history.torques or duty.blocks:
+        return 0.0
+    peak, most = design.loaded[-1], max(abs(one) for one in history.torques) or 1.0
+    low, high = (float(torque[k]) / most for torque in peak.torque_range)
+    bending = float(peak.end_bending[k]) / most
+    counted = rainflow(history.torques)
+    own = of_loads(design, k, section, high * np.abs(counted.mean), 0.5 * high * counted.range, 0.0)
+    rate = float(np.sum(counted.count / np.maximum(own.cycles, 1.0))) / (history.times[-1] - history.times[0])
+    if not duty.speed:
+        return rate
+    levels = time_at_level(history.times, history.torques)
+    size = np.abs(levels.value)
+    turned = of_loads(design, k, section, 0.5 * (high + low) * size, 0.5 * (high - low) * size, bending * size)
+    turns = abs(duty.speed) / (2.0 * math.pi)
+    return rate + float(np.sum(levels.share / np.maximum(turned.cycles, 1.0))) * turns
+
+
+def weight_bending(design: Design, k: int) -> float:
+    """Return the largest bending moment of a shaft's weight between its joints, counted from 0 [N·m].
+
+    design: one drive; k: shaft, counted from 0.
+    A beam on two hinges, g across its full length: weights of its stretches and of the parts it carries; nan for the
+    end shafts, and where body or length is not given.
+    """
+    found, length = list(sections(design, k)), design.length(k)
+    if not 0 < k < design.joints or not found or length is None:
+        return math.nan
+    length = float(length)
+    lengths = [float(one.length or 0.0) for one in found]
+    fit, gravity = length / (sum(lengths) or length), math.hypot(*design.drive.settings.gravity)
+    edges = fit * np.concatenate(([0.0], np.cumsum(lengths)))
+    at = np.linspace(0.0, length, 401)
+    moment = np.zeros(at.size)
+    for one, start, end in zip(found, edges[:-1], edges[1:], strict=True):
+        area = 0.25 * math.pi * (one.outer**2 - one.inner**2)
+        load = gravity * modulus(design, one, "density") * area
+        force, middle = load * (end - start), 0.5 * (start + end)
+        beside = np.clip(at - start, 0.0, end - start)
+        moment += force * (1.0 - middle / length) * at - load * beside * (at - start - 0.5 * beside)
+    for lump in design.drive.shafts[k].masses:
+        force = gravity * lump.mass
+        moment += force * (1.0 - lump.position / length) * at - force * np.clip(at - lump.position, 0.0, None)
+    return float(np.max(np.abs(moment)))
+
+
+# What every joint of a drive goes through: torque, couple of its cross, stresses of journals, yokes and needles.
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JointStrength:
+    """What a joint goes through over all ways of running, shocks counted; nan or None where it cannot be told."""
+
+    number: int  # from 1
+    torque: float  # [N·m]: largest torque on either side
+    couple: float  # [N·m]: largest couple of the cross
+    journal_force: float = math.nan  # [N]: largest load of a journal, couple over span
+    journal: PartStress | None = None
+    yoke: PartStress | None = None
+    contact: Contact | None = None  # of the most loaded needle
+    static_capacity: float = math.nan  # [N]: as given, or by ISO 76
+
+
+def joint_strength(design: Design, i: int) -> JointStrength:
+    """Return what a joint of one drive under torque goes through, counted from 0."""
+    beside, couple = (
+        float(design.most(ask)[0] * design.shock)
+        for ask in (lambda case: case.joint_torque[..., i], lambda case: case.couple[..., i])
+    )
+    capacity, spanned = static_capacity(design, i), not design.missing(f"joints[{i}].cross.span")
+    return JointStrength(
+        number=i + 1,
+        torque=beside,
+        couple=couple,
+        journal_force=float(journal_load(design, i)[0]) if spanned else math.nan,
+        journal=None if journal_strength.lacking(design, i) else journal_strength.stress(design, i)[0],
+        yoke=None if yoke_strength.lacking(design, i) else yoke_strength.stress(design, i)[0],
+        contact=None if contact_pressure.lacking(design, i) else contact_pressure.contact(design, i)[0],
+        static_capacity=math.nan if capacity is None else float(capacity),
+    )

@@ -1,0 +1,201 @@
+"""Laws of motion that several kinds of joints share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cardan.maths.arrays import Array, ArrayLike, complex_of, floats, namespace, unit_complex
+from cardan.maths.kernel import mobius
+
+# Joints whose balls or tongue lie in one plane: exactly even where it halves the angle of the shafts, else nearly.
+#
+# A ball in the plane through the centre turns both shafts as one Hooke joint would. Let the normal of the plane stand
+# at p = α/2 + η to shaft 1 and at q = α/2 - η to shaft 2. The ball's angles about the shafts, from the plane of the
+# shafts, obey tan φ_2 = κ tan φ_1 with κ = cos p/cos q: the map of the circle with τ = -tan(α/2) tan η.
+
+
+def _corners(joint_angle: Array, tilt: Array) -> tuple[Array, Array]:
+    """Return cos p and cos q, nan where the plane holds a shaft, so that nothing turns."""
+    xp = namespace(joint_angle, tilt)
+    first, second = xp.cos(0.5 * joint_angle + tilt), xp.cos(0.5 * joint_angle - tilt)
+    turns = (first > 0.0) & (second > 0.0)
+    return xp.where(turns, first, xp.nan), xp.where(turns, second, xp.nan)
+
+
+def tau(joint_angle: ArrayLike, tilt: ArrayLike) -> Array:
+    """Return τ = -tan(α/2) tan η: tan²(α_eq/2) of the Hooke joint that turns alike, with a sign.
+
+    Parameters
+    ----------
+    joint_angle : array (...) [rad]
+        α in [0, π/2), angle between the shafts.
+    tilt : array (...) [rad]
+        η: the normal of the plane stands at α/2 + η to shaft 1.
+
+    Returns
+    -------
+    array (...)
+        Positive where the driven shaft runs ahead first; nan where the plane holds a shaft, α/2 + \\|η\\| ≥ 90°.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> print(tau(40 * deg, 0.5 * deg))
+    -0.00317632
+    """
+    alpha, eta = floats(joint_angle, tilt)
+    xp = namespace(alpha, eta)
+    first, _second = _corners(alpha, eta)
+    found = -xp.tan(0.5 * alpha) * xp.tan(eta)
+    return xp.where(xp.isnan(first), xp.nan, found)
+
+
+def pair(joint_angle: ArrayLike, tilt: ArrayLike) -> mobius.Pair:
+    """Return the map of the circle of one ball, its angle counted from the plane of the shafts.
+
+    joint_angle (...) [rad]: α in [0, π/2); tilt (...) [rad]: η.
+    Returns (...): nan where the plane holds a shaft.
+    (cos(α/2) cos η, sin(α/2) sin η)/√(cos(α/2 + η) cos(α/2 - η)): the identity where either angle is 0.
+    """
+    alpha, eta = floats(joint_angle, tilt)
+    xp = namespace(alpha, eta)
+    first, second = _corners(alpha, eta)
+    root = xp.sqrt(first * second)
+    one = xp.cos(0.5 * alpha) * xp.cos(eta) / root
+    other = xp.sin(0.5 * alpha) * xp.sin(eta) / root
+    return xp.astype(one, xp.complex128), xp.astype(other, xp.complex128)
+
+
+def deviation(angle: ArrayLike, joint_angle: ArrayLike, tilt: ArrayLike) -> Array:
+    """Return how far shaft 2 runs ahead of shaft 1 with one ball, φ_2 - φ_1.
+
+    angle (...) [rad]: φ_1, from the plane of the shafts; joint_angle (...) [rad]: α in [0, π/2); tilt (...) [rad]: η.
+    Returns (...) [rad]: nan where the plane holds a shaft.
+    arctan(τ sin 2φ_1/(1 - τ cos 2φ_1)), exact and right to the last digits for the smallest tilt.
+    """
+    phi, alpha, eta = floats(angle, joint_angle, tilt)
+    xp = namespace(phi, alpha, eta)
+    t = tau(alpha, eta)
+    return xp.atan2(t * xp.sin(2.0 * phi), 1.0 - t * xp.cos(2.0 * phi)) + 0.0
+
+
+def speed_fluctuation(joint_angle: ArrayLike, tilt: ArrayLike) -> Array:
+    """Return δ = \\|κ - 1/κ\\| of one ball: largest less smallest speed ratio.
+
+    Parameters
+    ----------
+    joint_angle : array (...) [rad]
+        α in [0, π/2).
+    tilt : array (...) [rad]
+        η.
+
+    Returns
+    -------
+    array (...)
+        About 4 η tan(α/2); nan where the plane holds a shaft.
+
+    Notes
+    -----
+    sin α \\|sin 2η\\|/(cos(α/2 + η) cos(α/2 - η)), without a difference of near numbers.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> print(speed_fluctuation(40 * deg, 0.5 * deg))
+    0.01270540
+    """
+    alpha, eta = floats(joint_angle, tilt)
+    xp = namespace(alpha, eta)
+    first, second = _corners(alpha, eta)
+    return xp.sin(alpha) * xp.abs(xp.sin(2.0 * eta)) / (first * second)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BallDemands:
+    """What the balls of a joint ask of shaft 2 at one angle of shaft 1, φ_2 - φ_1 of each ball."""
+
+    mean: Array  # (...) [rad]: what the output does, as all balls pull alike
+    spread: Array  # (...) [rad]: largest less smallest; play or the give of the contacts takes it
+    largest: Array  # (...) [rad]: largest in size
+
+
+def ball_demands(angle: ArrayLike, joint_angle: ArrayLike, tilt: ArrayLike, count: int = 6) -> BallDemands:
+    """Return what balls at equal angles in a plane that misses the bisecting one ask of shaft 2.
+
+    Parameters
+    ----------
+    angle : array (...) [rad]
+        φ_1 of the first ball, from the plane of the shafts.
+    joint_angle : array (...) [rad]
+        α in [0, π/2).
+    tilt : array (...) [rad]
+        η.
+    count : int
+        N balls.
+
+    Returns
+    -------
+    BallDemands
+
+    Notes
+    -----
+    A ball asks for Σ_k (τ^k/k) sin 2kφ; of the mean over N balls only the orders that N divides are left:
+    (1/m) arctan(τ^m sin 2mφ/(1 - τ^m cos 2mφ)), m = N/2 for even N, N for odd N. Six balls leave τ³/3 of order 6.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> found = ball_demands(20 * deg, 30 * deg, 0.2 * deg)
+    >>> print(f"{found.mean:.6e} {found.spread:.6e} {found.largest:.6e}")
+    -2.362077e-10 1.521747e-03 9.209634e-04
+    """
+    phi, alpha, eta = floats(angle, joint_angle, tilt)
+    xp = namespace(phi, alpha, eta)
+    order = count // 2 if count % 2 == 0 else count
+    power = tau(alpha, eta) ** order
+    turn = 2.0 * order * phi
+    mean = xp.atan2(power * xp.sin(turn), 1.0 - power * xp.cos(turn)) / order
+    step = xp.arange(count, dtype=xp.float64) * (2.0 * xp.pi / count)
+    each = deviation(phi[..., None] + step, alpha[..., None], eta[..., None])
+    return BallDemands(
+        mean=mean + 0.0,
+        spread=xp.max(each, axis=-1) - xp.min(each, axis=-1),
+        largest=xp.max(xp.abs(each), axis=-1),
+    )
+
+
+# Joints whose links share the torque: each link would turn as a Hooke joint, all together turn by the mean of them.
+
+
+def course(angle: Array, tau: Array, places: int) -> tuple[Array, Array, Array]:
+    """Return how far links at equal angles run ahead together, with two derivatives.
+
+    angle (...) [rad]: θ of the first link, from the plane of the shafts.
+    tau (...): τ of the map of a single link, tan θ' = (1 + τ)/(1 - τ) tan θ.
+    places: how many different places the links take within half a turn.
+    Returns angle_error, ratio, slope (...) [rad, 1, 1/rad]: T - θ, T' and T''.
+    A link asks for Σ τ^k sin(2kθ)/k; of the mean over N places only the orders that N divides are left,
+    -arg(1 - τ^N e^(2iNθ))/N: the lead of one joint with τ^N, N times as fast and N times smaller.
+
+    One place is a Hooke joint:
+
+    >>> import numpy as np
+    >>> angle_error, ratio, _slope = course(np.asarray(0.5), np.tan(0.2) ** 2, 1)
+    >>> print(f"{angle_error:.9f} {np.tan(0.5 + angle_error) / np.tan(0.5) * np.cos(0.4):.9f} {ratio:.6f}")
+    0.035347562 1.000000000 1.042857
+    """
+    xp = namespace(angle, tau)
+    power = xp.asarray(tau, dtype=xp.float64) ** places
+    root = xp.sqrt(1.0 - power * power)
+    pair = complex_of(1.0 / root, xp), complex_of(-power / root, xp)
+    angle_error, ratio, slope = mobius.course(pair, unit_complex(2.0 * places * angle))
+    return angle_error / places, ratio, places * slope
+
+
+def places(links: int) -> int:
+    """Return how many different places links at equal angles take within half a turn: two opposite ones take one.
+
+    >>> places(6), places(3)
+    (3, 3)
+    """
+    return links // 2 if links % 2 == 0 else links

@@ -1,1 +1,0 @@
-"""Designs with the least torsional vibration."""

@@ -1,0 +1,1 @@
+"""Minimise torsional vibration: yokes, stiffnesses and inertias, and what a drive is excited by."""

@@ -1,0 +1,229 @@
+"""What may change in a drive that is to run calmly, and how every such design runs over the band."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import floor, isfinite
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.fields.paths import place, read, with_values
+from cardan.errors import InputError, Problem, check
+from cardan.maths.arrays import Array
+from cardan.questions.torsion.absorber.absorber_search import highest, rounded
+from cardan.questions.torsion.absorber.band import (
+    Lines,
+    band_speeds,
+    built,
+    check_swings,
+    excited,
+    growth,
+    lines,
+    train_at,
+)
+from cardan.questions.torsion.model.torsional_train import TorsionalTrain
+from cardan.questions.torsion.steady.alternating_torque import TorqueSwings
+from cardan.texts import _
+
+TURN = 90.0
+"""How far yokes may turn either way where nothing else is said [°]: beyond, they stand as before."""
+
+COUNT = 15
+"""Evenly spread speeds of a search."""
+
+LOST = 10.0
+"""What a motion that was not found counts as, times the largest torque as built."""
+
+WORST = 1e3
+"""What an unstable design counts as at least, times the largest torque as built: it never beats a stable one."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Free:
+    """A quantity of the drive that may change."""
+
+    path: str  # as ``shafts[1].yoke_angle_deg``
+    low: float  # low, high: its range, in the unit of the path
+    high: float
+    step: float | None  # only every such step from the lowest value can be made
+    built: float
+
+    def value(self, share: float) -> float:
+        """Return the value at a share of the range."""
+        value = self.low + share * (self.high - self.low)
+        if self.step is None:
+            return value
+        most = floor((self.high - self.low) / self.step + 1e-9)
+        return self.low + self.step * min(round((value - self.low) / self.step), most)
+
+    def share(self, value: float) -> float:
+        """Return where a value lies in the range, from 0 to 1."""
+        return min(max((value - self.low) / (self.high - self.low), 0.0), 1.0)
+
+    def places(self, points: int) -> Array:
+        """Return shares of the range for an exhaustive search: every step, or so many points."""
+        if self.step is None:
+            return np.linspace(0.0, 1.0, points)
+        count = floor((self.high - self.low) / self.step + 1e-9) + 1
+        return np.arange(count) * self.step / (self.high - self.low)
+
+
+def free_quantities(drive: Drive, free: Mapping[str, Sequence[float]] | None) -> tuple[Free, ...]:
+    """Return what may change: as given by paths, or the yoke angles that are not fixed."""
+    if free is None:
+        found = tuple(_yokes(drive))
+        if not found:
+            check([Problem("free", _("no yoke of this drive may be turned; say what else may change"))])
+        return found
+    problems: list[Problem] = []
+    quantities: list[Free] = []
+    known: dict[tuple[str | int, ...], str] = {}
+    for path, given in free.items():
+        try:
+            quantities.append(_free(drive, path, [float(one) for one in given]))
+            steps = place(drive, path).steps
+            if steps in known:
+                problems.append(Problem(path, _("is the same as {other}").format(other=known[steps])))
+            known[steps] = path
+        except InputError as error:
+            problems += error.problems
+    if not free:
+        problems.append(Problem("free", _("empty; say what may change")))
+    check(problems)
+    return tuple(quantities)
+
+
+def _yokes(drive: Drive) -> Iterator[Free]:
+    for shaft in drive.shafts[1:-1]:
+        if shaft.yoke_fixed:
+            continue
+        path = f"shafts[{shaft.number - 1}].yoke_angle_deg"
+        now = float(read(drive, path))
+        step = None if shaft.spline is None or shaft.spline.teeth is None else 360.0 / shaft.spline.teeth
+        low, high = now - TURN, now + TURN
+        if step is not None:
+            low = now - step * floor(TURN / step)
+            high = low + 2.0 * (now - low)
+        yield Free(path=path, low=low, high=high, step=step, built=now)
+
+
+def _free(drive: Drive, path: str, given: Sequence[float]) -> Free:
+    steps = place(drive, path).steps
+    now = read(drive, path)
+    problems = []
+    if steps[:2] in (("duty", "speed"), ("duty", "speed_range")):
+        problems.append(Problem(path, _("the speeds are given, and a design is sought for them; take a narrower band")))
+    if now is None:
+        problems.append(Problem(path, _("the drive gives no value; write one into it to begin with")))
+    elif isinstance(now, bool) or not isinstance(now, float):
+        problems.append(Problem(path, _("leads to no number; name one, as joints[0].centre_mm[2]")))
+    if len(given) not in (2, 3) or not all(isfinite(one) for one in given):
+        problems.append(
+            Problem(path, _("lowest and highest value are needed, and a step where only steps can be made"))
+        )
+    elif not given[0] < given[1]:
+        text = _("{low:g} to {high:g} given; the lowest value comes first")
+        problems.append(Problem(path, text.format(low=given[0], high=given[1])))
+    elif len(given) == 3 and not 0.0 < given[2] <= given[1] - given[0]:
+        text = _("a step of {step:g} given; more than 0 and no more than the range")
+        problems.append(Problem(path, text.format(step=given[2])))
+    check(problems)
+    return Free(path=path, low=given[0], high=given[1], step=given[2] if len(given) == 3 else None, built=float(now))
+
+
+class Designs:
+    """The drive with other values, over a band of speeds.
+
+    drive: as built, with its duty; band [rad/s].
+    elements: elements that are judged; all of the line by default.
+    """
+
+    def __init__(self, drive: Drive, free: tuple[Free, ...], band: tuple[float, float], elements: Array | None) -> None:
+        self.drive, self.free, self.band = drive, free, band
+        self.middle = 0.5 * (band[0] + band[1])
+        self.built = lines([drive], self.middle)
+        self.elements = self.built.elements if elements is None else elements
+        self.count = len(self.built.trains[0].model.elements)
+        self.orders = excited(drive, drive.duty)
+        self.infeasible = 0
+        self.asked = 0
+        speed = self.speeds(self.built)
+        self.peak = highest(self.built.swings(speed).swing, speed[0], self.elements)[0]
+        check_swings(self.peak)
+
+    @property
+    def start(self) -> Array:
+        """The drive as built, as far as it lies in the ranges, array (v,)."""
+        return np.asarray([one.share(one.built) for one in self.free])
+
+    def values(self, at: Array) -> dict[str, float]:
+        """Return the values of a place (v,) of the unit box by their paths."""
+        return {one.path: one.value(float(x)) for one, x in zip(self.free, at, strict=True)}
+
+    def made(self, at: Array) -> dict[str, float]:
+        """Return the values of a place by their paths, with as many digits as can be made."""
+        return {path: rounded(value) for path, value in self.values(at).items()}
+
+    def drive_at(self, at: Array, *, made: bool = False) -> Drive | None:
+        """Return the drive of a place, or of values as they can be made; None where these make none."""
+        try:
+            return with_values(self.drive, self.made(at) if made else self.values(at))
+        except InputError:
+            return None
+
+    def groups(self, places: Array) -> Iterator[tuple[Array, Lines]]:
+        """Yield places (D, v) by their build, each with its rows; those that make no drive are left out."""
+        found: dict[tuple[object, ...], list[tuple[int, Drive, TorsionalTrain]]] = {}
+        for k, at in enumerate(places):
+            drive = self.drive_at(at)
+            try:
+                train = None if drive is None else train_at(drive, self.middle)
+            except InputError:
+                train = None
+            if drive is None or train is None or len(train.model.elements) != self.count:  # stations that meet are one
+                self.infeasible += 1
+                continue
+            found.setdefault(built(train), []).append((k, drive, train))
+        for members in found.values():
+            rows, drives, trains = zip(*members, strict=True)
+            yield np.asarray(rows), Lines(drives=drives, trains=trains, speed=self.middle)
+
+    def speeds(self, line: Lines) -> Array:
+        """Return the speeds at which designs are looked at, array (D, S) [rad/s]."""
+        return band_speeds(*self.band, line.omega, self.orders, count=COUNT)
+
+    def _peaks(self, found: TorqueSwings, count: int, bare: float) -> Array:
+        """Return the largest swing of every design, array (D,) [N·m]."""
+        swing = found.swing[:, self.elements]
+        whole = np.where(np.isfinite(swing), swing, LOST * bare)
+        peak: Array = np.max(whole.reshape(count, -1), axis=-1)
+        return peak
+
+    def cost(self, places: Array, beat: Array) -> Array:
+        """Return the largest swing of designs over the band, array (D,) [N·m]; unstable ones beyond all others.
+
+        Stability is asked for only where a design would beat the cost it competes with.
+        """
+        cost = np.full(len(places), np.inf)
+        self.asked += len(places)
+        for rows, line in self.groups(places):
+            speed = self.speeds(line)
+            found = line.swings(speed)
+            peak = self._peaks(found, len(rows), self.peak)
+            better = peak < beat[rows]
+            if np.any(better):
+                grown = np.where(better, growth(found, speed, line.omega, better), 0.0)
+                peak = np.where(grown > 0.0, WORST * self.peak * (1.0 + grown), peak)
+            cost[rows] = peak
+        return cost
+
+    def swings(self, places: Array, speed: Array) -> Array:
+        """Return the swings of designs at the same speeds, array (D, S, E) [N·m]."""
+        whole = np.full((len(places), len(speed), len(self.elements)), LOST * self.peak)
+        for rows, line in self.groups(places):
+            found = line.swings(np.broadcast_to(speed, (len(rows), len(speed)))).swing[:, self.elements]
+            swing = found.reshape(len(rows), len(speed), -1)
+            whole[rows] = np.where(np.isfinite(swing), swing, LOST * self.peak)
+        return whole

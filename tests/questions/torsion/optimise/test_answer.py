@@ -1,0 +1,69 @@
+"""What is said of a design for least torsional vibration: the numbers of the search, for any reader."""
+
+from dataclasses import replace
+
+import pytest
+
+from cardan.answers.data import data
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL, Reader
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.shaft import Shaft
+from cardan.drive.station import Station
+from cardan.questions.torsion.optimise.answer import answer, ask, lacking, otherwise, reasons
+from cardan.questions.torsion.optimise.optimise import Grid, optimise_torsion
+from cardan.report.block import page
+from cardan.texts import speaking
+from cardan.units import deg
+
+DRIVE = replace(
+    Drive.from_angles([14 * deg, 14 * deg], plane_twists=[25 * deg]),
+    shafts=(Shaft(number=2, stiffness=5000.0, damping=2.0, inertia=0.02),),
+    stations=(Station(shaft=3, name="pump", inertia=0.8),),
+    duty=Duty(torque=60.0, speed_range=(30.0, 60.0)),
+)
+YOKE = "shafts[1].yoke_angle_deg"
+
+
+@pytest.fixture(scope="module")
+def found():
+    return optimise_torsion(DRIVE, free={YOKE: (-60.0, 20.0)}, method=Grid(points=3))
+
+
+def test_values_and_torques_are_those_of_the_search(found):
+    said = answer(DRIVE, found)
+    assert told(said.sentence, USUAL).startswith("the largest alternating torque falls from ±")
+    values, peaks = said.tables
+    assert list(values.columns[2].values) == [found.values[YOKE]]
+    assert next(one for one in peaks.columns if one.key == "after").values == [found.peak_after.torque]
+    assert page(said, USUAL).blocks
+
+
+def test_the_joints_say_why(found):
+    said = [told(one, USUAL) for one in reasons(found)]
+    assert said[1] == "Joint 1 stands in the node of the mode: it causes no parametric excitation."
+    assert any("residual" in one or "in-phase sum" in one for one in said)
+    assert data(answer(DRIVE, found), USUAL)["why"] == said
+
+
+def test_readers_are_told_in_their_units_and_language(found):
+    pounds = Reader(units={"torque": "lbft"}, decimal=",")
+    content = data(answer(DRIVE, found), pounds)
+    lbft = 12 * 0.0254 * 0.45359237 * 9.80665
+    assert content["after"]["alternating_torque_lbft"] == pytest.approx(found.peak_after.torque / lbft)
+    assert content["history_lbft"][0][-1] == pytest.approx(found.history[0][-1] / lbft)
+    assert "lbf·ft" in told(answer(DRIVE, found).sentence, pounds)
+    with speaking("ru"):
+        assert "об/мин" in told(answer(DRIVE, found).sentence, USUAL)
+
+
+def test_speeds_and_something_that_twists_are_asked_for():
+    assert not lacking(DRIVE)
+    assert lacking(replace(DRIVE, duty=Duty(torque=60.0))) == (("duty.speed_range", "duty.speed"),)
+    assert lacking(Drive.from_angles([0.2, 0.2]))[0] == ("stations", "shafts[1].stiffness")
+
+
+def test_a_drive_whose_yokes_are_fixed_is_told_so():
+    assert ask(replace(DRIVE, shafts=(replace(DRIVE.shafts[1], yoke_fixed=True),))) is None
+    assert "--free" in otherwise(DRIVE)
