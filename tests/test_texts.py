@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from cardan.answers.reader import Reader
 from cardan.texts import LANGUAGES, _, known, language, mark, plural, speaking
 
 SOURCE = Path(__file__).parents[1] / "src" / "cardan"
@@ -128,3 +129,10 @@ def test_the_guard_sees_what_runs_at_import():
     code = 'A = _("a")\nclass B:\n    c = {"d": plural("e", "f", 2)}\ndef g(h=_("i")):\n    return _("j")\n'
     code += 'k = lambda: _("l")\n'
     assert sorted(call.lineno for call in at_import(ast.parse(code))) == [1, 3, 4]
+
+
+def test_numbers_have_the_decimal_sign_of_the_language_unless_the_reader_chose_one():
+    with speaking("ru"):
+        assert Reader().number(1.5) == "1,500"
+        assert Reader(decimal=".").number(1.5) == "1.500"
+    assert Reader().number(1.5) == "1.500"

@@ -169,7 +169,7 @@ class Joined:
         """Return the texts for a reader; a list of decimal commas is parted by semicolons."""
         every = [text for text in (told(part, reader) for part in self.parts) if text]
         numbers = any(isinstance(part, Quantity) for part in self.parts)
-        between = "; " if self.between == ", " and reader.decimal == "," and numbers else self.between
+        between = "; " if self.between == ", " and reader.sign == "," and numbers else self.between
         if self.last and len(every) > 1:
             return between.join(every[:-1]) + self.last + every[-1]
         return between.join(every)

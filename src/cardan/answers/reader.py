@@ -9,10 +9,13 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field
 
 from cardan.errors import InputError, Problem
-from cardan.texts import _
+from cardan.texts import _, language
 from cardan.units import DIMENSIONS, label, nearest, preferred, thousands
 
 # Numbers as people read them: significant digits, a true minus, thin groups of thousands, powers of ten.
+
+COMMA = ("ru",)
+"""Languages whose decimal sign is the comma."""
 
 THIN = "\u202f"
 """Narrow blank within numbers."""
@@ -92,15 +95,20 @@ class Reader:
 
     # dimension -> unit, as in the keys of a drive file: ``{"length": "in"}``
     units: Mapping[str, str] = field(default_factory=dict)
-    decimal: str = "."  # sign between whole and part: ``"."`` or ``","``
+    decimal: str = ""  # sign between whole and part, ``"."`` or ``","``; empty for that of the language
 
     def __post_init__(self) -> None:
         problems = [*_unknown(self.units)]
-        if self.decimal not in (".", ","):
+        if self.decimal not in ("", ".", ","):
             text = _("{sign} is neither a point nor a comma")
             problems.append(Problem("--decimal", text.format(sign=repr(self.decimal))))
         if problems:
             raise InputError(problems)
+
+    @property
+    def sign(self) -> str:
+        """Sign between whole and part."""
+        return self.decimal or ("," if language() in COMMA else ".")
 
     def unit(self, dimension: str, usual: str = "") -> tuple[str, float]:
         """Return the unit of a dimension and its factor to SI; ``usual`` where the reader chose none."""
@@ -118,7 +126,7 @@ class Reader:
 
     def signed(self, number: str) -> str:
         """Return a number in words with the decimal sign of this reader."""
-        return number.replace(".", self.decimal)
+        return number.replace(".", self.sign)
 
     def decimals(self, decimals: int | None, dimension: str, usual: str = "") -> int | None:
         """Return how many decimals another unit needs so that the last digit is worth no more than it was."""
@@ -148,7 +156,7 @@ def _unknown(units: Mapping[str, str]) -> Iterator[Problem]:
 
 
 USUAL = Reader()
-"""Usual units, decimal point."""
+"""Usual units, decimal sign of the language."""
 
 _reading: ContextVar[Reader] = ContextVar("cardan_reader", default=USUAL)
 
@@ -168,7 +176,7 @@ def reading(who: Reader) -> Iterator[None]:
         _reading.reset(before)
 
 
-def chosen(given: Sequence[str], decimal: str = ".") -> Reader:
+def chosen(given: Sequence[str], decimal: str = "") -> Reader:
     """Return the reader that options describe.
 
     given: each ``dimension=unit``, such as ``length=in``; decimal: sign between whole and part.

@@ -44,7 +44,7 @@ def _read(given: list[str]) -> int:
     signs, rest = _taken(rest, "--decimal")
     if not units and not signs:
         return _run(rest)
-    with readers().reading(readers().chosen(units, signs[-1] if signs else ".")):
+    with readers().reading(readers().chosen(units, signs[-1] if signs else "")):
         return _run(rest)
 
 

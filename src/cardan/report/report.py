@@ -26,7 +26,7 @@ def report(
     progress: Callable[[float], object] | None = None,
     known: Catalogue | None = None,
     units: Mapping[str, str] | None = None,
-    decimal: str = ".",
+    decimal: str = "",
 ) -> Path:
     """Write the report of a drive as one file that needs nothing else.
 
@@ -50,7 +50,8 @@ def report(
     units : mapping of str to str, optional
         Dimension -> unit that it is told in, as in the keys of a drive file: ``{"length": "in"}``.
     decimal : str
-        Sign between whole and part, ``"."`` or ``","``; workbooks show numbers as the spreadsheet is set.
+        Sign between whole and part, ``"."`` or ``","``, by default that of the language; workbooks show numbers as the
+        spreadsheet is set.
 
     Returns
     -------

@@ -192,7 +192,7 @@ class SettingsMenu:
                 ui.label(_("Decimal sign")).classes("head")
                 ui.toggle(
                     {".": "1.5", ",": "1,5"},
-                    value=session.choices.decimal,
+                    value=session.reader.sign,
                     on_change=lambda event: session.choose(decimal=event.value),
                 ).props("dense no-caps flat").props('data-mark="decimal"')
                 ui.label(_("Units of the answers")).classes("head")

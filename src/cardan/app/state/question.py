@@ -40,7 +40,7 @@ class Question:
                 files.append((name, told.st_mtime_ns, told.st_size))
             except Exception:  # a file that is not there, or not to be read: the answer will say so
                 files.append((name, 0, 0))
-        seen = (self.language, sorted(self.reader.units.items()), self.reader.decimal)
+        seen = (self.language, sorted(self.reader.units.items()), self.reader.sign)
         whole = (self.name, self.drive, str(self.folder), seen, sorted(self.choices.items()), files)
         return hashlib.sha256(pickle.dumps(whole)).hexdigest()
 

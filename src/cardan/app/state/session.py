@@ -240,7 +240,7 @@ class Choices:
     language: str = "en"  # one of `cardan.texts.LANGUAGES`
     # dimension -> unit, as in the keys of a drive file, where it is not the usual one
     units: Mapping[str, str] = field(default_factory=dict)
-    decimal: str = "."  # sign between whole and part: ``"."`` or ``","``
+    decimal: str = ""  # sign between whole and part, ``"."`` or ``","``; empty for that of the language
     theme: Theme = "auto"  # auto, light or dark
 
     def kept(self) -> dict[str, Any]:
