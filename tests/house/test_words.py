@@ -13,6 +13,14 @@ BANNED = (
     *(r"bows?", r"bounces", r"lets? go", r"held too often", r"held just enough", r"nought", r"cure[sd]?"),
     *(r"belief", r"dividing lever", r"in the mean", r"ahead and back", r"runs ahead", r"irregular"),
     *(r"swings?", r"dies? out", r"what becomes of", r"misfits?", r"norms?", r"weighs", r"halving plane"),
+    *(
+        r"half-cardan",
+        r"inside shafts?",
+        r"evenly",
+        r"uneven(?:ly|ness)?",
+        r"product of speed and bend",
+        r"bends? (?:too|of|from|up)",
+    ),
     *(r"is no (?!longer|larger|smaller|more|less|better)", r"are no (?!longer|larger|smaller|more|less|better)"),
 )
 """Patterns of whole words; "there is no" is good English."""
@@ -26,16 +34,6 @@ TRADE = (
 )
 """Texts that say a word in its plain sense, or in a name."""
 
-LEFT = (
-    "whether an unbalance keeps the book's norm of a vehicle",
-    "the norm [N cm]",
-    "order that a centrifugal pendulum absorbs, and what it weighs on the shaft at another one",
-    "unbalance of shaft {number}, the book's norm",
-    "unbalance of every shaft against its balance grade or norm",
-    "vehicle of the book's balance norms, as gaz_66",
-)
-"""Texts that are to be mended yet: none comes to them."""
-
 
 def said():
     """Return every text of the program, but for the prose of its examples."""
@@ -47,8 +45,7 @@ def said():
 @pytest.mark.slow
 def test_no_text_says_a_banned_word():
     found = {text for text in said() if WORDS.search(text)}
-    assert sorted(found.difference(TRADE, LEFT)) == []
-    assert sorted(set(LEFT) - found) == []
+    assert sorted(found.difference(TRADE)) == []
 
 
 @pytest.mark.parametrize("text", ["'foo' is no check", "shaft 3 bows at 7095 rpm", "2 are no recordings"])

@@ -95,14 +95,14 @@ class JointType(Row):
 
     name: str = plain(doc="what it is called")
     family: str = plain(doc="group of joints it belongs to")
-    synchronous: str = plain(doc="whether it turns evenly", choices=("yes", "approx", "no"))
-    synchronous_as_pair: bool = plain(False, doc="whether two of them, set right, turn evenly")
+    synchronous: str = plain(doc="whether it turns uniformly", choices=("yes", "approx", "no"))
+    synchronous_as_pair: bool = plain(False, doc="whether two of them, phased right, turn uniformly")
     pair_mobility: int | None = plain(None, doc="freedoms between its two shafts", low=1)
     max_joint_angle: float | None = quantity("angle", None, doc="largest joint angle", above=0.0)
     min_torque: float | None = quantity("torque", None, doc="smallest torque it is made for", low=0.0)
     max_torque: float | None = quantity("torque", None, doc="largest torque it is made for", above=0.0)
     max_speed_angle: float | None = quantity(
-        "speed_angle", None, doc="largest product of speed and bend in continuous running", above=0.0
+        "speed_angle", None, doc="largest product of speed and joint angle in continuous running", above=0.0
     )
     max_rim_speed: float | None = quantity("speed", None, doc="largest speed of its rim", above=0.0)
     uses: tuple[str, ...] = plain((), doc="what it is used for")
@@ -139,9 +139,9 @@ class AngleNorm(Row):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class SpeedAngleLimit(Row):
-    """Largest product of speed and bend of a joint, and its largest speed."""
+    """Largest product of speed and joint angle of a joint, and its largest speed."""
 
-    max_speed_angle: float = quantity("speed_angle", doc="largest product of speed and bend", above=0.0)
+    max_speed_angle: float = quantity("speed_angle", doc="largest product of speed and joint angle", above=0.0)
     max_speed: float | None = quantity("angular_speed", None, doc="largest speed", above=0.0)
 
 
@@ -155,10 +155,12 @@ class MaxJointAngle(Row):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class AnglePair(Row):
-    """Largest second bend beside first bends of 0°, 1°, 2° … at a speed, as printed."""
+    """Largest second joint angle beside first ones of 0°, 1°, 2° … at a speed, as printed."""
 
     speed: float = quantity("angular_speed", doc="speed", above=0.0)
-    second_joint_angle: tuple[float, ...] = quantity("angle", doc="largest second bend for each first one", above=0.0)
+    second_joint_angle: tuple[float, ...] = quantity(
+        "angle", doc="largest second joint angle for each first one", above=0.0
+    )
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -55,7 +55,7 @@ class Tolerance:
     alpha1: float = quantity("angle", 0.0, doc="± right angle between driving shaft and driving journals", low=0.0)
     alpha2: float = quantity("angle", 0.0, doc="± right angle of the cross", low=0.0)
     alpha3: float = quantity("angle", 0.0, doc="± right angle between driven journals and driven shaft", low=0.0)
-    alpha4: float = quantity("angle", 0.0, doc="± bend", low=0.0)
+    alpha4: float = quantity("angle", 0.0, doc="± joint angle", low=0.0)
     phase: float = quantity("angle", 0.0, doc="± angle of the driving yoke about its shaft", low=0.0)
     distribution: str = plain(
         "normal",

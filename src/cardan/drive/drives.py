@@ -76,7 +76,7 @@ class Drives:
         alpha = real(joint_angle, xp)
         if not alpha.ndim or not alpha.shape[-1]:
             raise refuse(
-                "joint_angle", _("a drive needs at least one joint; bends are a list, of one drive or of many")
+                "joint_angle", _("a drive needs at least one joint; joint angles are a list, of one drive or of many")
             )
         fits = (alpha >= 0.0) & (alpha < 0.5 * xp.pi)
         if not bool(xp.all(fits)):

@@ -121,7 +121,7 @@ class Duty:
     )
     reliability: float = quantity("share", 0.9, doc="share of parts that reach the life", low=0.5, high=0.99999)
     continuous: bool = plain(True, doc="whether the drive runs for long at a time")
-    synchronous: bool = plain(False, doc="whether the output must turn evenly")
+    synchronous: bool = plain(False, doc="whether the output must turn uniformly")
     blocks: tuple[Block, ...] = plain((), doc="duty cycle, in parts that make up the whole time")
     cases: tuple[Case, ...] = plain(
         (), doc="load cases; where their shares leave time, and a torque of the duty is given, that is the rest"
@@ -132,10 +132,12 @@ class Duty:
     vehicle: Vehicle | None = plain(None, doc="what drives the shaft of a vehicle, and what its wheels can pass on")
     upkeep: Upkeep | None = plain(None, doc="use since the last service")
     balance_grade: str = plain("", doc="balance grade that the shafts are to keep, as G16")
-    balance_class: str = plain("", doc="vehicle of the book's balance norms, as gaz_66")
+    balance_class: str = plain(
+        "", doc="vehicle whose permissible unbalance Kozhevnikov and Perfil'ev (1978) give, as gaz_66"
+    )
     input: str | None = plain(
         None,
-        doc="whether the input turns evenly at its speed, or freely as torques make it; free when not given and an "
+        doc="whether the input turns uniformly at its speed, or freely as torques make it; free when not given and an "
         "engine, a motor or a torque on the input drives it",
         choices=("uniform", "free"),
     )

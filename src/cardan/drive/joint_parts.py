@@ -53,6 +53,6 @@ class Rating:
     max_torque: float | None = quantity("torque", None, doc="largest torque, short and rare", above=0.0)
     max_joint_angle: float | None = quantity("angle", None, doc="largest joint angle", above=0.0, below=math.pi / 2)
     max_speed: float | None = quantity("angular_speed", None, doc="largest speed", above=0.0)
-    speed_angle: float | None = quantity("speed_angle", None, doc="largest product of speed and bend", above=0.0)
+    speed_angle: float | None = quantity("speed_angle", None, doc="largest product of speed and joint angle", above=0.0)
     rim_speed: float | None = quantity("speed", None, doc="largest speed of the rim", above=0.0)
     outer: float | None = quantity("length", None, doc="outer diameter of the joint", above=0.0)

@@ -111,9 +111,7 @@ def _extremes(b: float, c: float, smallest: float, largest: float) -> tuple[tupl
 
 
 def _no_lever(b: float, largest: float) -> str:
-    text = _(
-        "no lever divided at b/a = {b:.6g} halves bends up to {joint_angle:.6g}°; b must be clearly shorter than a"
-    )
+    text = _("no lever divided at b/a = {b:.6g} bisects joint angles up to {joint_angle:.6g}°; b must be well below a")
     return text.format(b=b, joint_angle=math.degrees(largest))
 
 

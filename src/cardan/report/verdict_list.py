@@ -185,7 +185,9 @@ def _phasing(on: Subject) -> Phasing | None:
 def _why_not(on: Subject, found: Phasing) -> str:
     least = percent(found.speed_fluctuation_min)
     if found.limiting_joint is None or len(found.limiting_joints) != 1:
-        text = _("Joints tied by held yokes act as one that is too uneven for the others; {least} is the least.")
+        text = _(
+            "Joints tied by held yokes act as one with too much speed fluctuation for the others; {least} is the least."
+        )
         return text.format(least=least)
     i = found.limiting_joint - 1
     why = excess(found, on.joints, float(on.joint_angle[i]), plain=on.drive.joints[i].single_cross)

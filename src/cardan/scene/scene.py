@@ -177,7 +177,7 @@ def _stuck(drive: Drive, build: Build) -> dict[str, str]:
     numbers = [str(i + 1) for i in turns(drive, build)]
     if not numbers:
         return {}
-    text = _("joint {number} does not turn at its joint angle with these sizes; it is shown turning evenly")
+    text = _("joint {number} does not turn at its joint angle with these sizes; it is shown turning uniformly")
     return {"motion": text.format(number=", ".join(numbers))}
 
 

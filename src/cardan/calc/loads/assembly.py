@@ -98,7 +98,7 @@ def _holds(bearing: Values) -> tuple[Hold, ...]:
         positive("k_radial_far_N_m", "radial stiffness of the far bearing in N/m", None),
         positive("k_axial_far_N_m", "axial stiffness of the far bearing in N/m", None),
     ),
-    "gap_vector_frame1_m: gap in the joint centre, shaft 1 along z, bend about x",
+    "gap_vector_frame1_m: gap in the joint centre, shaft 1 along z, joint angle about x",
     "force_magnitude_N: force in the joint centre",
     "force_abs_along_shaft1_N: its part along shaft 1",
     "force_abs_along_shaft2_N: its part along shaft 2",

@@ -351,7 +351,7 @@ def _double_joint_reactions(v: Values) -> Any:
     given("gamma2_rad", "yoke angle of the middle shaft", default=0.0),
     at_least_zero("J_polar_kg_m2", "inertia of the middle shaft about its axis"),
     at_least_zero("J_transverse_kg_m2", "its inertia across, about its centre of mass"),
-    "alpha_rad: bend",
+    "alpha_rad: joint angle",
     "alpha_dot_rad_s: its rate",
     "alpha_ddot_rad_s2: its acceleration",
     "omega2_rad_s: spin of the middle shaft",

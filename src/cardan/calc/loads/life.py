@@ -95,7 +95,7 @@ def _book(v: Values, regime: Values) -> Any:
 def _still(v: Values) -> Problems:
     """Yield a joint that does not bend."""
     if v.get("alpha") == 0.0:
-        yield v.wrong("alpha", _("a joint that does not bend has bearings that do not roll: no rating"), "singular")
+        yield v.wrong("alpha", _("a joint at 0° has bearings that do not roll: no rating"), "singular")
 
 
 def _shares(v: Values) -> Problems:
@@ -128,9 +128,9 @@ def _f_h(v: Values) -> Any:
 
 
 @formula(
-    "factor of speed times bend of the book's rating",
+    "factor of speed times joint angle of the book's rating",
     "Kozhevnikov & Perfil'ev (1978), table 7",
-    positive("n_alpha_rpm_deg", "speed times bend"),
+    positive("n_alpha_rpm_deg", "speed times joint angle"),
     METHOD,
     "f_na: factor",
     WARNINGS,
@@ -310,7 +310,7 @@ def _needle_hertz(v: Values) -> Any:
 
 
 @formula(
-    "bends from which needles reach their neighbours' tracks; below them they wear patches of their own",
+    "joint angles from which needles reach their neighbours' tracks; below them false brinelling",
     "kinematics of pure rolling",
     (NEEDLES, NEEDLE, JOURNAL, JOINT_ANGLE),
     "alpha_crit_inner_deg: on the journal",

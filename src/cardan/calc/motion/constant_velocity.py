@@ -96,7 +96,7 @@ def _rzeppa_lever_ratio(v: Values) -> Any:
     "plane_error_max_rad: largest error of the cage, of either sign",
     "bend_of_largest_lag_deg: joint angle at which the cage leans too little by most",
     "bend_of_largest_lead_deg: joint angle at which the cage leans too much by most",
-    "exact_bend_deg: bend that is halved exactly",
+    "exact_bend_deg: joint angle that is bisected exactly",
     check=_range,
 )
 def _rzeppa_lever_optimum(v: Values) -> Any:
@@ -128,7 +128,7 @@ def _ball_plane_error(v: Values) -> Any:
 
 
 @formula(
-    "plane of balls in offset grooves, and how uneven unequal offsets make the output",
+    "plane of balls in offset grooves, and the speed fluctuation that unequal offsets cause",
     "ball as far from one groove centre as from the other, exact; corrects Kozhevnikov & Perfil'ev (1978), p. 69",
     JOINT_ANGLE,
     positive("c1_m", "distance of the groove centre of shaft 1 from the centre of the joint"),
@@ -165,7 +165,7 @@ def _groove_offset(v: Values) -> Any:
 
 
 @formula(
-    "bends within a Tracta joint, and how uneven unequal forks make it",
+    "joint angles within a Tracta joint, and the speed fluctuation that unequal forks cause",
     "double joint whose middle shaft is the line of the fork centres, exact",
     JOINT_ANGLE,
     positive("OA_m", "distance of the fork centre of shaft 1 from the crossing of the axes"),
@@ -188,7 +188,7 @@ def _tracta(v: Values) -> Any:
 
 
 @formula(
-    "orbit of the spider of a tripod joint, and ways of its rollers; its turn is even exactly",
+    "orbit of the spider of a tripod joint, and ways of its rollers; it turns exactly uniformly",
     "three rollers in three tracks, in closed form",
     JOINT_ANGLE,
     positive("track_radius_m", "distance of the tracks from the axis of the housing"),

@@ -86,7 +86,7 @@ FORCE = gives("contact_force_per_torque_N_per_Nm", "contact force without fricti
 
 
 @formula(
-    "joint angles of a double cardan joint centred by a ball on one shaft, and how uneven it is",
+    "joint angles of a double cardan joint centred by a ball on one shaft, and its speed fluctuation",
     "triangle of the centres, exact; Kozhevnikov & Perfil'ev (1978), eq. 8–12",
     JOINT_ANGLE,
     positive("lambda_", "distance of the ball from the first centre over that of the centres", below=1.0),
@@ -111,7 +111,7 @@ def _double_cardan_centring(v: Values) -> Any:
 
 
 @formula(
-    "centring ratio of a double cardan joint that is most even over a range of joint angles",
+    "centring ratio of a double cardan joint that is most uniform over a range of joint angles",
     "minimax of the exact speed fluctuation",
     positive("alpha_max_deg", "largest joint angle", below=RIGHT),
     joint_angle("alpha_min_deg", "smallest joint angle", default=0.0),
@@ -139,7 +139,7 @@ def _double_cardan_irregularity(v: Values) -> Any:
 
 
 @formula(
-    "where the straight pins of a pin coupling touch, and how uneven it runs",
+    "where the straight pins of a pin coupling touch, and its speed fluctuation",
     "line and cone, exact; completes Kozhevnikov & Perfil'ev (1978), eq. 3–7",
     JOINT_ANGLE,
     positive("a_m", "distance from the crossing of the axes at which pin 1 starts"),
@@ -205,7 +205,7 @@ def _pin_geometry(v: Values) -> Any:
 
 
 @formula(
-    "how uneven a coupling with circular profiles runs: Clemens, curved grooves",
+    "speed fluctuation of a coupling with circular profiles: Clemens, curved grooves",
     "contact of two circles in their meridian planes",
     (JOINT_ANGLE, _profile(1), _profile(2), TURN, ANGLE_ERROR, RATIO),
     "contact_axial1_m: height of the contact along shaft 1",

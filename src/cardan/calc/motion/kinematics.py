@@ -289,7 +289,7 @@ def _yokes(key: str, doc: str) -> Given:
     "delta_of_each_shaft: speed fluctuation of shafts 2 to n+1 then",
     "psi_mod180_deg: phase angle of each joint then",
     gives("delta_per_rad", "growth of the speed fluctuation for each yoke turned, per radian", None),
-    "limiting_joint: number of the joint that bends too much for the others",
+    "limiting_joint: number of the joint whose angle is too large for the others",
     check=_check,
 )
 def _synthesis_continuous(v: Values) -> Any:

@@ -114,7 +114,7 @@ _POINTS = (
 def _moving_centres(v: Values) -> Any:
     moved = _path(v, np.atleast_1d(v.t))
     if np.any(moved.shafts.joint_angle >= RIGHT):
-        raise refuse("points0", _("at a given time a joint bends 90° or more"))
+        raise refuse("points0", _("at a given time a joint angle is 90° or more"))
     at = v.single("t", 0)
     return {
         "spin_rad_s": at(moved.spins.spin),
@@ -200,7 +200,7 @@ def _motion_hitch(v: Values) -> Any:
     given("gamma2_deg", "yoke angle of shaft 2", default=0.0),
     "B2_m: centre of joint 2",
     "a3: direction of the output shaft",
-    "alpha_deg: bends",
+    "alpha_deg: joint angles",
     "beta_deg: plane twist",
     "length2_m: length of the shaft between",
     "delta: speed fluctuation",

@@ -111,12 +111,12 @@ def _unbalance_convert(v: Values) -> Any:
 
 
 @formula(
-    "whether an unbalance keeps the book's norm of a vehicle",
+    "whether an unbalance keeps the permissible value of a vehicle by Kozhevnikov and Perfil'ev (1978)",
     "Kozhevnikov & Perfil'ev (1978), p. 247",
     word("vehicle_class", "vehicle", *catalogue().rows(BalanceNorm)),
     at_least_zero("unbalance_Ncm", "unbalance [N cm]"),
     "ok: whether it does",
-    "limit_Ncm: the norm [N cm]",
+    "limit_Ncm: the permissible value [N cm]",
 )
 def _balance_norm_book(v: Values) -> Any:
     limit = catalogue().rows(BalanceNorm)[v.vehicle_class].max_unbalance / DIMENSIONS["unbalance"]["N_cm"]
@@ -215,7 +215,7 @@ def _material(v: Values) -> Any:
     positive("torque_Nm", "torque"),
     joint_angle("angle_deg", "joint angle of the joint"),
     at_least_zero("speed_rpm", "speed"),
-    flag("synchronous", "whether the output must turn evenly"),
+    flag("synchronous", "whether the output must turn uniformly"),
     positive("service_factor", "factor on the torque", default=1.0),
     flag("continuous", "whether it runs for long at a time", default=True),
     positive("outer_diameter_m", "outer diameter of the joint", default=None),
@@ -250,7 +250,7 @@ SLACK = 1e-12
     joint_angle("theta2_deg", "angle of joint 2"),
     flag("phased", "whether the joints are set to cancel", default=True),
     positive("limit_torsional_rad_s2", "largest acceleration", default=400.0),
-    "theta_residual_deg = residual: angle of one joint as uneven",
+    "theta_residual_deg = residual: angle of one joint with the same speed fluctuation",
     "torsional_rad_s2 = torsional: acceleration of the output",
     "inertia_drive_rad_s2 = inertia_drive: of the middle shaft when driving",
     "inertia_coast_rad_s2 = inertia_coast: of the middle shaft when coasting",
@@ -301,7 +301,7 @@ def _angle_rule_6_1p5(v: Values) -> Any:
 
 
 @formula(
-    "product of speed and bend against the limit of a joint",
+    "product of speed and joint angle against the limit of a joint",
     "Kozhevnikov & Perfil'ev (1978), pp. 64–65 for ball joints; Dana catalogue for its sizes",
     positive("speed_rpm", "speed"),
     joint_angle("alpha_deg", "joint angle"),

@@ -161,7 +161,7 @@ def _absorber_optimum(v: Values) -> Any:
 
 
 @formula(
-    "order that a centrifugal pendulum absorbs, and what it weighs on the shaft at another one",
+    "order that a centrifugal pendulum absorbs, and its effective inertia on the shaft at another one",
     "rotor and pendulum, small oscillations",
     positive("pendulum_mass_kg", "mass of one pendulum"),
     positive("pivot_radius_m", "radius of its pivot on the shaft"),

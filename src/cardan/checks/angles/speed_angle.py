@@ -1,4 +1,4 @@
-"""Whether speed times bend of every joint stays below what its maker or its type allow."""
+"""Whether speed times joint angle of every joint stays below what its maker or its type allow."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
     if norm:
         limit = design.known.row(BalanceNorm, norm, field="duty.balance_class")
         yield Verdict(
-            title=_("unbalance of shaft {number}, the book's norm"),
+            title=_("unbalance of shaft {number}, permissible by Kozhevnikov and Perfil'ev (1978)"),
             value=amount,
             limit=limit.max_unbalance,
             source=f"{limit.source}, {limit.note}",
@@ -91,7 +91,7 @@ def _amount(design: Design, k: int) -> Array:
 
 CHECK = Check(
     name="balance",
-    doc=mark("unbalance of every shaft against its balance grade or norm"),
+    doc=mark("unbalance of every shaft against its balance grade or the permissible value of its vehicle"),
     shaft=_judge,
     title=mark("unbalance of shaft {number}"),
     dimension="unbalance",

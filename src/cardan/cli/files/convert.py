@@ -39,7 +39,9 @@ def convert(
         typer.Option(
             "--form",
             metavar="FORM",
-            help=_("points (joint centres), angles (bends and plane twists) or slopes; that of FILE by default."),
+            help=_(
+                "points (joint centres), angles (joint angles and plane twists) or slopes; that of FILE by default."
+            ),
             show_default=False,
         ),
     ] = None,

@@ -465,7 +465,7 @@ def _torque_problems(drive: Described) -> Iterator[Problem]:
         driving = [name for name in ("engine", "motor") if getattr(duty, name) is not None]
         driving += [f"torques[{k}]" for k, one in enumerate(duty.torques) if one.station == "input"]
         for name in driving:
-            text = _('the input turns evenly whatever acts on it; write input = "free", or leave this out')
+            text = _('the input turns uniformly whatever acts on it; write input = "free", or leave this out')
             yield Problem(f"duty.{name}", text)
     if duty.run_up is not None and duty.run_up.start == duty.run_up.end:
         yield Problem("duty.run_up.end", _("is the speed before; a run-up needs two"))

@@ -45,7 +45,7 @@ class Clemens(Joint):
         "forces": mark("its arms touch beside the axes, so that its shafts take forces besides the couple"),
     }
 
-    driving: Profile | None = plain(None, doc="profile of the driving shaft; without it the coupling counts as even")
+    driving: Profile | None = plain(None, doc="profile of the driving shaft; without it the coupling counts as uniform")
     driven: Profile | None = plain(None, doc="profile of the driven shaft; as that of the driving one when not given")
 
     def own_problems(self) -> Iterator[Problem]:

@@ -14,7 +14,7 @@ from .joint import Joint
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class ConstantVelocity(Joint):
-    """Ideal constant-velocity joint: the driven shaft turns as evenly as the driving one."""
+    """Ideal constant-velocity joint: the driven shaft turns as uniformly as the driving one."""
 
     kind: ClassVar[str] = "constant_velocity"
     title: ClassVar[str] = mark("constant velocity")

@@ -24,10 +24,10 @@ from .joint import REFUSALS, Inside, Joint
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class HalfCardan(Joint):
-    """Rigid half-cardan, a square bell or a gear: the pair of faces that carries turns as a Hooke joint."""
+    """Rigid half joint, a square bell or a gear: the pair of faces that carries turns as a Hooke joint."""
 
     kind: ClassVar[str] = "half_cardan"
-    title: ClassVar[str] = mark("half-cardan")
+    title: ClassVar[str] = mark("half joint")
     types: ClassVar[tuple[str, ...]] = (
         "half_bell",
         "half_gear",
@@ -83,10 +83,10 @@ class HalfCardan(Joint):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class ElasticHalfCardan(Joint):
-    """Elastic half-cardan, of rubber or with a disc: uniform on average over its links, and soft against turning."""
+    """Flexible coupling, of rubber or with a disc: uniform on average over its links, and soft against turning."""
 
     kind: ClassVar[str] = "elastic_half_cardan"
-    title: ClassVar[str] = mark("elastic half-cardan")
+    title: ClassVar[str] = mark("flexible coupling")
     types: ClassVar[tuple[str, ...]] = (
         "el_disc",
         "el_link",
@@ -107,7 +107,7 @@ class ElasticHalfCardan(Joint):
     }
 
     pairs: int | None = plain(
-        None, doc="pairs of opposite links that share the torque; without it the joint counts as even", low=2
+        None, doc="pairs of opposite links that share the torque; without it the joint counts as uniform", low=2
     )
     stiffness: float | None = quantity("turning_stiffness", None, doc="stiffness against turning", above=0.0)
     damping: float = quantity("turning_damping", 0.0, doc="damping against turning", low=0.0)
@@ -235,7 +235,7 @@ def _tau(joint_angle: Array) -> Array:
 
 
 def play(joint_angle: ArrayLike, pairs: int) -> Array:
-    """Return the play that a rigid half-cardan needs between its pairs to turn at a bend.
+    """Return the play that a rigid half joint needs between its pairs to turn at a bend.
 
     Parameters
     ----------

@@ -149,7 +149,7 @@ class Joint:
     )
     fit: str = plain(
         "new",
-        doc="how plain journals bear: new (evenly pressed) or run in (pressed as a cosine)",
+        doc="how plain journals bear: new (uniform pressure) or run in (pressure as a cosine)",
         choices=("new", "run_in"),
     )
     backlash: float = quantity("angle", 0.0, doc="whole angular play, as its driving shaft feels it", low=0.0)

@@ -22,7 +22,7 @@ from .joint import REFUSALS, Inside, Joint
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Tripod(Joint):
-    """Tripod joint: three rollers in straight tracks; even, while its spider runs round a circle thrice a turn."""
+    """Tripod joint: three rollers in straight tracks; uniform, while its spider runs round a circle thrice a turn."""
 
     kind: ClassVar[str] = "tripod"
     title: ClassVar[str] = mark("tripod")

@@ -96,7 +96,9 @@ def _one_turn(angle: Array, values: Array) -> tuple[Array, Array]:
         phi, table = phi[:-1], table[..., :-1]
     even = phi.size > 2 * AROUND + 1 and bool(np.allclose(np.diff(phi), 2.0 * np.pi / phi.size, rtol=0.0, atol=1e-9))
     if not even:
-        raise refuse("angle", _("these angles do not divide one turn evenly; leave them out, or give at least eight"))
+        raise refuse(
+            "angle", _("these angles do not divide one turn into equal steps; leave them out, or give at least eight")
+        )
     return phi, table
 
 

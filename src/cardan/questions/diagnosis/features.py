@@ -181,7 +181,7 @@ def _unknown(out: dict[str, float], told: bool, low: Array) -> list[str]:
     if math.isnan(out["axial_share"]):
         found.append(_("There is no axial sensor: a bent shaft is hard to tell from an unbalance."))
     if math.isnan(out["uneven"]):
-        found.append(_("The speed of the output was not recorded: how evenly it turns is not known."))
+        found.append(_("The speed of the output was not recorded: how uniformly it turns is not known."))
     return found
 
 

@@ -224,7 +224,7 @@ def _moving(
             "duty.speed", _("missing; how fast the axes move counts only beside how fast the shafts turn"), "missing"
         )
     if duty.acceleration:
-        raise refuse("duty.acceleration", _("while the points move the input turns evenly; leave this out"))
+        raise refuse("duty.acceleration", _("while the points move the input turns uniformly; leave this out"))
     if duty.harmonics:
         raise refuse("duty.harmonics", _("while the points move the torque is constant; leave this out"))
     moves = (movement,) if isinstance(movement, Movement) else movement

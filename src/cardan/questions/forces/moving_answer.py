@@ -181,7 +181,7 @@ def _looked_at(result: MovingForces) -> Say:
             span=Quantity(float(result.times[-1] - result.times[0]), "time", 3),
             turns=Quantity(result.turns, trim=True),
         )
-    text = _("{what}; {some} of {turns} turns looked at, evenly spread, every 5°.")
+    text = _("{what}; {some} of {turns} turns looked at, equally spread, every 5°.")
     return say(text, what=what, some=result.turn_times.size, turns=round(result.turns))
 
 

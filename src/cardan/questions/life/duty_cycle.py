@@ -37,7 +37,7 @@ def damage_shares(life: ArrayLike, share: ArrayLike) -> Array:
 def equivalent_torque(
     torque: ArrayLike, share: ArrayLike, *, speed: ArrayLike = 1.0, joint_angle: ArrayLike = 1.0, power: float = POWER
 ) -> Array:
-    """Return the constant torque that damages bearings as much as a duty cycle, at its mean of speed times bend.
+    """Return the constant torque that damages bearings as much as a duty cycle, at its mean of speed times joint angle.
 
     torque (..., k) [N·m]: M_i; share (..., k): N_i, shares of the time.
     speed, joint_angle (..., k): n_i and α_i, or 1 where they are the same in all parts; power: exponent of the life.

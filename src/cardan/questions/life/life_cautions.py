@@ -37,7 +37,7 @@ def clamped(joint_angle: ArrayLike) -> Array:
 
 
 def extrapolated(speed_angle: ArrayLike, life: ArrayLike) -> Array:
-    """Tell whether speed times bend or life lie outside the tables of the book, array (...) of bool.
+    """Tell whether speed times joint angle or life lie outside the tables of the book, array (...) of bool.
 
     speed_angle (...) [rad²/s]: with the joint angle that the book counts; life (...) [s].
     """

@@ -152,14 +152,14 @@ class Life:
 
     @property
     def equivalent_torque(self) -> Array:
-        """Constant torque that damages each joint as much at its mean speed times bend, array (n,) [N·m]."""
+        """Constant torque that damages each joint as much at its mean speed times joint angle, array (n,) [N·m]."""
         speed = np.asarray([part.speed for part in self.parts])
         more = np.asarray([part.shock_factor for part in self.parts]) / self.shock_factor
         return equivalent_torque(self.torque.T * more, self.share, speed=speed, joint_angle=self.joint_angle.T)
 
     @property
     def speed_angle(self) -> Array:
-        """Mean of speed times bend of each joint, array (n,) [rad²/s]."""
+        """Mean of speed times joint angle of each joint, array (n,) [rad²/s]."""
         speed = np.asarray([abs(part.speed or 0.0) for part in self.parts])
         found: Array = np.sum((self.share * speed)[:, None] * self.joint_angle, axis=0)
         return found

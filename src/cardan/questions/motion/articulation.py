@@ -198,7 +198,7 @@ def articulation(
     found = ask.answer(at)
     if np.all(found.status == Position.IMPOSSIBLE):
         raise JointAngleLimitError(
-            [Problem("movements", _("at every instant a joint bends 90° or more; a universal joint needs less"))]
+            [Problem("movements", _("at every instant a joint angle is 90° or more; a universal joint needs less"))]
         )
     splines = _splines(drive, place, found)
     return Articulation(

@@ -376,7 +376,7 @@ def _column_values(drive: Drive) -> tuple[float, float, float]:
 COLUMNS = (
     SweepQuestion(
         name="movement",
-        doc=mark("what the movements of the drive ask: bend, speed fluctuation, stroke of the splines"),
+        doc=mark("what the movements of the drive ask: joint angle, speed fluctuation, stroke of the splines"),
         told=(
             OutputColumn(
                 name="moving_joint_angle_deg",

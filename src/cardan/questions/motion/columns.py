@@ -53,11 +53,11 @@ def _inside(drive: Drive) -> tuple[OutputColumn, ...]:
         output,
         _acceleration(
             "drive_acceleration_rad_s2",
-            mark("largest angular acceleration of inside shafts, the input turning evenly"),
+            mark("largest angular acceleration of intermediate shafts, the input turning uniformly"),
         ),
         _acceleration(
             "coast_acceleration_rad_s2",
-            mark("largest angular acceleration of inside shafts, the output turning evenly"),
+            mark("largest angular acceleration of intermediate shafts, the output turning uniformly"),
         ),
     )
 
@@ -83,7 +83,7 @@ COLUMNS = (
     ),
     SweepQuestion(
         name="alpha_eq",
-        doc=mark("equivalent angle: bend of the single Hooke joint that is as uneven as the drive"),
+        doc=mark("equivalent joint angle: that of the single Hooke joint with the speed fluctuation of the drive"),
         told=(_angle("alpha_eq_deg", mark("equivalent angle")),),
         of_many=lambda found: (found.output.joint_angle,),
     ),
@@ -128,7 +128,7 @@ COLUMNS = (
     ),
     SweepQuestion(
         name="greatest_joint_angle",
-        doc=mark("joint angle of the joint that bends most"),
+        doc=mark("largest joint angle"),
         told=(_angle("greatest_joint_angle_deg", mark("greatest joint angle of a joint")),),
         of_many=lambda found: (namespace(found.joint_angle).max(found.joint_angle, axis=-1),),
     ),

@@ -162,7 +162,7 @@ def evened(times: Array, rows: Array) -> tuple[float, float, Array, tuple[str, .
         told.append(text.format(count=count, share=100.0 * float(np.sum(np.diff(times)[gaps] - step)) / lasting))
         trust *= max(0.1, 1.0 - 2.0 * share)
     if jitter > max(UNEVEN * step, rounding):
-        text = _("the times are uneven by {share:.2g} % of a step; values were put at even ones by straight lines.")
+        text = _("the time steps differ by {share:.2g} % of a step; values were put at equal ones by straight lines.")
         told.append(text.format(share=100.0 * jitter / step))
         trust *= max(0.2, 1.0 - 2.0 * jitter / step)
     return 1.0 / step, start, found, tuple(told), trust

@@ -199,7 +199,7 @@ def torsional_problems(model: TorsionalModel) -> Iterator[Problem]:
         one = model.joint_angle[..., k]
         wrong = ~((one >= 0.0) & (one < 0.5 * np.pi))
         if np.any(wrong):
-            text = _("{value:.6g}° given; a joint bends from 0° to less than 90°")
+            text = _("{value:.6g}° given; a joint angle is from 0° to less than 90°")
             yield Problem(f"joints[{k}].joint_angle", text.format(value=float(np.degrees(one[wrong].flat[0]))))
     for k, torque in enumerate(model.torques):
         if not 0 <= torque.station < len(model.driven):

@@ -266,9 +266,9 @@ def _axes(drive: Drive, over: Mapping[str, ArrayLike]) -> tuple[tuple[str, Array
 def _joint_angle_problems(drive: Drive, values: Array) -> Iterator[Problem]:
     """Yield bends that no joint can have, or that none of the drive grows with."""
     if values.ndim == 1 and np.any((values < 0.0) | (values >= 90.0)):
-        yield Problem(JOINT_ANGLE, _("a joint bends from 0° to less than 90°"))
+        yield Problem(JOINT_ANGLE, _("a joint angle is from 0° to less than 90°"))
     if not np.max(given_chain(drive).joint_angle):
-        yield Problem(JOINT_ANGLE, _("all joints are straight; there is nothing to bend in proportion"))
+        yield Problem(JOINT_ANGLE, _("all joint angles are zero; there is nothing to scale in proportion"))
 
 
 def _bent(drive: Drive, model: TorsionalModel, largest: float) -> TorsionalModel:

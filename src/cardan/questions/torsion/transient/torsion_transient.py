@@ -162,7 +162,7 @@ def transient(
         check(_unsettled(chosen, model))
         steady = periodic_response(model, speed=first)
         if not bool(steady.found):
-            raise refuse("start", _("no steady motion was found to start from; start even"))
+            raise refuse("start", _("no steady motion was found to start from; start uniform"))
         angle, rate = (one[0, 0] for one in steady.orbit.of(np.asarray([0]), [0.0])[:2])
         if model.free:
             model = _held(model, float(steady.orbit.force))
@@ -211,7 +211,7 @@ def _unsettled(duty: Duty, model: TorsionalModel) -> Iterator[Problem]:
     if any(torque.law.order is None for torque in model.torques):
         yield Problem("duty", _("a torque runs in time; a settled start needs torques that follow angle or speed"))
     elif parted(model)[1]:
-        yield Problem("duty", _("orders of the torques do not repeat within two turns; start even"))
+        yield Problem("duty", _("orders of the torques do not repeat within two turns; start uniform"))
 
 
 def _method(model: TorsionalModel, rate: Array, span: float) -> Method:
