@@ -56,7 +56,7 @@ def test_every_type_is_judged_once_and_says_why() -> None:
     assert len(found) == len(catalogue().tables["joint_types"])
     assert all(bool(one.causes) == (one.state == "rejected") for one in found)
     states = [one.state for one in found]
-    assert states == sorted(states, key=["ok", "conditional", "rejected"].index)
+    assert states == sorted(states, key=["ok", "conditional", "unrated", "rejected"].index)
 
 
 def test_a_need_that_cannot_be_names_every_fault() -> None:

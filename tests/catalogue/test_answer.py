@@ -30,7 +30,7 @@ def test_rows_stand_in_the_units_of_the_reader():
 
 def test_rows_stand_as_a_file_gives_them_where_nothing_is_chosen():
     one = answer_of_table(catalogue(), "joint_sizes")
-    assert first_cells(one, Reader())["mass"] == "1"
+    assert first_cells(one, Reader())["outer"] == "58"
     assert data(one, Reader())["rows"][0]["rating"]["max_joint_angle_deg"] == 35.0
 
 

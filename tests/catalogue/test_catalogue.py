@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cardan.catalogue import TABLES, Catalogue, catalogue, material, with_files
-from cardan.catalogue.rows import FLAGS, AnglePair, Fault, Grade, JointSize, LifeFactor, row_flat
+from cardan.catalogue.rows import FLAGS, AnglePair, BalanceGrade, Fault, Grade, JointSize, LifeFactor, row_flat
 from cardan.errors import InputError
 from cardan.texts import speaking
 
@@ -50,7 +50,10 @@ def test_the_angle_table_falls_with_speed_and_rises_along_its_rows() -> None:
     assert first == sorted(first, reverse=True)
 
 
-@pytest.mark.parametrize("row", catalogue().rows(JointSize).values(), ids=lambda row: row.id)
+SIZES = list(catalogue().rows(JointSize).values())
+
+
+@pytest.mark.parametrize("row", [row for row in SIZES if row.series == "example"], ids=lambda row: row.id)
 def test_the_example_series_says_that_it_is_made_up_and_holds_together(row: JointSize) -> None:
     assert row.confidence == "made_up"
     assert row.cross is not None
@@ -60,6 +63,53 @@ def test_the_example_series_says_that_it_is_made_up_and_holds_together(row: Join
     room = np.pi / np.arcsin(row.needles.diameter / pitch)
     assert row.needles.count <= room < row.needles.count + 1.0  # a full row
     assert row.rating.torque == pytest.approx(row.needles.capacity * row.cross.span, rel=0.06)  # Tc = 2 C R, rounded
+
+
+def test_nothing_but_the_example_series_is_made_up_and_it_is_offered_to_nobody_else() -> None:
+    made_up = {row.id for row in SIZES if row.confidence == "made_up"}
+    assert made_up == {row.id for row in SIZES if row.series == "example"}
+    assert not made_up & {row.id for row in catalogue().offered()}
+    assert {row.id for row in catalogue().offered("gwb-587.50")} == {"gwb-587.50", "gwb-587.55", "gwb-587.60"}
+
+
+@pytest.mark.parametrize("row", [row for row in SIZES if row.series.startswith("GWB")], ids=lambda row: row.id)
+def test_the_torque_of_a_gwb_size_is_that_of_its_capacity_factor(row: JointSize) -> None:
+    hours = row.maker.capacity_factor * 1e10 / (100.0 * 3.0 * (1e-3 * row.rating.torque) ** (10.0 / 3.0))
+    assert hours == pytest.approx(5000.0, rel=0.02)  # the torque is rounded
+    assert row.rating.max_torque == row.maker.functional_limit < row.maker.elastic_limit
+
+
+@pytest.mark.parametrize("row", [row for row in SIZES if row.series.startswith("Spicer")], ids=lambda row: row.id)
+def test_a_spicer_size_is_rated_by_its_bearing_torque(row: JointSize) -> None:
+    if row.maker is None or row.maker.bearing_torque is None:
+        return
+    assert row.rating.torque == pytest.approx(row.maker.bearing_torque, rel=0.01)
+    assert row.rating.max_torque == pytest.approx(min(row.maker.industrial, row.maker.elastic_limit), rel=0.01)
+
+
+def test_figures_that_the_source_does_not_give_are_named_and_count_as_recalled() -> None:
+    for row in SIZES:
+        for figure in (*row.recalled, *row.derived):
+            part, _dot, name = figure.partition(".")
+            assert getattr(getattr(row, part), name) is not None, (row.id, figure)
+    row = catalogue().rows(JointSize)["gwb-687.15"]
+    assert (row.sure("rating.outer").confidence, row.sure("rating.torque").confidence) == ("recalled", "confirmed")
+
+
+def test_an_unknown_grade_is_answered_by_its_standard_and_strength() -> None:
+    with pytest.raises(InputError, match="it stands there for states of delivery and sizes: S355J2H-16, S355J2H-40"):
+        catalogue().grade("S355")
+    with pytest.raises(InputError, match="nearest to its yield strength of 460 MPa are"):
+        catalogue().grade("S460")
+    with pytest.raises(InputError) as caught:
+        catalogue().grade("Q9")
+    assert "nearest" not in str(caught.value)
+
+
+def test_every_grade_of_balance_is_there() -> None:
+    speeds = {row.id: 1e3 * row.speed for row in catalogue().rows(BalanceGrade).values()}
+    grades = ("G0.4", "G1", "G2.5", "G6.3", "G16", "G40", "G100", "G250", "G630", "G1600", "G4000")
+    assert [speeds[name] for name in grades] == pytest.approx([float(name[1:]) for name in grades])
 
 
 def test_every_fault_has_a_sign_and_each_circumstance_its_own_fault() -> None:

@@ -1,5 +1,7 @@
 """What is said of a choice of joints: what does the job, under which conditions, why not the others, for any reader."""
 
+from dataclasses import replace
+
 import pytest
 
 from cardan.answers.data import data
@@ -29,13 +31,34 @@ def test_the_job_and_how_many_do_it_stand_first():
 def test_every_type_and_size_is_told_in_the_units_of_the_reader():
     said = answer(None, selected(NEED))
     types, sizes = (printed(one, POUNDS) for one in said.tables)
-    assert len(types.rows) == len(select_joint(NEED))
+    known = [one for one in select_joint(NEED) if one.state != "unrated"]
+    assert [row[1].text for row in types.rows] == [one.row.id for one in known]
+    assert len(data(said, POUNDS)["types"]) == len(select_joint(NEED)) > len(known)
     assert any("lbf·ft" in cell.text for row in types.rows for cell in row)
     assert [column.unit for column in sizes.columns if column.heading == "outer diameter"] == ["in"]
     content = data(said, POUNDS)
     assert content["need"]["torque_lbft"] == pytest.approx(700.0 / 1.3558179483314004)
     fits = [one.fits for one in fitting_sizes(NEED)]
     assert [row["fits"] for row in content["sizes"]] == fits
+
+
+def test_no_instrument_joint_is_a_candidate_at_kilonewton_metres():
+    found = {one.row.id: one.state for one in select_joint(replace(NEED, torque=5000.0))}
+    assert found["instrument_ball_disc"] == "rejected"
+    assert found["instrument_ring_tip"] == "unrated"
+
+
+def test_sizes_that_fit_come_first_by_space_and_the_next_smaller_one_says_what_it_lacks():
+    need = replace(NEED, torque=1500.0, life=2000 * 3600.0)
+    said = printed(answer(None, selected(need)).tables[1], USUAL)
+    names = [row[1].text for row in said.rows]
+    assert names[0] == "spicer-1610"  # 135 mm over its caps
+    short = next(row for row in said.rows if row[1].text == "gwb-687.30")
+    assert any("less than the 2" in cell.text for cell in short)
+    rows = {one.row.id: one for one in fitting_sizes(need)}
+    # by hand: 5000 h at 3° and 100 rpm, (10/3)rd power of the torque
+    lasts = 5000.0 * (100.0 * 3.0) / (900.0 * 10.0) * (3800.0 / 1500.0) ** (10.0 / 3.0)
+    assert rows["gwb-687.35"].life / 3600.0 == pytest.approx(lasts, rel=1e-9)
 
 
 def test_a_drive_asks_for_the_largest_of_its_joints_or_for_one():

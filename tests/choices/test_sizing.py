@@ -133,10 +133,11 @@ def test_the_smallest_row_of_the_catalogue_passes_and_no_smaller_one_does():
     assert found.values == {"joints[0].size": row, "joints[1].size": row}
     passing = [one.id for one in found.tried if one.passed]
     assert passing[0] == row
-    outers = [one.outer for one in found.tried]
-    assert outers == sorted(outers)
-    assert set(outers) == {r.rating.outer for r in catalogue().rows(JointSize).values()}
-    for one in found.tried:
+    rows = catalogue().rows(JointSize)
+    spaces = [rows[one.id].space for one in found.tried]
+    assert spaces == sorted(spaces)
+    assert {one.id for one in found.tried} == {one.id for one in rows.values() if one.confidence != "made_up"}
+    for one in (one for one in found.tried if rows[one.id].cross is not None):
         joints = tuple(replace(j, cross=None, needles=None, size=one.id) for j in base.joints)
         mine = strength(replace(base, joints=joints))
         own = max(u.utilisation for u in mine.binding if u.subject.startswith("joints"))
@@ -148,7 +149,23 @@ def test_the_smallest_row_of_the_catalogue_passes_and_no_smaller_one_does():
 def test_no_row_is_large_enough():
     found = size(drive(duty=Duty(speed=1200 * rpm, torque=1e6)), None, "joint:1")
     assert not found.found
-    assert len(found.tried) == len(catalogue().rows(JointSize))
+    assert len(found.tried) == sum(one.confidence != "made_up" for one in catalogue().rows(JointSize).values())
+
+
+def test_a_joint_of_a_series_is_offered_its_series_and_rows_of_the_user():
+    base = drive(duty=Duty(speed=1200 * rpm, torque=600.0, life=1000 * HOUR))
+    joints = tuple(replace(j, cross=None, needles=None, size="example-90") for j in base.joints)
+    found = size(replace(base, joints=joints), None, "joint")
+    assert {catalogue().rows(JointSize)[one.id].series for one in found.tried} == {"example"}
+
+
+def test_a_size_whose_life_nobody_can_tell_is_not_taken_where_a_life_is_asked():
+    found = size(drive(duty=Duty(speed=1200 * rpm, torque=600.0, life=1000 * HOUR)), None, "joint")
+    bare = [one for one in found.tried if one.id.startswith("ml-")]
+    assert bare
+    assert not any(one.passed for one in bare)
+    short = size(drive(duty=Duty(speed=1200 * rpm, torque=600.0)), None, "joint")
+    assert any(one.passed for one in short.tried if one.id.startswith("ml-"))
 
 
 def test_a_composite_tube_is_sized_against_buckling():

@@ -20,9 +20,10 @@ HIDDEN = ("confidence", "names", "russian", "uses", "parts", "family", "pair_mob
 SHOWN = {
     "materials": ("european", "american", "yield_strength_MPa", "ultimate_strength_MPa"),
     "joint_types": ("synchronous", "max_joint_angle_deg", "min_torque_Nm", "max_torque_Nm", "max_speed_angle_rpm_deg"),
+    "laminae": ("name", "youngs_1_MPa", "youngs_2_MPa", "shear_12_MPa", "tension_1_MPa"),
     "joint_sizes": (
+        "series",
         "rating.outer_mm",
-        "mass_kg",
         "rating.torque_Nm",
         "rating.max_torque_Nm",
         "rating.max_joint_angle_deg",

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
+import re
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache, lru_cache
@@ -19,15 +21,24 @@ from cardan.reading.scalar import nearest_of
 from cardan.reading.tree import Form, read_table
 from cardan.texts import _, language
 
-from .rows import TABLES, Grade, Row, told
+from .rows import TABLES, Grade, JointSize, Row, told
 
 R = TypeVar("R", bound=Row)
 
 NEAR = 3
 """Names told of where one is not there."""
 
-FILES = ("materials", "joint_types", "joint_sizes", "norms", "faults")
-"""Shipped files, beside this one."""
+SHOWN = 6
+"""Grades told of that a name stands for."""
+
+STRENGTH = re.compile(r"[sepl](\d{3})(?!\d)")
+"""Names of steels that say their yield strength [MPa]: structural, of machines, of pressure vessels, of line pipe."""
+
+STEEL = 7000.0
+"""What metals that count as steel weigh at least [kg/m³]."""
+
+FILES = ("materials", "joint_types", "example_sizes", "joint_sizes", "norms", "faults")
+"""Shipped files, beside this one; rows of one table may stand in several."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -68,6 +79,16 @@ class Catalogue:
         text = _("{name} is not in the catalogue").format(name=repr(name))
         raise refuse(field, text + _near(name, {one: one for one in rows}), "unknown_key")
 
+    def offered(self, size: str = "") -> tuple[JointSize, ...]:
+        """Return the sizes to choose from, the smallest first: of the series of a size, else all but made-up ones.
+
+        Rows of a user without a series are always among them.
+        """
+        rows = self.rows(JointSize)
+        series = rows[size].series if size in rows else ""
+        fits = [one for one in rows.values() if (one.series in ("", series) if series else one.confidence != "made_up")]
+        return tuple(sorted(fits, key=lambda one: (one.space, one.mass or math.inf, one.id)))
+
     def grade(self, name: str, *, field: str = "material") -> Grade:
         """Return a grade by its id, or by its name in another standard: of the first row that has it.
 
@@ -88,15 +109,31 @@ class Catalogue:
         found = by_name.get(name.casefold())
         if found is not None:
             return found
-        spelled = {other.casefold(): other for row in rows.values() for other in row.every_name}
         text = _("{name} is not in the catalogue").format(name=repr(name))
-        raise refuse(field, text + _near(name.casefold(), spelled), "unknown_key")
+        raise refuse(field, text + _like(name.casefold(), list(rows.values())), "unknown_key")
 
 
 @lru_cache(maxsize=256)
 def _told(known: Catalogue, name: str, _code: str) -> Mapping[str, Row]:
     """Return the rows of a table in a language, which is the one spoken here."""
     return {id: told(row) for id, row in known.tables.get(name, {}).items()}
+
+
+def _like(name: str, rows: Sequence[Grade]) -> str:
+    """Return which grades are meant by a name that none has: by its standard, else by the strength it says."""
+    meant = [row.id for row in rows if any(one.casefold().startswith(name) for one in row.every_name)]
+    if meant:
+        text = _("; it stands there for states of delivery and sizes: {grades}")
+        return text.format(grades=", ".join(meant[:SHOWN]) + (" …" if len(meant) > SHOWN else ""))
+    said = STRENGTH.match(name)
+    if said is None:
+        every = [other for row in rows for other in row.every_name]
+        return _near(name, {other.casefold(): other for other in every if other[:1].casefold() == name[:1]})
+    strength = 1e6 * float(said[1])
+    steels = [row for row in rows if row.yield_strength and row.density > STEEL]
+    strong = sorted(steels, key=lambda row: abs((row.yield_strength or 0.0) - strength))
+    text = _("; nearest to its yield strength of {strength} MPa are {grades}")
+    return text.format(strength=said[1], grades=", ".join(row.id for row in strong[:NEAR]))
 
 
 def _near(name: str, spelled: Mapping[str, str]) -> str:
@@ -119,7 +156,10 @@ def catalogue() -> Catalogue:
     """
     tree: dict[str, Any] = {}
     for name in FILES:
-        tree |= tomllib.loads(files(__package__).joinpath(f"{name}.toml").read_text(encoding="utf-8"))
+        for table, rows in tomllib.loads(
+            files(__package__).joinpath(f"{name}.toml").read_text(encoding="utf-8")
+        ).items():
+            tree[table] = [*tree.get(table, ()), *rows]
     tables, problems = rows_of(tree)
     check(problems)
     return Catalogue(tables=tables)

@@ -10,7 +10,7 @@ from cardan.errors import InputError
 from cardan.texts import _
 
 from .catalogue import Catalogue
-from .rows import UNSURE, JointSize, Row
+from .rows import UNSURE, JointSize, Row, sureness
 
 _STEP = re.compile(r"(\w+)((?:\[\d+\])*)")
 _PART = re.compile(r"joints\[(\d+)\]\.\w+\.")
@@ -35,7 +35,7 @@ def rows_behind(drive: Drive, known: Catalogue, *paths: str) -> tuple[Row, ...]:
     found: dict[str, Row] = {}
     for path in paths:
         row = _row(drive, known, path)
-        if row is not None:
+        if row is not None and (row.id not in found or sureness(row.confidence) < sureness(found[row.id].confidence)):
             found[row.id] = row
     return tuple(found.values())
 
@@ -65,8 +65,9 @@ def _row(drive: Drive, known: Catalogue, path: str) -> Row | None:
     size = known.rows(JointSize).get(drive.joints[int(match[1])].size) if match else None
     if size is None:
         return None
-    usual = _at(size, path.partition(".")[2])
-    return size if usual is not None and usual == _at(drive, path) else None
+    figure = path.partition(".")[2]
+    usual = _at(size, figure)
+    return size.sure(figure) if usual is not None and usual == _at(drive, path) else None
 
 
 def _at(thing: Any, path: str) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, is_dataclass, replace
 from types import MappingProxyType
@@ -76,6 +77,12 @@ class Grade(Row):
     poisson: float = plain(0.3, doc="Poisson's ratio", low=0.0, below=0.5)
     yield_strength: float | None = quantity("stress", None, doc="yield strength or 0.2 % proof stress", above=0.0)
     ultimate_strength: float | None = quantity("stress", None, doc="tensile strength", above=0.0)
+    size: tuple[float, float] | None = quantity("length", None, doc="diameter or wall, from and to", low=0.0)
+    typical: bool = plain(False, doc="whether the strengths are typical values, not minima")
+    bending_fatigue: float | None = quantity(
+        "stress", None, doc="fatigue strength in fully reversed rotating bending", above=0.0
+    )
+    fatigue_cycles: float | None = plain(None, doc="cycles of that fatigue strength", above=0.0)
 
     def __post_init__(self) -> None:
         check(
@@ -87,6 +94,25 @@ class Grade(Row):
         """Its names in all standards, its own first."""
         named = (self.id, self.european, self.american, self.russian, *self.names)
         return tuple(dict.fromkeys(name.partition(" (")[0] for name in named if name))
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Lamina(Row):
+    """A ply of fibres in a matrix: along the fibres (1), across them (2)."""
+
+    name: str = plain(doc="what it is called")
+    density: float | None = quantity("density", None, doc="density", above=0.0)
+    youngs_1: float = quantity("stress", doc="Young's modulus along the fibres", above=0.0)
+    youngs_2: float = quantity("stress", doc="Young's modulus across the fibres", above=0.0)
+    shear_12: float | None = quantity("stress", None, doc="shear modulus in the ply", above=0.0)
+    shear_23: float | None = quantity("stress", None, doc="shear modulus through the ply", above=0.0)
+    poisson_12: float | None = plain(None, doc="Poisson's ratio, pulled along the fibres", low=0.0)
+    poisson_23: float | None = plain(None, doc="Poisson's ratio through the ply", low=0.0)
+    tension_1: float | None = quantity("stress", None, doc="tensile strength along the fibres", above=0.0)
+    compression_1: float | None = quantity("stress", None, doc="compressive strength along the fibres", above=0.0)
+    tension_2: float | None = quantity("stress", None, doc="tensile strength across the fibres", above=0.0)
+    compression_2: float | None = quantity("stress", None, doc="compressive strength across the fibres", above=0.0)
+    shear_strength: float | None = quantity("stress", None, doc="shear strength in the ply", above=0.0)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -112,15 +138,72 @@ class JointType(Row):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class MakerFigures:
+    """What a maker's own table says of a size, under the maker's notions."""
+
+    functional_limit: float | None = quantity("torque", None, doc="functional limit torque (GWB)", above=0.0)
+    reversing_fatigue: float | None = quantity("torque", None, doc="endurance torque, reversing (GWB)", above=0.0)
+    pulsating_fatigue: float | None = quantity("torque", None, doc="endurance torque, pulsating (GWB)", above=0.0)
+    elastic_limit: float | None = quantity("torque", None, doc="torque at the elastic limit", above=0.0)
+    capacity_factor: float | None = plain(
+        None, doc="bearing capacity factor Lc (GWB) [10¹⁰ kN·m^(10/3)·h·rpm·°]", above=0.0
+    )
+    bearing_torque: float | None = quantity("torque", None, doc="bearing torque (Spicer)", above=0.0)
+    industrial: float | None = quantity("torque", None, doc="industrial rating (Spicer)", above=0.0)
+    mobile_off_highway: float | None = quantity("torque", None, doc="mobile off-highway rating (Spicer)", above=0.0)
+    max_power: float | None = quantity("power", None, doc="greatest net power (Spicer)", above=0.0)
+    continuous: float | None = quantity("torque", None, doc="continuous torque (Spicer)", above=0.0)
+    short_duration: float | None = quantity("torque", None, doc="short duration torque (Spicer)", above=0.0)
+    reference: float | None = quantity("torque", None, doc="reference torque (ML-Tuning)", above=0.0)
+    limiting: float | None = quantity("torque", None, doc="limiting torque (ML-Tuning)", above=0.0)
+    alternating: float | None = quantity("torque", None, doc="alternating torque (ML-Tuning)", above=0.0)
+    power_540: float | None = quantity("power", None, doc="nominal power at 540 rpm", above=0.0)
+    nominal_torque_540: float | None = quantity("torque", None, doc="nominal torque at 540 rpm", above=0.0)
+    power_1000: float | None = quantity("power", None, doc="nominal power at 1000 rpm", above=0.0)
+    nominal_torque_1000: float | None = quantity("torque", None, doc="nominal torque at 1000 rpm", above=0.0)
+    cap: float | None = quantity("length", None, doc="diameter of the bearing caps", above=0.0)
+    span_over_caps: float | None = quantity("length", None, doc="length of the cross over its caps", above=0.0)
+    bearing: float | None = quantity("length", None, doc="diameter of the wing bearings", above=0.0)
+    over_keys: float | None = quantity("length", None, doc="length over the keys of the wing bearings", above=0.0)
+    flange: float | None = quantity("length", None, doc="flange diameter", above=0.0)
+    flange_din: tuple[float, ...] = quantity("length", (), doc="DIN flange diameters")
+    flange_sae: tuple[str, ...] = plain((), doc="SAE flanges")
+    flange_serrated: tuple[float, ...] = quantity("length", (), doc="serrated flange diameters")
+    tube_outer: float | None = quantity("length", None, doc="outer diameter of the usual tube", above=0.0)
+    tube_wall: float | None = quantity("length", None, doc="wall of the usual tube", above=0.0)
+    bore: float | None = quantity("length", None, doc="bore", above=0.0)
+    single_length: float | None = quantity("length", None, doc="length of the single joint", above=0.0)
+    double_length: float | None = quantity("length", None, doc="length of the double joint", above=0.0)
+    centre_to_end: float | None = quantity("length", None, doc="from the joint centre to the end", above=0.0)
+    between_centres: float | None = quantity("length", None, doc="between the centres of the double joint", above=0.0)
+    double_mass: float | None = quantity("mass", None, doc="mass of the double joint", above=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class JointSize(Row):
     """A size of a maker's series: the dimensions and ratings that a joint of this size has."""
 
+    series: str = plain("", doc="series it is of; sizes of one series are offered together")
     type: str = plain("", doc="type of joint it is of")
     cross: Cross | None = plain(None, doc="its cross")
     needles: Needles | None = plain(None, doc="its needle bearings")
     yoke: Yoke | None = plain(None, doc="its yokes")
     rating: Rating | None = plain(None, doc="what its maker allows")
     mass: float | None = quantity("mass", None, doc="mass of the joint", above=0.0)
+    maker: MakerFigures | None = plain(None, doc="what its maker's own table says")
+    recalled: tuple[str, ...] = plain((), doc="figures, as rating.outer, that its source does not give: usual values")
+    derived: tuple[str, ...] = plain((), doc="figures that are computed from others of the row")
+
+    @property
+    def space(self) -> float:
+        """Diameter that the joint takes [m]: its outer one, else its cross over the caps; infinite if none is known."""
+        outer = self.rating.outer if self.rating is not None else None
+        caps = self.maker.span_over_caps or self.maker.over_keys if self.maker is not None else None
+        return outer or caps or math.inf
+
+    def sure(self, figure: str) -> JointSize:
+        """Return the row with the confidence of one of its figures, as ``rating.outer``."""
+        return replace(self, confidence="recalled") if figure in self.recalled else self
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -224,6 +307,7 @@ class Fault(Row):
 
 TABLES: dict[str, type[Row]] = {
     "materials": Grade,
+    "laminae": Lamina,
     "joint_types": JointType,
     "joint_sizes": JointSize,
     "angle_norms": AngleNorm,

@@ -469,13 +469,12 @@ def _by_size(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Remed
     if match is None:
         return
     i = int(match[1])
-    sizes = known.rows(JointSize)
-    here = sizes.get(drive.joints[i].size)
+    here = known.rows(JointSize).get(drive.joints[i].size)
     if here is None or not any(
         re.match(rf"joints\[{i}\]\.(cross|needles|yoke|rating)", path) for path in verdict.design_variables
     ):
         return
-    larger = [row for row in sizes.values() if row.type == here.type and _bulk(row) > _bulk(here)]
+    larger = [row for row in known.offered(here.id) if row.type == here.type and _bulk(row) > _bulk(here)]
     for steps, row in enumerate(sorted(larger, key=_bulk), start=1):
         try:
             new = sized(drive, i, row.id, known)

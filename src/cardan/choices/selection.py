@@ -16,6 +16,7 @@ from cardan.checks.moving import stood, stopped
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.errors import Problem, check
+from cardan.questions.life.bearing_life import CONVENTIONS, maker_life
 from cardan.texts import _
 
 SLACK = 1e-12
@@ -33,13 +34,15 @@ class JointDuty:
         Of the joint.
     speed : float [rad/s]
     synchronous : bool
-        Whether the output must turn evenly.
+        Whether the output must turn uniformly.
     service_factor : float
         Factor on the torque.
     continuous : bool
-        Whether it runs for long at a time: then the product of speed and bend counts.
+        Whether it runs for long at a time: then the product of speed and joint angle counts.
     outer : float [m], optional
         Outer diameter of the joint: then the speed of its rim counts.
+    life : float [s], optional
+        Running time asked of its bearings.
     """
 
     torque: float
@@ -49,6 +52,7 @@ class JointDuty:
     service_factor: float = 1.0
     continuous: bool = True
     outer: float | None = None
+    life: float | None = None
 
     def __post_init__(self) -> None:
         check(
@@ -64,6 +68,7 @@ class JointDuty:
                 ("speed", self.speed, self.speed >= 0.0, _("at least 0")),
                 ("service_factor", self.service_factor, self.service_factor > 0.0, _("more than 0")),
                 ("outer", self.outer, self.outer is None or self.outer > 0.0, _("more than 0")),
+                ("life", self.life, self.life is None or self.life > 0.0, _("more than 0")),
             )
             if not fine
         )
@@ -92,8 +97,10 @@ class Candidate:
 
     @property
     def state(self) -> str:
-        """How it stands: "ok", "conditional" or "rejected"."""
-        return "rejected" if self.causes else "conditional" if self.flags else "ok"
+        """How it stands: "ok", "conditional", "unrated" where no torque of it is known, or "rejected"."""
+        if self.causes or "unverified_torque" in self.flags:
+            return "rejected" if self.causes else "unrated"
+        return "conditional" if self.flags else "ok"
 
 
 def select_joint(
@@ -112,8 +119,8 @@ def select_joint(
     Returns
     -------
     tuple of Candidate
-        Those accepted, then those under the fewest conditions, then those with the most torque to spare, then the
-        rejected ones.
+        Those accepted, then those under the fewest conditions, too large ones last, the least torque to spare first;
+        then those without a torque in their source, which are no candidates, then the rejected ones.
 
     See Also
     --------
@@ -127,11 +134,11 @@ def select_joint(
     """
     rows = (known or catalogue()).rows(JointType).values()
     judged = [_judged(row, need) for row in rows if include_beyond or row.confidence != "beyond"]
-    order = {"ok": 0, "conditional": 1, "rejected": 2}
+    order = ("ok", "conditional", "unrated", "rejected")
 
     def rank(one: Candidate) -> tuple[float, ...]:
-        spare = 0.0 if math.isnan(one.headroom) else -one.headroom
-        return order[one.state], len(one.flags) if not one.causes else len(one.causes), spare
+        spare = 0.0 if math.isnan(one.headroom) else one.headroom
+        return order.index(one.state), "oversized" in one.flags, len(one.causes or one.flags), spare
 
     return tuple(sorted(judged, key=rank))
 
@@ -191,6 +198,7 @@ class SizeFit:
     row: JointSize
     reasons: tuple[Reason, ...]  # why it is too small; none where it fits
     headroom: float  # largest torque over the torque needed; nan where the catalogue gives none
+    life: float  # [s]: L10 of its bearings by its maker's formula; nan where its rating is not one of bearings
 
     @property
     def fits(self) -> bool:
@@ -260,6 +268,7 @@ def joint_duty(
         service_factor=used.shock_factor,
         continuous=used.continuous,
         outer=outer,
+        life=used.life,
     )
 
 
@@ -316,17 +325,44 @@ def fitting_sizes(need: JointDuty, *, known: Catalogue | None = None) -> tuple[S
     known: the shipped one when not given.
     Returns: only ratings are compared; whether a size lasts is for `cardan.size` and `cardan.life` to say.
     """
-    rows = (known or catalogue()).rows(JointSize).values()
     found = []
-    for row in rows:
+    for row in (known or catalogue()).offered():
         limit = row.rating.max_torque if row.rating is not None else None
         room = math.nan if limit is None else limit / (need.torque * need.service_factor)
-        found.append(SizeFit(row=row, reasons=tuple(_size_reasons(row, need)), headroom=room))
-    return tuple(sorted(found, key=lambda one: (not one.fits, _outer(one.row), one.row.id)))
+        lasts = _life(row, need)
+        found.append(SizeFit(row=row, reasons=tuple(_size_reasons(row, need, lasts)), headroom=room, life=lasts))
+    return tuple(
+        sorted(
+            found,
+            key=lambda one: (not one.fits, need.life is not None and math.isnan(one.life), one.row.space, one.row.id),
+        )
+    )
 
 
-def _size_reasons(row: JointSize, need: JointDuty) -> Iterator[Reason]:
+def _life(row: JointSize, need: JointDuty) -> float:
+    """Return L10 of the bearings of a size by its maker's formula [s]; nan where it has no rating for it."""
     rating = row.rating
+    if rating is None or rating.torque is None or rating.convention not in CONVENTIONS or not need.speed:
+        return math.nan
+    found = maker_life(
+        rating.torque,
+        need.torque,
+        speed=need.speed,
+        joint_angle=need.joint_angle,
+        convention=rating.convention,
+        shock=need.service_factor,
+    )
+    return float(found)
+
+
+def _size_reasons(row: JointSize, need: JointDuty, lasts: float) -> Iterator[Reason]:
+    rating = row.rating
+    if rating is None or rating.max_torque is None:
+        yield Reason(code="unverified_torque", message=_("no largest torque given"), source=row.source)
+    if need.life is not None and lasts < need.life:
+        text = _("lasts {life}, less than the {asked} asked")
+        asked, found = (Quantity(one, "time", digits=3, unit="h", trim=True) for one in (need.life, lasts))
+        yield Reason(code="life", message=say(text, life=found, asked=asked), value=lasts, limit=need.life)
     if rating is None:
         return
     rim = 0.5 * need.speed * (rating.outer or math.nan)
@@ -341,10 +377,6 @@ def _size_reasons(row: JointSize, need: JointDuty) -> Iterator[Reason]:
             text = _("{value} is more than its {limit}")
             said = say(text, value=_given(value, dimension), limit=_given(limit, dimension))
             yield Reason(code=code, message=said, value=value, limit=limit, source=row.source)
-
-
-def _outer(row: JointSize) -> float:
-    return math.inf if row.rating is None or row.rating.outer is None else row.rating.outer
 
 
 def _given(value: float, dimension: str) -> Quantity:

@@ -17,7 +17,10 @@ from cardan.texts import _, plural
 
 from .selection import Candidate, JointDuty, Reason, SizeFit, fitting_sizes, joint_duty, reasons, select_joint
 
-TONES: dict[str, Tone] = {"ok": "good", "conditional": "warning", "rejected": "failed"}
+TONES: dict[str, Tone] = {"ok": "good", "conditional": "warning", "unrated": "plain", "rejected": "failed"}
+
+SHOWN = 12
+"""Sizes that fit shown to people; programs get all."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -61,7 +64,7 @@ def answer(_drive: Drive | None, result: Selection) -> Answer:
         title=_("Selection of joints"),
         sentence=_sentence(result),
         tone=tone,
-        tables=(_types(result), *((_sizes(result.sizes),) if result.sizes else ())),
+        tables=(_types(result), *((_sizes(result.sizes, result.need.life is not None),) if result.sizes else ())),
         remarks=tuple(_remarks(result)),
         facts=_facts(result),
         full=lambda: _rows(result),
@@ -90,7 +93,7 @@ def _said(why: Sequence[Reason]) -> Text:
 
 def _types(result: Selection) -> Table:
     words = {"ok": _("accepted"), "conditional": _("with conditions"), "rejected": _("rejected")}
-    found = result.types
+    found = [one for one in result.types if one.state != "unrated"]
     why = [reasons(one, result.need) for one in found]
     return Table(
         title=_("Types of joints"),
@@ -122,9 +125,31 @@ def _room(values: Sequence[float]) -> list[float | None]:
     return [None if math.isnan(one) else one for one in values]
 
 
-def _sizes(sizes: Sequence[SizeFit]) -> Table:
+def _why(one: SizeFit, asked: bool) -> Text:
+    """Return of which series a size that fits is, and what its source does not rate; else why it does not fit."""
+    if not one.fits:
+        return _said(one.reasons)
+    unrated = _("no rating for the life asked") if asked and math.isnan(one.life) else ""
+    return Joined([part for part in (one.row.series, unrated) if part], between="; ")
+
+
+def _near(sizes: Sequence[SizeFit]) -> list[SizeFit]:
+    """Return the smallest sizes that fit, and of each of their series the next smaller one, which does not."""
+    fits = [one for one in sizes if one.fits][:SHOWN]
+    series = dict.fromkeys(one.row.series for one in fits) if fits else dict.fromkeys(one.row.series for one in sizes)
+    short = [one for one in sizes if not one.fits and not math.isnan(one.headroom)]
+    below = [max((one for one in short if one.row.series == name), key=_strength, default=None) for name in series]
+    return [*fits, *(one for one in below if one is not None)]
+
+
+def _strength(one: SizeFit) -> float:
+    return one.headroom
+
+
+def _sizes(sizes: Sequence[SizeFit], asked: bool) -> Table:
+    every, sizes = sizes, _near(sizes)
     fits = [(_("fits"), "good") if one.fits else (_("rejected"), "failed") for one in sizes]
-    outer = [None if one.row.rating is None else one.row.rating.outer for one in sizes]
+    outer = [one.row.space if math.isfinite(one.row.space) else None for one in sizes]
     return Table(
         title=_("Sizes of the catalogue by their makers' ratings"),
         fixed=2,
@@ -137,24 +162,42 @@ def _sizes(sizes: Sequence[SizeFit]) -> Table:
             ),
             Column(key="", heading=_("size"), values=[one.row.id for one in sizes], left=True),
             Column(key="", heading=_("outer diameter"), values=outer, dimension="length"),
-            Column(key="", heading=_("mass"), values=[one.row.mass for one in sizes], dimension="mass", digits=3),
+            Column(
+                key="",
+                heading=_("life L10"),
+                values=_room([one.life for one in sizes]),
+                dimension="time",
+                unit="h",
+                digits=3,
+            ),
             Column(key="", heading=_("torque reserve"), values=_room([one.headroom for one in sizes]), digits=3),
             Column(
                 key="",
                 heading=_("why"),
-                values=[one.row.source if one.fits else _said(one.reasons) for one in sizes],
+                values=[_why(one, asked) for one in sizes],
                 left=True,
                 wrap=True,
             ),
+            Column(key="", heading=_("source"), values=[one.row.source for one in sizes], left=True, depth="full"),
+        ),
+        note=say(
+            _("{fit} of {count} sizes fit; below those shown the next smaller one of each series, and what it lacks."),
+            fit=sum(one.fits for one in every),
+            count=len(every),
         ),
     )
 
 
 def _remarks(result: Selection) -> Iterator[Remark]:
+    unrated = [one.row.id for one in result.types if one.state == "unrated"]
+    if unrated:
+        text = _("Their sources give no torque, so these types are no candidates: {types}.")
+        yield Remark(text=text.format(types=", ".join(unrated)))
     yield Remark(text=_("A figure that the source of a type does not give is a condition: look it up at the maker's."))
-    if any(one.fits and one.row.confidence == "made_up" for one in result.sizes):
-        text = _("The shipped sizes are made up for examples; a maker's own rows come with --catalogue FILE.")
-        yield Remark(text=text, tone="warning")
+    if any(one.fits for one in result.sizes):
+        yield Remark(
+            text=_("Life L10 by the maker's formula; `cardan strength --size` judges a size in a drive by every limit.")
+        )
     command = ("cardan", "catalogue", "joint_types", "TYPE")
     yield Remark(text=_("Where every figure comes from:"), command=command, tone="next")
 
@@ -201,7 +244,9 @@ def _facts(result: Selection) -> dict[str, Any]:
         "sizes": [
             {
                 "size": one.row.id,
+                "series": one.row.series,
                 "fits": one.fits,
+                "life": None if math.isnan(one.life) else Quantity(one.life, "time", unit="h"),
                 "headroom": one.headroom,
                 "reasons": _reasons(one.reasons),
                 "confidence": one.row.confidence,

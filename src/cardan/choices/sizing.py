@@ -245,6 +245,9 @@ __all__ = ["HOLDS", "PARTS", "Hold", "Sizing", "Tried", "size"]
 
 # The smallest row of the catalogue at which a joint's checks pass.
 
+LIVES = ("bearing_life", "rated_torque")
+"""Checks that judge the running time asked of a joint; a size that none of them can judge is not taken."""
+
 
 def smallest_row(drive: Drive, number: int, rows: Catalogue) -> Sizing:
     """Return the smallest row of the catalogue that passes, for one joint or for all alike."""
@@ -254,7 +257,7 @@ def smallest_row(drive: Drive, number: int, rows: Catalogue) -> Sizing:
     if not chosen:
         raise refuse("part", _("no joint of the drive is a cross joint, and rows of the catalogue are of such"))
     subjects = [f"joints[{i}]" for i in chosen]
-    sizes = sorted(rows.rows(JointSize).values(), key=_order)
+    sizes = rows.offered(next((drive.joints[i].size for i in chosen if drive.joints[i].size), ""))
     if not sizes:
         raise refuse("catalogue", _("holds no sizes of joints"), "empty")
     tried: list[Tried] = []
@@ -267,7 +270,8 @@ def smallest_row(drive: Drive, number: int, rows: Catalogue) -> Sizing:
         every = [one for one in check(whole, only=CHECKS["joint"], known=rows) if one.subject in subjects]
         judged = tuple(one for one in every if one.run and not one.advice)
         worst = foremost_of(judged, used) if judged else None
-        passed = worst is not None and used(worst) <= 1.0
+        unjudged = drive.duty.life is not None and not any(one.check in LIVES for one in judged)
+        passed = worst is not None and used(worst) <= 1.0 and not unjudged
         tried.append(
             Tried(
                 id=row.id,
@@ -317,14 +321,6 @@ def refuse_other(drive: Drive, number: int) -> None:
     if joint.refusal("sizing"):
         text = _("joint {number} is of kind {kind}; only cross joints are sized")
         raise refuse("part", text.format(number=number, kind=joint.kind), "out_of_range")
-
-
-def _order(row: JointSize) -> tuple[float, ...]:
-    """Return by what sizes are put in order: outer diameter, mass, rating."""
-    rating = row.rating
-    outer = math.inf if rating is None or rating.outer is None else rating.outer
-    torque = math.inf if rating is None or rating.torque is None else rating.torque
-    return outer, math.inf if row.mass is None else row.mass, torque
 
 
 def with_joint(drive: Drive, i: int, **changes: object) -> Drive:

@@ -233,7 +233,7 @@ def _joint_selection(v: Values) -> Any:
     found = select_joint(need, include_beyond=v.include_beyond_seeds)
     return {
         "ok": sorted(one.row.id for one in found if one.state == "ok"),
-        "conditional": {one.row.id: list(one.flags) for one in found if one.state == "conditional"},
+        "conditional": {one.row.id: list(one.flags) for one in found if one.state in ("conditional", "unrated")},
         "rejected": {one.row.id: list(one.causes) for one in found if one.state == "rejected"},
     }
 

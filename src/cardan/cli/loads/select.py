@@ -69,6 +69,10 @@ def select(
             "--modern", help=_("Count modern types too, whose limits are typical values."), show_default=False
         ),
     ] = False,
+    life_h: Annotated[
+        float | None,
+        typer.Option("--life-h", metavar="H", help=_("Running time asked of the bearings."), show_default=False),
+    ] = None,
     more: MoreRows = None,
     json: AsJson = False,
     csv: AsCsv = False,
@@ -76,7 +80,7 @@ def select(
     """Tell which types and sizes of joints do a job: accepted, under conditions, or rejected, and why."""
     check_options(speed_rpm, torque, json=json, csv=csv)
     files = tuple(more or ())
-    changes = _changes(joint_angle_deg, factor, outer_mm, synchronous, continuous)
+    changes = _changes(joint_angle_deg, factor, outer_mm, synchronous, continuous, life_h)
     drive = None if file is None else read(file, files)
     if drive is None or file is None:
         known = with_files(catalogue(), files) if files else catalogue()
@@ -98,6 +102,7 @@ OPTIONS = {
     "speed": "--speed-rpm",
     "service_factor": "--service-factor",
     "outer": "--outer-mm",
+    "life": "--life-h",
     "joint": "--joint",
 }
 
@@ -107,10 +112,20 @@ def _option(field: str) -> str:
 
 
 def _changes(
-    joint_angle: float | None, factor: float | None, outer: float | None, even: bool | None, long: bool | None
+    joint_angle: float | None,
+    factor: float | None,
+    outer: float | None,
+    even: bool | None,
+    long: bool | None,
+    life: float | None,
 ) -> dict[str, Any]:
     """Return what the options say beside torque and speed, in SI."""
-    given = (("--joint-angle-deg", joint_angle), ("--service-factor", factor), ("--outer-mm", outer))
+    given = (
+        ("--joint-angle-deg", joint_angle),
+        ("--service-factor", factor),
+        ("--outer-mm", outer),
+        ("--life-h", life),
+    )
     text = _("{value} is not a finite number")
     check(Problem(name, text.format(value=one)) for name, one in given if one is not None and not isfinite(one))
     said = {
@@ -119,6 +134,7 @@ def _changes(
         "outer": None if outer is None else outer * mm,
         "synchronous": even,
         "continuous": long,
+        "life": None if life is None else life * 3600.0,
     }
     return {name: value for name, value in said.items() if value is not None}
 
