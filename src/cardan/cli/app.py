@@ -258,6 +258,18 @@ COMMANDS = {
         _("Print the JSON Schema of the drive file, for editors."),
         ("cardan schema > drive.schema.json",),
     ),
+    "keys": Entry(
+        "files.keys",
+        FILES,
+        _("Keys of the drive file: units, allowed values, default, meaning, an example."),
+        ("cardan keys duty", "cardan keys joints.cross", "cardan keys --csv"),
+    ),
+    "help": Entry(
+        "files.lookup",
+        FORMULAS,
+        _("Find commands, checks, keys and formulas by a word of the trade."),
+        ("cardan help stress", "cardan help u-joint"),
+    ),
     "catalogue": Entry(
         "files.catalogue",
         DATA,

@@ -259,39 +259,42 @@ def _section(title: str, cls: type) -> Iterator[str]:
     for one in fields_of(cls).values():
         units = ", ".join(f"`_{unit}`" for unit in DIMENSIONS[one.key.dimension]) if one.key.dimension else ""
         mirror = f" or `{one.key.mirror}` (opposite sign)" if one.key.mirror else ""
-        yield f"| `{one.name}`{mirror} | {units} | {_kind(one)} | {_default(one)} | {one.key.doc} |"
+        yield f"| `{one.name}`{mirror} | {units} | {kind_of(one)} | {default_of(one)} | {one.key.doc} |"
     yield ""
 
 
-def _kind(one: Field) -> str:
+def kind_of(one: Field) -> str:
+    """Return what a field holds in words, and which values are allowed."""
     limits = allowed(one.key)
-    ending = "" if limits == "a finite number" else f", {limits}"
+    ending = "" if limits == _("a finite number") else f", {limits}"
     return _reference_shape(one.type, one) + ending
 
 
 def _reference_shape(kind: Any, one: Field) -> str:
     if one.name == "set":
-        return "table of paths"
+        return _("table of paths")
     if get_origin(kind) is tuple:
         parts = get_args(kind)
+        many = {float: _("numbers"), int: _("whole numbers"), str: _("texts")}
         if parts[-1] is Ellipsis:
-            return "tables" if is_dataclass(parts[0]) else f"list of {_reference_shape(parts[0], one)}s"
-        inner = _reference_shape(parts[0], one)
-        return f"{len(parts)} {inner}s" if inner in ("number", "text") else f"{len(parts)} pairs of numbers"
+            inner = many.get(parts[0], _("lists"))
+            return _("tables") if is_dataclass(parts[0]) else _("list of {what}").format(what=inner)
+        return f"{len(parts)} {many.get(parts[0]) or _('pairs of numbers')}"
     if kind in NAMED:
-        return "name or table"
+        return _("name or table")
     if is_dataclass(kind):
-        return "table"
+        return _("table")
     if kind == WORD_OR_FLAG:
-        return "true, false or one of " + ", ".join(f"`{word}`" for word in one.key.choices)
+        return _("true, false or one of ") + ", ".join(f"`{word}`" for word in one.key.choices)
     if one.key.choices:
-        return "one of " + ", ".join(f"`{word}`" for word in one.key.choices)
-    return {float: "number", int: "whole number", bool: "true or false"}.get(kind, "text")
+        return _("one of ") + ", ".join(f"`{word}`" for word in one.key.choices)
+    return {float: _("number"), int: _("whole number"), bool: _("true or false")}.get(kind, _("text"))
 
 
-def _default(one: Field) -> str:
+def default_of(one: Field) -> str:
+    """Return the default of a field in words, empty where there is none."""
     if one.required:
-        return "required"
+        return _("required")
     value = one.default
     if value is None or is_dataclass(value) or value in ((), ""):
         return ""

@@ -20,7 +20,10 @@ from unicodedata import category
 
 from cardan.errors import CardanError, InputError, MissingExtraError, Problem
 from cardan.files import refusal
+from cardan.later import later
 from cardan.texts import _, language, mark, plural
+
+lookup = later("cardan.cli.files.lookup")
 
 DONE, FAILED, BAD_INPUT, FAULT, INTERRUPTED = 0, 1, 2, 70, 130
 """Exit codes."""
@@ -104,7 +107,12 @@ def _reader_gone(error: BaseException | None) -> bool:
 def _usage(error: Any) -> str:
     context = getattr(error, "ctx", None)
     command = context.command_path if context is not None else "cardan"
-    text = reworded(" ".join(str(error.format_message()).split()).replace("Value error, ", ""))
+    said = " ".join(str(error.format_message()).split()).replace("Value error, ", "")
+    unknown = re.fullmatch(r"No such command '(.*)'\.", said)
+    meant = lookup().commands_for(unknown[1]) if unknown else []
+    if unknown and meant:
+        said = f"No such command {unknown[1]!r}. Did you mean {', '.join(meant)}?"
+    text = reworded(said)
     text = text[:1].lower() + text[1:].rstrip(".")
     return _("{text}; see {command} --help").format(text=text, command=command)
 
