@@ -97,7 +97,7 @@ def joint_types() -> str:
     from cardan.questions.motion.joint_law import types_of
 
     lines = [
-        "| kind | type of the catalogue | even | bend to | torque to | speed times joint angle |",
+        "| kind | type of the catalogue | uniform | joint angle to | torque to | speed times joint angle |",
         "|---|---|---|---|---|---|",
     ]
     for kind in JOINTS:

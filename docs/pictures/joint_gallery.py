@@ -336,8 +336,8 @@ PICTURES = {
     "joint-rzeppa": rzeppa,
     "joint-weiss": weiss,
     "joint-tripod": tripod,
-    "joint-half joint": half_cardan,
-    "joint-elastic-half joint": elastic_half_cardan,
+    "joint-half-cardan": half_cardan,
+    "joint-elastic-half-cardan": elastic_half_cardan,
     "joint-pin-coupling": pins,
     "joint-clemens": clemens,
 }
