@@ -221,11 +221,7 @@ class TruckExample:
 
 
 def truck_example(
-    *,
-    speed: float = TRUCK["speed"],
-    a: float = TRUCK["a"],
-    q: float = TRUCK["q"],
-    sway: float = TRUCK["sway"],
+    *, speed: float = TRUCK["speed"], a: float = TRUCK["a"], q: float = TRUCK["q"], sway: float = TRUCK["sway"]
 ) -> TruckExample:
     """Return the book's worked example, the power unit of a truck, computed anew.
 

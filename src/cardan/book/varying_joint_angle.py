@@ -108,11 +108,7 @@ def planar_chain(
     cosine, sine, zero = np.cos(tilt), np.sin(tilt), np.zeros_like(tilt)
     along = np.stack((cosine, zero, -sine), axis=-1)
     across = np.stack((-sine, zero, -cosine), axis=-1)
-    axes = (
-        along,
-        tilt_rate[..., None] * across,
-        tilt_curve[..., None] * across - tilt_rate[..., None] ** 2 * along,
-    )
+    axes = (along, tilt_rate[..., None] * across, tilt_curve[..., None] * across - tilt_rate[..., None] ** 2 * along)
     theta = phi + start_phase
     arm = np.stack((np.zeros_like(theta), np.sin(theta), -np.cos(theta)), axis=-1)
     spins = moving_axes(axes, arm, yoke_angle=yoke_angle, speed=speed, acceleration=acceleration)

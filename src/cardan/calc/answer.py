@@ -94,7 +94,7 @@ def answer_of_keys(item: Calculation) -> Answer:
             Column(key="form", values=[form for form, _doc in forms] + none),
             Column(key="needed", values=needed + none),
             Column(key="doc", values=[doc for _form, doc in forms] + [_(one.doc) for one in item.returns]),
-        ),
+        )
     )
     return Answer(
         name="calc",
@@ -147,7 +147,7 @@ def answer(item: Calculation, found: Mapping[str, Any]) -> Answer:
             columns=(
                 Column(key="key", values=[key for key, _value in flat]),
                 Column(key="value", values=[value for _key, value in flat]),
-            ),
+            )
         ),
     )
 

@@ -13,17 +13,7 @@ from cardan.units import nearest
 
 from .calculation import Calculation, Formulas, Values
 from .loads import assembly, forces, life, losses, strength
-from .motion import (
-    accuracy,
-    book,
-    constant_velocity,
-    couplings,
-    instruments,
-    kinematics,
-    moving,
-    practice,
-    structure,
-)
+from .motion import accuracy, book, constant_velocity, couplings, instruments, kinematics, moving, practice, structure
 from .vibration import bending, cracks, diagnosis, mathieu, simulation, straight_line, torsion
 
 MOTION = (kinematics, moving, accuracy, couplings, constant_velocity, instruments, structure, book)

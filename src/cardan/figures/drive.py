@@ -224,11 +224,7 @@ def _triad(view: View, corner: Array, inch: float) -> Iterator[Series]:
         tip = frame @ direction * 0.34 * inch
         start, end = origin, origin + tip
         yield Curve(
-            x=np.asarray([start[0], end[0]]),
-            y=np.asarray([start[1], end[1]]),
-            role="muted",
-            width=0.9,
-            arrow=True,
+            x=np.asarray([start[0], end[0]]), y=np.asarray([start[1], end[1]]), role="muted", width=0.9, arrow=True
         )
         away = tip / max(float(np.hypot(*tip)), 1e-12)
         yield Note(
@@ -318,13 +314,7 @@ def _needle(
     """Return a line across the clock; an empty one stands in the legend only."""
     x, y = _polar(np.asarray([angle, angle + math.pi]), reach)
     return Curve(
-        x=x[:0] if empty else x,
-        y=y[:0] if empty else y,
-        role=role,
-        width=width,
-        dash=dash,
-        label=label,
-        marker=marker,
+        x=x[:0] if empty else x, y=y[:0] if empty else y, role=role, width=width, dash=dash, label=label, marker=marker
     )
 
 

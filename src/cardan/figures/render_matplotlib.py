@@ -42,12 +42,7 @@ _LEVELS = {"top": "top", "middle": "center", "bottom": "bottom"}
 
 
 def render(
-    figures: Figure | Sequence[Figure],
-    target: IO[bytes],
-    format: Format,
-    *,
-    dpi: float = 160.0,
-    words: bool = True,
+    figures: Figure | Sequence[Figure], target: IO[bytes], format: Format, *, dpi: float = 160.0, words: bool = True
 ) -> None:
     """Draw figures, one below the other, in a PDF one a page.
 
@@ -93,12 +88,7 @@ def _draw(canvas: Canvas, page: Page, down: float) -> None:
     for k, line in enumerate(page.caption):
         words(0.1, page.caption_top + 0.165 * k, line, fontsize=8.2, color=palette.colour("muted"))
     for panel, box in page.panels:
-        rectangle = (
-            box.left / wide,
-            1.0 - (down + box.top + box.height) / high,
-            box.width / wide,
-            box.height / high,
-        )
+        rectangle = (box.left / wide, 1.0 - (down + box.top + box.height) / high, box.width / wide, box.height / high)
         _panel(canvas.add_axes(rectangle), panel, box)
     if page.legend:
         _legend(canvas.add_axes((0.0, 1.0 - (down + page.height) / high, page.width / wide, page.height / high)), page)

@@ -88,11 +88,7 @@ def described(figure: Figure) -> Spec:
             "annotations": [],
             # Tails of the axes, as in "xaxis2", along which the input angle runs; whether circles must stay round, and
             # at which width they do.
-            "meta": {
-                "turning": [],
-                "equal": any(panel.equal for panel in figure.panels),
-                "width": page.width * INCH,
-            },
+            "meta": {"turning": [], "equal": any(panel.equal for panel in figure.panels), "width": page.width * INCH},
         },
     }
     shown: set[str] = set()

@@ -226,12 +226,7 @@ def scaled_speed(speed: ArrayLike, length_ratio: ArrayLike, diameter_ratio: Arra
 
 
 def longest_tube(
-    speed: ArrayLike,
-    outer: ArrayLike,
-    inner: ArrayLike,
-    *,
-    wear: ArrayLike = 1.0,
-    constant: ArrayLike = BOOK_CONSTANT,
+    speed: ArrayLike, outer: ArrayLike, inner: ArrayLike, *, wear: ArrayLike = 1.0, constant: ArrayLike = BOOK_CONSTANT
 ) -> Array:
     """Return how long a shaft between joints may be for a greatest speed, array (...) [m].
 

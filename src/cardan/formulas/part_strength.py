@@ -24,13 +24,7 @@ class PartStress:
 
 
 def yoke_stress(
-    force: ArrayLike,
-    *,
-    bending_arm: ArrayLike,
-    torsion_arm: ArrayLike,
-    height: ArrayLike,
-    width: ArrayLike,
-    shape: str,
+    force: ArrayLike, *, bending_arm: ArrayLike, torsion_arm: ArrayLike, height: ArrayLike, width: ArrayLike, shape: str
 ) -> PartStress:
     """Return the stresses of an arm of a yoke, Book (263).
 
@@ -85,13 +79,7 @@ def rectangle_torsion_modulus(long: ArrayLike, short: ArrayLike) -> Array:
     return twisting / (short * (1.0 - 8.0 / math.pi**2 * edge))
 
 
-def journal_stress(
-    force: ArrayLike,
-    *,
-    diameter: ArrayLike,
-    arm: ArrayLike,
-    bore: ArrayLike = 0.0,
-) -> PartStress:
+def journal_stress(force: ArrayLike, *, diameter: ArrayLike, arm: ArrayLike, bore: ArrayLike = 0.0) -> PartStress:
     """Return the stresses at the root of a journal, Book (264), (265), with its grease bore.
 
     Parameters

@@ -426,10 +426,7 @@ def _lines(found: TorsionModes, build: Build, shape: Array, swing: Array) -> Ite
             at = angle + 0.5 * np.pi * quarter
             points = np.stack((np.broadcast_to(along, at.shape), radius * np.cos(at), radius * np.sin(at)), axis=-1)
             yield SceneCurve(
-                points=points,
-                colour=palette.ROLES["warning"],
-                radius=0.05 * radius,
-                track=build.starts[k],
+                points=points, colour=palette.ROLES["warning"], radius=0.05 * radius, track=build.starts[k]
             )
 
 

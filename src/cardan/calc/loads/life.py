@@ -84,11 +84,7 @@ def _warned(v: Values, life: Any) -> list[str]:
 def _book(v: Values, regime: Values) -> Any:
     """Return the life of a joint by the book in a regime [s]."""
     return book_life(
-        nominal_torque(v.C, v.R),
-        regime.torque,
-        speed=regime.speed,
-        joint_angle=regime.alpha,
-        shock=v.shock_factor,
+        nominal_torque(v.C, v.R), regime.torque, speed=regime.speed, joint_angle=regime.alpha, shock=v.shock_factor
     )
 
 
@@ -253,13 +249,7 @@ def _rate(v: Values) -> float:
 )
 def _cross_loads(v: Values) -> Any:
     angle = np.atleast_1d(v.phi)
-    found = cross_loads(
-        v.alpha,
-        angle,
-        v.torque,
-        span=2.0 * v.R,
-        torque_at=v.torque_side,
-    )
+    found = cross_loads(v.alpha, angle, v.torque, span=2.0 * v.R, torque_at=v.torque_side)
     at = ... if np.ndim(v.phi) else 0
     return found, {
         "journal_force_N": found.journal[at],

@@ -97,9 +97,7 @@ def _efficiency_joint(v: Values) -> Any:
     "Kozhevnikov & Perfil'ev (1978), eq. 139; exact by couples of the crosses",
     (joint_angles(default=None), twists(), points(default=None), YOKES, START),
     at_least_zero(
-        "kappa_mu_dc_over_d",
-        "reduced coefficient of friction times journal diameter over span, of each joint",
-        axes=1,
+        "kappa_mu_dc_over_d", "reduced coefficient of friction times journal diameter over span, of each joint", axes=1
     ),
     CONSTANT,
     "eta_self_consistent: efficiency, friction acting on itself",

@@ -137,12 +137,7 @@ def _double_joint(v: Values) -> Any:
     one, two = v.alpha12, v.alpha23
     law = double_joint_law(one, two, phase)
     moved = double_joint(one, two, phase, np.atleast_1d(v.phi1))
-    return {
-        "psi2_deg": phase,
-        "delta": law.speed_fluctuation,
-        "alpha_eq_deg": law.joint_angle,
-        **_curves(v, moved),
-    }
+    return {"psi2_deg": phase, "delta": law.speed_fluctuation, "alpha_eq_deg": law.joint_angle, **_curves(v, moved)}
 
 
 @formula(

@@ -145,11 +145,7 @@ def _offset_groove_plane(v: Values) -> Any:
     if np.any(np.isnan(angle_error)):
         text = _("{value:.6g} mm is too small: grooves so far off the centre do not meet at this joint angle")
         raise refuse("groove_radius", text.format(value=1e3 * radius), "singular")
-    return (
-        0.0 - weiss.plane_tilt(joint_angle, one, two),
-        weiss.plane_offset(joint_angle, one, two),
-        angle_error + 0.0,
-    )
+    return (0.0 - weiss.plane_tilt(joint_angle, one, two), weiss.plane_offset(joint_angle, one, two), angle_error + 0.0)
 
 
 @formula(

@@ -73,10 +73,7 @@ def _uses(v: Values) -> Problems:
 
 MEASURE = {
     key: at_least_zero(
-        key,
-        "deviation as measured" + (", on 100 mm" if key.endswith("per_100") else ""),
-        "length",
-        default=None,
+        key, "deviation as measured" + (", on 100 mm" if key.endswith("per_100") else ""), "length", default=None
     )
     for keys in MEASURES.values()
     for key in keys.values()
@@ -259,13 +256,7 @@ SLACK = 1e-12
     "theta2_max_deg = most: largest second angle; none where none keeps the limit",
 )
 def _joint_angle_limits(v: Values) -> Any:
-    return angle_limits(
-        v.speed,
-        v.theta1,
-        v.theta2,
-        phased=v.phased,
-        torsional=v.limit_torsional,
-    )
+    return angle_limits(v.speed, v.theta1, v.theta2, phased=v.phased, torsional=v.limit_torsional)
 
 
 @formula(

@@ -36,10 +36,7 @@ JOINTS = rows(
     given("pitch_m_per_rad", "lead of a helical pair", default=None),
 )
 
-LINKS = (
-    word("input_link", "link that is driven", default=""),
-    word("output_link", "link that is to move", default=""),
-)
+LINKS = (word("input_link", "link that is driven", default=""), word("output_link", "link that is to move", default=""))
 
 
 def _row(vector: Any) -> tuple[float, float, float] | None:

@@ -68,26 +68,14 @@ def _simple_check(v: Values) -> Problems:
             yield v.wrong(name, _("missing; the method {method} needs it"), "missing", method=v.method)
 
 
-LENGTH = positive(
-    "length_m",
-    "length between the ends",
-)
-OUTER = positive(
-    "outer_diameter_m",
-    "outer diameter",
-)
+LENGTH = positive("length_m", "length between the ends")
+OUTER = positive("outer_diameter_m", "outer diameter")
 INNER = at_least_zero("inner_diameter_m", "inner diameter; 0 for a full shaft", default=0.0)
 YOUNGS = positive("E_Pa", "Young's modulus")
 DENSITY = positive("density_kg_m3", "density")
 MILLIMETRES = (
-    positive(
-        "length_mm",
-        "length",
-    ),
-    positive(
-        "d_out_mm",
-        "outer diameter",
-    ),
+    positive("length_mm", "length"),
+    positive("d_out_mm", "outer diameter"),
     at_least_zero("d_in_mm", "inner diameter; 0 for a full shaft", default=0.0),
     positive("E_GPa", "Young's modulus"),
     DENSITY,
@@ -240,11 +228,7 @@ def _sections(segments: list[Values], outer: str, inner: str, *, timoshenko: boo
         return np.asarray([segment[name] for segment in segments], dtype=float)
 
     return round_section(
-        column(outer),
-        column(inner),
-        column("E"),
-        column("density"),
-        poisson=column("poisson") if timoshenko else None,
+        column(outer), column(inner), column("E"), column("density"), poisson=column("poisson") if timoshenko else None
     )
 
 
@@ -285,10 +269,7 @@ def _beam_check(v: Values) -> Problems:
                 yield v.wrong(f"{table}[{k}].x", message, "out_of_range")
 
 
-PLACE = at_least_zero(
-    "x_mm",
-    "place from the start of the shaft",
-)
+PLACE = at_least_zero("x_mm", "place from the start of the shaft")
 
 
 @formula(

@@ -247,14 +247,7 @@ def _mathieu_reduction(v: Values) -> Any:
 def _mathieu_forced(v: Values) -> Any:
     orders, amplitudes = harmonics_of(v, "forcing")
     with fields_named({"order": "forcing[].order"}):
-        found = forced(
-            v.a,
-            v.q,
-            v.n,
-            order=orders,
-            amplitude=amplitudes,
-            phase=[row.phase for row in v.forcing],
-        )
+        found = forced(v.a, v.q, v.n, order=orders, amplitude=amplitudes, phase=[row.phase for row in v.forcing])
     shown = [(label(w), k) for k, w in enumerate(found.order) if found.amplitude[k] >= SHOWN]
     return {
         "mean": found.mean,

@@ -81,11 +81,7 @@ def _torsional_simulation(v: Values) -> Any:
     speed = v.initial_speed
     try:
         found = simulate(
-            model_of(v),
-            span=v.t_end,
-            times=np.asarray([0.0, v.t_end]),
-            angle=v.initial_angles,
-            speed=speed,
+            model_of(v), span=v.t_end, times=np.asarray([0.0, v.t_end]), angle=v.initial_angles, speed=speed
         )
     except InputError as error:
         raise error.renamed(lambda field: _NAMES.get(field, field)) from None

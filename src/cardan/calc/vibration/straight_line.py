@@ -176,13 +176,7 @@ def _absorber_optimum(v: Values) -> Any:
     "antiresonance: whether the order is the tuned one: infinite inertia",
 )
 def _pendulum_absorber(v: Values) -> Any:
-    found = pendulum(
-        v.pendulum_mass,
-        v.pivot_radius,
-        v.pendulum_length,
-        v.order,
-        count=v.count,
-    )
+    found = pendulum(v.pendulum_mass, v.pivot_radius, v.pendulum_length, v.order, count=v.count)
     rotor = v.rotor_inertia
     return found, {"total_inertia_kgm2": None if rotor is None else rotor + found.inertia}
 

@@ -31,19 +31,10 @@ _one_step_of, _last_of = step(_one_step), step(_last)
 
 def _build(sources: int) -> Any:
     @compiled(
-        *(INPUT[2], INPUT[2], OUTPUT, types.intp[::1], types.intp[::1], types.float64, types.intp, types.intp),
-        OUTPUT,
+        *(INPUT[2], INPUT[2], OUTPUT, types.intp[::1], types.intp[::1], types.float64, types.intp, types.intp), OUTPUT
     )
     def kernel(
-        a: Any,
-        q: Any,
-        table: Any,
-        ladder: Any,
-        places: Any,
-        reach: float,
-        first: int,
-        last: int,
-        out: Any,
+        a: Any, q: Any, table: Any, ladder: Any, places: Any, reach: float, first: int, last: int, out: Any
     ) -> None:
         _sources = sources  # part of the key on disk
         columns = a.shape[1]

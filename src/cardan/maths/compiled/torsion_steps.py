@@ -227,19 +227,7 @@ def _act(code: int, base: int, hop: int, groups: int, at: int) -> None:
         for g in range(groups):
             o = hop * g
             n = e + o
-            loose = (
-                a + o,
-                b + o,
-                c + o,
-                d + o,
-                n,
-                n + BYTES,
-                n + 2 * BYTES,
-                f + o,
-                i + o,
-                k + o,
-                n + 3 * BYTES,
-            )
+            loose = (a + o, b + o, c + o, d + o, n, n + BYTES, n + 2 * BYTES, f + o, i + o, k + o, n + 3 * BYTES)
             _loose_element(loose, (), (j + o, f + o, i + o, k + o))
     elif code == CONSTANT:
         for g in range(groups):

@@ -141,10 +141,7 @@ def _build(sources: int) -> Any:
                     e = driven_at + _ROWS * wide  # zeros behind the last place
                 place = 8 * (to + 2 * s * groups * LANES)
                 _back(
-                    (
-                        *(b, b + BYTES, e, e + BYTES, t, t + BYTES, felt, felt + BYTES),
-                        *(a, a + BYTES, p, p + BYTES),
-                    ),
+                    (*(b, b + BYTES, e, e + BYTES, t, t + BYTES, felt, felt + BYTES), *(a, a + BYTES, p, p + BYTES)),
                     (),
                     (b, b + BYTES, address(moved) + place, address(flow) + place),
                 )

@@ -82,10 +82,7 @@ def least_energy(matrix: Array, load: Array, compliance: Array, gap: Array) -> t
     top = xp.concat((c / scale, xp.matrix_transpose(a)), axis=-1)
     bottom = xp.concat((a, xp.zeros((*outer, m, m), dtype=xp.float64)), axis=-1)
     bordered = xp.concat((top, bottom), axis=-2)
-    right = xp.concat(
-        (xp.broadcast_to(gap, (*whole, u)) / scale[..., 0], xp.broadcast_to(load, (*whole, m))),
-        axis=-1,
-    )
+    right = xp.concat((xp.broadcast_to(gap, (*whole, u)) / scale[..., 0], xp.broadcast_to(load, (*whole, m))), axis=-1)
     if whole and (not outer or outer[-1] == 1):
         matrices = bordered[..., 0, :, :] if outer else bordered
         found = xp.matrix_transpose(xp.linalg.solve(matrices, xp.matrix_transpose(right)))

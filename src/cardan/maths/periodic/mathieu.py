@@ -382,13 +382,7 @@ class ForcedSolution:
 
 
 def forced(
-    a: ArrayLike,
-    q: ArrayLike,
-    n: ArrayLike = 0.0,
-    *,
-    order: ArrayLike,
-    amplitude: ArrayLike,
-    phase: ArrayLike = 0.0,
+    a: ArrayLike, q: ArrayLike, n: ArrayLike = 0.0, *, order: ArrayLike, amplitude: ArrayLike, phase: ArrayLike = 0.0
 ) -> ForcedSolution:
     """Return the steady solution of y'' + 2n y' + (a - 2q cos 2z) y = Σ Q sin(νz + δ).
 
