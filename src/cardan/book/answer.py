@@ -38,35 +38,30 @@ def otherwise(drive: Drive) -> str:
     return _("Every joint turns uniformly by itself: there is nothing to approximate.")
 
 
+def _approximated(result: BookComparison) -> list[float]:
+    """Return the speed fluctuation by the first order: with exact phases, with mean ones, without Θ."""
+    told = (result.speed_fluctuation_80, result.speed_fluctuation_mean_phases, result.speed_fluctuation_without_theta)
+    return [float(one) for one in told]
+
+
 def differ(result: BookComparison) -> bool:
     """Tell whether an approximation says something else than the exact motion, in three digits."""
     exact = float(result.speed_fluctuation)
-    told = (result.speed_fluctuation_80, result.speed_fluctuation_mean_phases, result.speed_fluctuation_without_theta)
-    return any(abs(float(one) - exact) > ALIKE * exact for one in told)
+    return any(abs(one - exact) > ALIKE * exact for one in _approximated(result))
 
 
 def answer(drive: Drive, result: BookComparison) -> Answer:
     """Return what there is to say of the classical approximations."""
     exact = float(result.speed_fluctuation)
-    rows = (
-        (_("exact"), _("matrix product"), exact),
-        (
-            _("series, first order"),
-            _("Kozhevnikov & Perfil'ev (1978), eq. 80, exact phase angles"),
-            float(result.speed_fluctuation_80),
-        ),
-        (
-            _("series, mean phases"),
-            _("first order, start position left out"),
-            float(result.speed_fluctuation_mean_phases),
-        ),
-        (
-            _("series without Θ"),
-            _("as calculated in Kozhevnikov & Perfil'ev (1978), eq. 90"),
-            float(result.speed_fluctuation_without_theta),
-        ),
-    )
-    shares = [share for _name, _source, share in rows]
+    shares = [exact, *_approximated(result)]
+    names = [_("exact"), _("series, first order"), _("series, mean phases"), _("series without Θ")]
+    sources = [
+        _("matrix product"),
+        _("Kozhevnikov & Perfil'ev (1978), eq. 80, exact phase angles"),
+        _("first order, start position left out"),
+        _("as calculated in Kozhevnikov & Perfil'ev (1978), eq. 90"),
+    ]
+    errors = [None, *(_off(share - exact) for share in shares[1:])]
     joint_angle = 0.0 if exact < SYNCHRONOUS else float(result.joint_angle)
     return Answer(
         name="classical",
@@ -83,16 +78,10 @@ def answer(drive: Drive, result: BookComparison) -> Answer:
                 title=_("Speed fluctuation by the classical approximations"),
                 records=True,
                 columns=(
-                    Column(key="method", heading=_("method"), values=[name for name, _source, _share in rows]),
-                    Column(key="source", heading=_("source"), values=[source for _name, source, _share in rows]),
+                    Column(key="method", heading=_("method"), values=names),
+                    Column(key="source", heading=_("source"), values=sources),
                     Column(key="speed_fluctuation", heading="δ", values=np.asarray(shares), dimension="share"),
-                    Column(
-                        key="error",
-                        heading=_("error"),
-                        values=[None, *(_off(share - exact) for share in shares[1:])],
-                        dimension="share",
-                        digits=3,
-                    ),
+                    Column(key="error", heading=_("error"), values=errors, dimension="share", digits=3),
                 ),
             ),
         ),

@@ -35,11 +35,6 @@ ROOM = 1.5
 """How much higher than the point of the drive the panel about its zone is."""
 
 
-def reduction_figures(found: MathieuReduction) -> tuple[Figure, ...]:
-    """Return the figures of a drive's parameters."""
-    return (reduction_figure(found),)
-
-
 def reduction_figure(found: MathieuReduction) -> Figure:
     """Return the chart of stability about the nearest zone with the drive in it, about the first one far from all.
 
@@ -189,14 +184,7 @@ def _inside(mark: Series, low: float, high: float, top: float) -> Series:
     begin = max(0.0, (low - x0) / (x1 - x0))
     ends = [(high - x0) / (x1 - x0), *([(top - y0) / (y1 - y0)] if y1 > y0 else [])]
     share = np.asarray([begin, min(ends)])
-    return Curve(
-        x=x0 + share * (x1 - x0),
-        y=y0 + share * (y1 - y0),
-        role=mark.role,
-        width=mark.width,
-        dash=mark.dash,
-        label=mark.label,
-    )
+    return replace(mark, x=x0 + share * (x1 - x0), y=y0 + share * (y1 - y0))
 
 
 def _edge_name(x: Array, q: Array, name: str, top: float, *, to_right: bool) -> list[Series]:
@@ -232,11 +220,6 @@ def _digits(low: float, high: float) -> int:
 
 
 # Exact motion beside the classical approximations.
-
-
-def book_figures(found: BookComparison) -> tuple[Figure, ...]:
-    """Return the figures of a comparison with the book's series."""
-    return (book_figure(found),)
 
 
 def book_figure(found: BookComparison) -> Figure:
@@ -295,3 +278,7 @@ def book_figure(found: BookComparison) -> Figure:
         rows=(Row(panels=(replace(upper, x=lower.x) if agree else upper,), height=1.5),)
         + (() if agree else (Row(panels=(lower,), height=1.1),)),
     )
+
+
+FIGURES = {BookComparison: book_figure, MathieuReduction: reduction_figure}
+"""Result -> what makes its figure."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
@@ -15,15 +15,7 @@ Ends: TypeAlias = Literal[
     "pinned-pinned", "fixed-fixed", "free-free", "fixed-pinned", "fixed-free", "cantilever", "fixed-guided"
 ]
 
-ENDS: tuple[Ends, ...] = (
-    "pinned-pinned",
-    "fixed-fixed",
-    "free-free",
-    "fixed-pinned",
-    "fixed-free",
-    "cantilever",
-    "fixed-guided",
-)
+ENDS: tuple[Ends, ...] = get_args(Ends)
 """How the ends of a uniform shaft may be held; a cantilever is fixed and free."""
 
 BOOK_CONSTANT = 12.1e4 * rpm

@@ -37,33 +37,16 @@ def _names() -> dict[str, str]:
     }
 
 
-def variants_figures(found: Variants) -> tuple[Figure, ...]:
-    """Return the figures of a comparison of absorbers and dampers."""
-    return (variants_figure(found),)
-
-
-def response_figures(found: AbsorberResponse) -> tuple[Figure, ...]:
-    """Return the figures of the response with one absorber."""
-    return (before_after_figure(found),)
-
-
 def variants_figure(found: Variants) -> Figure:
     """Return the amplification over the frequency with each absorber and damper.
 
     found: of one inertia ratio.
     """
     best = float(np.min(found.peak))
-    curves = tuple(
-        Curve(
-            x=found.beta,
-            y=_open(row),
-            label=_names()[kind],
-            role=LOOKS[kind][0],
-            dash=LOOKS[kind][1],
-            width=2.2 if kind == "h_infinity" else 1.4,
-        )
-        for kind, row in zip(found.kinds, found.amplification, strict=True)
-    )
+    curves = []
+    for kind, row in zip(found.kinds, found.amplification, strict=True):
+        (role, dash), width = LOOKS[kind], 2.2 if kind == "h_infinity" else 1.4
+        curves.append(Curve(x=found.beta, y=_open(row), label=_names()[kind], role=role, dash=dash, width=width))
     panel = Panel(
         series=(*curves, Rule(value=best, text=significant(best, 3))),
         x=_along(found.beta),
@@ -139,32 +122,12 @@ def _upright(rows: Array, peak: float) -> Axis:
     high = max(4.0 * peak if np.isfinite(peak) else 0.0, 10.0)
     low = max(float(np.min(there, initial=0.5)), high / 1000.0) * 0.9
     ticks = tuple(value for value in ACROSS if low <= value <= high)
-    return Axis(
-        label=_("Amplitude over the static angle"),
-        unit="–",
-        low=low,
-        high=high,
-        ticks=ticks,
-        texts=_texts(ticks),
-        log=True,
-    )
-
-
-def _texts(ticks: tuple[float, ...]) -> tuple[str, ...]:
-    return tuple(written((value,))[0] if value >= 1.0 else f"{value:g}" for value in ticks)
+    texts = tuple(written((value,))[0] if value >= 1.0 else f"{value:g}" for value in ticks)
+    label = _("Amplitude over the static angle")
+    return Axis(label=label, unit="–", low=low, high=high, ticks=ticks, texts=texts, log=True)
 
 
 # Running up through a resonance: the swing over time, and the torque behind a joint over the speed.
-
-
-def run_up_figures(found: RunUp) -> tuple[Figure, ...]:
-    """Return the figures of an oscillator's run-up."""
-    return (run_up_figure(found),)
-
-
-def joint_run_up_figures(found: JointRunUp) -> tuple[Figure, ...]:
-    """Return the figures of a run-up behind a joint."""
-    return (joint_run_up_figure(found),)
 
 
 def run_up_figure(found: RunUp) -> Figure:
@@ -205,23 +168,16 @@ def joint_run_up_figure(found: JointRunUp) -> Figure:
 
     found: of one run.
     """
-    speed = found.acceleration * np.asarray(found.time) / rpm
+    speed, most = found.acceleration * np.asarray(found.time) / rpm, found.peak_torque
     panel = Panel(
         series=(
             Rule(value=found.order2_speed / rpm, upright=True, text=_("order 2 meets the natural frequency")),
             Curve(x=speed, y=found.torque, role="accent", width=1.0),
-            Rule(value=found.peak_torque, role="muted", text=f"{significant(found.peak_torque, 3)} N·m"),
-            Rule(value=-found.peak_torque, role="muted"),
+            Rule(value=most, role="muted", text=f"{significant(most, 3)} N·m"),
+            Rule(value=-most, role="muted"),
         ),
         x=axis(_("input speed"), "rpm", [speed], dimension="angular_speed", margin=0.0, count=8),
-        y=axis(
-            _("Torque in the driven shaft"),
-            "N·m",
-            [found.torque],
-            mirrored=0.0,
-            include=(found.peak_torque,),
-            margin=0.12,
-        ),
+        y=axis(_("Torque in the driven shaft"), "N·m", [found.torque], mirrored=0.0, include=(most,), margin=0.12),
     )
     return Figure(
         name="joint-run-up",
@@ -239,3 +195,12 @@ def joint_run_up_figure(found: JointRunUp) -> Figure:
         rows=(Row(panels=(panel,), height=2.2),),
         legend=False,
     )
+
+
+FIGURES = {
+    AbsorberResponse: before_after_figure,
+    Variants: variants_figure,
+    RunUp: run_up_figure,
+    JointRunUp: joint_run_up_figure,
+}
+"""Result -> what makes its figure."""

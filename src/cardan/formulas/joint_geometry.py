@@ -253,18 +253,7 @@ def _signed(joint_angle: float, share: float) -> float:
 
 def _peak(share: float, low: float, high: float) -> float:
     """Return the joint angle at which the signed speed fluctuation is largest: it rises, then falls."""
-    inner, outer = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-    at_inner, at_outer = _signed(inner, share), _signed(outer, share)
-    for _narrowing in range(NARROWINGS):
-        if at_inner > at_outer:
-            high, outer, at_outer = outer, inner, at_inner
-            inner = high - GOLDEN * (high - low)
-            at_inner = _signed(inner, share)
-        else:
-            low, inner, at_inner = inner, outer, at_outer
-            outer = low + GOLDEN * (high - low)
-            at_outer = _signed(outer, share)
-    return 0.5 * (low + high)
+    return _lowest(lambda joint_angle: -_signed(joint_angle, share), low, high, NARROWINGS)
 
 
 # Slant and place of the pins of a pin coupling that carry most within a given room.
@@ -414,7 +403,7 @@ def best_pins(joint_angle_max: float, radius: float, *, margin: float = MARGIN) 
         text = text.format(value=f"{margin / deg:.6g}", low=f"{low / deg:.6g}", high=f"{high / deg:.6g}")
         check([Problem("margin", text, "out_of_range")])
     edge = max(margin, 1e-9)
-    slant = _lowest(lambda one: _largest_force(one, joint_angle_max, radius), low + edge, high - edge)
+    slant = _lowest(lambda one: _largest_force(one, joint_angle_max, radius), low + edge, high - edge, PIN_NARROWINGS)
     found = pin_choices(joint_angle_max, radius, [slant])
     each = ("slant", "distance", "stroke", "length", "force", "angle_error")
     return PinGeometry(slant_range=found.slant_range, **{name: float(getattr(found, name)[0]) for name in each})
@@ -425,11 +414,11 @@ def _largest_force(slant: float, joint_angle_max: float, radius: float) -> float
     return float(np.max(pin_coupling.force_alike(TURN, joint_angle_max, distance, slant)))
 
 
-def _lowest(function: Callable[[float], float], low: float, high: float) -> float:
-    """Return where a function that falls and then rises is lowest."""
+def _lowest(function: Callable[[float], float], low: float, high: float, narrowings: int) -> float:
+    """Return where a function that falls and then rises is lowest, by the golden section."""
     inner, outer = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     at_inner, at_outer = function(inner), function(outer)
-    for _narrowing in range(PIN_NARROWINGS):
+    for _narrowing in range(narrowings):
         if at_inner < at_outer:
             high, outer, at_outer = outer, inner, at_inner
             inner = high - GOLDEN * (high - low)
