@@ -12,7 +12,7 @@ from cardan.maths.arrays import Array
 
 from . import palette
 from .figure import Axis, Band, Bars, Cells, Curve, Mesh, Note, Panel, Rule, Series, Shape
-from .page import Box, Page, facets, onto
+from .page import Box, Page, facets, onto, ranges
 
 Spec: TypeAlias = dict[str, Any]
 
@@ -46,19 +46,9 @@ class PanelWriter:
         else:
             self._axes()
         if self.panel.heading:
-            self.layout["annotations"].append(
-                {
-                    "text": f"<b>{escape(self.panel.heading)}</b>",
-                    "x": self.across[0],
-                    "y": self.upright[1],
-                    "xref": "paper",
-                    "yref": "paper",
-                    "xanchor": "left",
-                    "yanchor": "bottom",
-                    "showarrow": False,
-                    "font": {"size": 12.5},
-                }
-            )
+            place = {"x": self.across[0], "y": self.upright[1], "xref": "paper", "yref": "paper"}
+            how = {"xanchor": "left", "yanchor": "bottom", "showarrow": False, "font": {"size": 12.5}}
+            self.layout["annotations"].append({"text": f"<b>{escape(self.panel.heading)}</b>", **place, **how})
         meshes = [item for item in self.panel.series if isinstance(item, Mesh)]
         if meshes and not self.space:
             self._faces(meshes)
@@ -72,7 +62,7 @@ class PanelWriter:
 
     def _axes(self) -> None:
         panel = self.panel
-        x, y = _widened(panel, self.box)
+        x, y = ranges(panel, self.box)
         self.layout[f"xaxis{self.tail}"] = _axis(panel.x, x, panel.bare, self.across, f"y{self.tail}", panel.x.title)
         self.layout[f"yaxis{self.tail}"] = _axis(panel.y, y, panel.bare, self.upright, f"x{self.tail}", "")
         if panel.x.turning:
@@ -100,27 +90,11 @@ class PanelWriter:
         elif isinstance(item, Note):
             self._note(item)
         elif isinstance(item, Rule):
-            self._shape(
-                item.value,
-                item.value,
-                item.upright,
-                item.text,
-                item.role,
-                line={"color": palette.colour(item.role), "width": item.width * 1.3, "dash": _DASHES[item.dash]},
-                type="line",
-            )
+            line = {"color": palette.colour(item.role), "width": item.width * 1.3, "dash": _DASHES[item.dash]}
+            self._shape(item, item.value, item.value, line=line, type="line")
         elif isinstance(item, Band):
-            self._shape(
-                item.low,
-                item.high,
-                item.upright,
-                item.text,
-                item.role,
-                type="rect",
-                fillcolor=palette.colour(item.role),
-                opacity=item.opacity,
-                line={"width": 0},
-            )
+            tint = palette.colour(item.role)
+            self._shape(item, item.low, item.high, type="rect", fillcolor=tint, opacity=item.opacity, line={"width": 0})
 
     def _curve(self, item: Curve) -> None:
         x, y = item.x, item.y
@@ -141,24 +115,10 @@ class PanelWriter:
             **self._named(item.label),
         )
         if item.arrow and len(x) > 1:
-            self.layout["annotations"].append(
-                {
-                    "x": float(x[-1]),
-                    "y": float(y[-1]),
-                    "ax": float(x[-2]),
-                    "ay": float(y[-2]),
-                    "xref": f"x{self.tail}",
-                    "yref": f"y{self.tail}",
-                    "axref": f"x{self.tail}",
-                    "ayref": f"y{self.tail}",
-                    "text": "",
-                    "showarrow": True,
-                    "arrowhead": 2,
-                    "arrowsize": 1.2,
-                    "arrowwidth": max(1.0, item.width),
-                    "arrowcolor": tint,
-                }
-            )
+            places = {"x": float(x[-1]), "y": float(y[-1]), "ax": float(x[-2]), "ay": float(y[-2])}
+            refs = {f"{a}{end}ref": f"{end}{self.tail}" for a in ("", "a") for end in "xy"}
+            head = {"arrowhead": 2, "arrowsize": 1.2, "arrowwidth": max(1.0, item.width), "arrowcolor": tint}
+            self.layout["annotations"].append({**places, **refs, "text": "", "showarrow": True, **head})
 
     def _bars(self, item: Bars) -> None:
         lengths = [float(size) - (0.0 if self._log(item) else item.base) for size in item.ends]
@@ -215,83 +175,30 @@ class PanelWriter:
             }
         )
 
-    def _shape(self, low: float, high: float, upright: bool, text: str, role: str, **how: Any) -> None:
+    def _shape(self, item: Rule | Band, low: float, high: float, **how: Any) -> None:
+        """Add a rule or band across the panel, and its words at its upper or right end."""
         here = {"xref": f"x{self.tail}", "yref": f"y{self.tail}"}
-        if upright:
-            self.layout["shapes"].append(
-                {
-                    "x0": low,
-                    "x1": high,
-                    "y0": 0,
-                    "y1": 1,
-                    **here,
-                    "yref": f"y{self.tail} domain",
-                    "layer": "below",
-                    **how,
-                }
-            )
-        else:
-            self.layout["shapes"].append(
-                {
-                    "x0": 0,
-                    "x1": 1,
-                    "y0": low,
-                    "y1": high,
-                    **here,
-                    "xref": f"x{self.tail} domain",
-                    "layer": "below",
-                    **how,
-                }
-            )
-        if text:
-            log = self.panel.x.log if upright else self.panel.y.log
+        here["yref" if item.upright else "xref"] += " domain"
+        ends = {"x0": low, "x1": high, "y0": 0, "y1": 1} if item.upright else {"x0": 0, "x1": 1, "y0": low, "y1": high}
+        self.layout["shapes"].append({**ends, **here, "layer": "below", **how})
+        if item.text:
+            log = self.panel.x.log if item.upright else self.panel.y.log
             at = float(np.log10(high)) if log else high
-            place = {
-                "x": at,
-                "y": 1.0,
-                "yref": f"y{self.tail} domain",
-                "xref": f"x{self.tail}",
-                "xanchor": "left",
-                "yanchor": "top",
-            }
-            if not upright:
-                place = {
-                    "x": 1.0,
-                    "y": at,
-                    "xref": f"x{self.tail} domain",
-                    "yref": f"y{self.tail}",
-                    "xanchor": "right",
-                    "yanchor": "bottom",
-                }
-            self.layout["annotations"].append(
-                {"text": escape(text), "showarrow": False, "font": {"size": 11, "color": palette.colour(role)}, **place}
-            )
+            x, y, side, level = (at, 1.0, "left", "top") if item.upright else (1.0, at, "right", "bottom")
+            font = {"size": 11, "color": palette.colour(item.role)}
+            place = {"x": x, "y": y, **here, "xanchor": side, "yanchor": level}
+            self.layout["annotations"].append({"text": escape(item.text), "showarrow": False, "font": font, **place})
 
     def _faces(self, meshes: Sequence[Mesh]) -> None:
         assert self.panel.view is not None
         for facet in facets(self.panel.view, meshes):
             path = "L".join(f"{x:.5g},{y:.5g}" for x, y in facet.corners)
-            self.layout["shapes"].append(
-                {
-                    "type": "path",
-                    "path": f"M{path}Z",
-                    "fillcolor": facet.fill,
-                    "line": {"color": facet.edge, "width": 0.6},
-                    "layer": "between",
-                    "xref": f"x{self.tail}",
-                    "yref": f"y{self.tail}",
-                }
-            )
+            look = {"fillcolor": facet.fill, "line": {"color": facet.edge, "width": 0.6}, "layer": "between"}
+            here = {"xref": f"x{self.tail}", "yref": f"y{self.tail}"}
+            self.layout["shapes"].append({"type": "path", "path": f"M{path}Z", **look, **here})
         # Shapes alone leave the axes empty; an unseen point keeps them.
-        self._add(
-            type="scatter",
-            x=[self.panel.x.low],
-            y=[self.panel.y.low],
-            mode="markers",
-            marker={"opacity": 0},
-            hoverinfo="skip",
-            showlegend=False,
-        )
+        unseen = {"mode": "markers", "marker": {"opacity": 0}, "hoverinfo": "skip", "showlegend": False}
+        self._add(type="scatter", x=[self.panel.x.low], y=[self.panel.y.low], **unseen)
 
     def _named(self, label: str) -> Spec:
         if not label:
@@ -322,18 +229,6 @@ def _axis(one: Axis, span: tuple[float, float], bare: bool, domain: list[float],
     if title and not bare:
         made["title"] = {"text": escape(title), "font": {"size": 12, "color": palette.colour("muted")}, "standoff": 6}
     return made
-
-
-def _widened(panel: Panel, box: Box) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the ranges of the axes, widened about their middles where both have the same scale."""
-    x, y = (panel.x.low, panel.x.high), (panel.y.low, panel.y.high)
-    if not panel.equal:
-        return x, y
-    scale = min(box.width / (x[1] - x[0]), box.height / (y[1] - y[0]))
-    return tuple(  # type: ignore[return-value]
-        (0.5 * (low + high) - 0.5 * size / scale, 0.5 * (low + high) + 0.5 * size / scale)
-        for (low, high), size in ((x, box.width), (y, box.height))
-    )
 
 
 def _list(values: Any) -> list[float | None]:
@@ -368,12 +263,9 @@ def scene(panel: Panel, box: Box, across: list[float], upright: list[float]) -> 
     panel: with a view; box: where it stands on the page; across, upright: the same as shares of the page.
     """
     assert panel.view is not None
-    hidden = {"visible": False}
     return {
         "domain": {"x": across, "y": upright},
-        "xaxis": hidden,
-        "yaxis": hidden,
-        "zaxis": hidden,
+        **{f"{end}axis": {"visible": False} for end in "xyz"},
         "aspectmode": "manual",
         "aspectratio": _proportions(panel, box),
         "camera": {
@@ -412,12 +304,7 @@ def _surface(corners: Array, triangles: Any, tint: str, name: str, item: Mesh | 
     x, y, z = np.asarray(corners, dtype=float).T
     made: Spec = {
         "type": "mesh3d",
-        "x": _scene_list(x),
-        "y": _scene_list(y),
-        "z": _scene_list(z),
-        "i": i.tolist(),
-        "j": j.tolist(),
-        "k": k.tolist(),
+        **{"x": x.tolist(), "y": y.tolist(), "z": z.tolist(), "i": i.tolist(), "j": j.tolist(), "k": k.tolist()},
         "color": tint,
         "flatshading": item is not None and not item.smooth,
         "lighting": {"ambient": 0.75, "diffuse": 0.55, "specular": 0.05},
@@ -433,28 +320,22 @@ def _surface(corners: Array, triangles: Any, tint: str, name: str, item: Mesh | 
 def _word(item: Note) -> Spec:
     return {
         "text": f"<b>{escape(item.text)}</b>" if item.bold else escape(item.text),
-        "x": item.x,
-        "y": item.y,
-        "z": item.z,
-        "showarrow": False,
-        "xshift": item.shift[0] * 1.5,
-        "yshift": item.shift[1] * 1.5,
+        **{"x": item.x, "y": item.y, "z": item.z, "showarrow": False},
+        **{"xshift": item.shift[0] * 1.5, "yshift": item.shift[1] * 1.5},
         "font": {"color": palette.colour(item.role), "size": 12},
         "bgcolor": "rgba(255,255,255,0.6)",
     }
 
 
 def _line(item: Curve, name: str, reach: float) -> list[Spec]:
-    x, y, z = np.broadcast_arrays(item.x, item.y, np.asarray(item.z))
+    x, y, z = (one.astype(float) for one in np.broadcast_arrays(item.x, item.y, np.asarray(item.z)))
     tint = palette.colour(item.role)
     mode = "lines+markers" if item.width and item.marker else "markers" if item.marker else "lines"
     made: list[Spec] = [
         {
             "type": "scatter3d",
             "mode": mode,
-            "x": _scene_list(x),
-            "y": _scene_list(y),
-            "z": _scene_list(z),
+            **{"x": x.tolist(), "y": y.tolist(), "z": z.tolist()},
             "line": {"color": tint, "width": 2.0 * item.width},
             "marker": {"color": tint, "size": item.marker},
             **({"text": item.text, "hoverinfo": "text"} if item.text else {"hoverinfo": "skip"}),
@@ -462,7 +343,7 @@ def _line(item: Curve, name: str, reach: float) -> list[Spec]:
             "scene": name,
         }
     ]
-    points = np.stack((x, y, z), axis=-1).astype(float)
+    points = np.stack((x, y, z), axis=-1)
     if item.arrow and len(points) > 1 and np.any(points[-1] != points[-2]):
         corners, triangles = _head(points[-2], points[-1], reach)
         made.append(_surface(corners, triangles, tint, name))
@@ -505,7 +386,3 @@ def _proportions(panel: Panel, box: Box) -> Spec:
     sides, seen = np.ptp(corners, axis=0), np.ptp(onto(panel.view, corners), axis=0)
     scale = min(0.9 * box.width / box.height / float(seen[0]), 0.72 / float(seen[1])) / SCENE
     return dict(zip("xyz", (max(float(side) * scale, 1e-3) for side in sides), strict=True))
-
-
-def _scene_list(values: Any) -> list[float]:
-    return [float(value) for value in np.asarray(values, dtype=float)]

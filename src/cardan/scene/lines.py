@@ -41,10 +41,8 @@ class _Paper:
     def line(
         self, group: str, points: Array, role: str, *, dashed: bool = False, width: float = 1.0, track: int = 0
     ) -> None:
-        made = SceneLine(
-            group=group, points=np.asarray(points), colour=palette.colour(role), dashed=dashed, width=width, track=track
-        )
-        self.lines.append(made)
+        points, colour = np.asarray(points), palette.colour(role)
+        self.lines.append(SceneLine(group=group, points=points, colour=colour, dashed=dashed, width=width, track=track))
 
     def label(self, group: str, text: str, at: Array, role: str, track: int = 0) -> None:
         self.labels.append(SceneLabel(group=group, text=text, at=np.asarray(at), role=role, track=track))
@@ -54,16 +52,13 @@ class _Paper:
     ) -> None:
         """Add the area between a point and a rim (m, 3)."""
         one = np.arange(1, len(rim))
-        made = SceneArea(
-            group=group,
-            positions=np.concatenate((np.asarray(middle)[None], rim)),
-            indices=np.stack((np.zeros_like(one), one, one + 1), axis=-1),
-            colour=palette.colour(role),
-            opacity=opacity,
-            text=text,
-            track=track,
+        corners = np.concatenate((np.asarray(middle)[None], rim))
+        faces, tint = np.stack((np.zeros_like(one), one, one + 1), axis=-1), palette.colour(role)
+        self.areas.append(
+            SceneArea(
+                group=group, positions=corners, indices=faces, colour=tint, opacity=opacity, text=text, track=track
+            )
         )
-        self.areas.append(made)
 
     def sector(
         self,
@@ -102,10 +97,8 @@ def drawn_round(build: Build, size: float) -> Drawn:
     size [m].
     """
     paper = _Paper(build=build)
-    _axes(paper)
-    _planes(paper)
-    _joint_angles(paper)
-    _yokes(paper)
+    for draw in (_axes, _planes, _joint_angles, _yokes):
+        draw(paper)
     _dimensions(paper, size)
     _names(paper)
     groups = (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any, Literal
 
 import numpy as np
@@ -167,6 +167,15 @@ def _described(shown: Scene, places: int) -> dict[str, Any]:
         found: list[float] = (np.round(values, DIGITS) + 0.0).ravel().tolist()
         return found
 
+    def told(part: Any, **changed: Any) -> dict[str, Any]:
+        """Return the fields of a part: points as lengths, indices as numbers, all else as it is."""
+        found: dict[str, Any] = {}
+        for one in fields(part):
+            value = getattr(part, one.name)
+            kept = flat(value) if isinstance(value, np.ndarray) and one.name != "indices" else value
+            found[one.name] = value.ravel().tolist() if one.name == "indices" else kept
+        return found | changed
+
     return {
         "name": shown.name,
         "centre": flat(shown.centre),
@@ -175,60 +184,14 @@ def _described(shown: Scene, places: int) -> dict[str, Any]:
         "angle": turn(shown.angle),
         "tracks": [{"origin": flat(one.origin), "turn": turn(one.turn)} for one in shown.tracks],
         "bodies": [
-            {
-                "name": one.name,
-                "part": one.part,
-                "number": one.number,
-                "path": one.path,
-                "text": one.text,
-                "track": one.track,
-                "positions": flat(one.positions),
-                "indices": one.indices.ravel().tolist(),
-                "smooth": one.smooth,
-                "colour": one.colour,
-                "metal": one.metal,
-                "utilisation": None if one.utilisation is None else float(f"{one.utilisation:.4g}"),
-                "utilisation_colour": one.utilisation_colour,
-            }
+            told(one, utilisation=None if one.utilisation is None else float(f"{one.utilisation:.4g}"))
             for one in shown.bodies
         ],
-        "lines": [
-            {
-                "group": one.group,
-                "points": flat(one.points),
-                "colour": one.colour,
-                "dashed": one.dashed,
-                "width": one.width,
-                "track": one.track,
-            }
-            for one in shown.lines
-        ],
-        "areas": [
-            {
-                "group": one.group,
-                "positions": flat(one.positions),
-                "indices": one.indices.ravel().tolist(),
-                "colour": one.colour,
-                "opacity": one.opacity,
-                "text": one.text,
-                "track": one.track,
-            }
-            for one in shown.areas
-        ],
-        "labels": [
-            {"group": one.group, "text": one.text, "at": flat(one.at), "role": one.role, "track": one.track}
-            for one in shown.labels
-        ],
+        "lines": [told(one) for one in shown.lines],
+        "areas": [told(one) for one in shown.areas],
+        "labels": [told(one) for one in shown.labels],
         "arrows": [
-            {
-                "group": one.group,
-                "text": one.text,
-                "colour": one.colour,
-                "curl": one.curl,
-                "from": flat(one.start),
-                "vector": flat(one.vector),
-            }
-            for one in shown.arrows
+            {"from" if key == "start" else key: value for key, value in told(one).items()} for one in shown.arrows
         ],
         "modes": [
             {
@@ -250,7 +213,7 @@ def _described(shown: Scene, places: int) -> dict[str, Any]:
             }
             for one in shown.modes
         ],
-        "groups": [{"name": one.name, "title": one.title, "on": one.on, "text": one.text} for one in shown.groups],
+        "groups": [told(one) for one in shown.groups],
         "scale": [{"value": value, "colour": colour, "text": text} for value, colour, text in shown.scale],
         "missing": dict(shown.missing),
     }

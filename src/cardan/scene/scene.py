@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 
 import numpy as np
 
@@ -127,12 +128,9 @@ def scene(
 
 
 def _filled(drive: Drive) -> Drive:
-    if not any(joint.size for joint in drive.joints):
-        return drive
-    try:
-        return filled(drive)
-    except InputError:
-        return drive
+    with suppress(InputError):
+        return filled(drive) if any(joint.size for joint in drive.joints) else drive
+    return drive
 
 
 def _built(drive: Drive, pose: int | None, time: float | None, frames: int) -> Build:
@@ -183,8 +181,8 @@ def _stuck(drive: Drive, build: Build) -> dict[str, str]:
 
 def _body(solid: Solid, k: int, uses: Callable[[Solid], Use | None]) -> SceneBody:
     found = uses(solid)
-    said = told(solid.text, reader())
-    text = said if found is None else f"{said}; {found[1]}"
+    share, words = found or (None, "")
+    text = "; ".join(filter(None, (told(solid.text, reader()), words)))
     return SceneBody(
         name=f"{solid.part} {solid.number}-{k}",
         part=solid.part,
@@ -197,8 +195,8 @@ def _body(solid: Solid, k: int, uses: Callable[[Solid], Use | None]) -> SceneBod
         smooth=True,
         colour=palette.mixed(palette.colour(solid.role), "#ffffff", solid.shade),
         metal=solid.metal,
-        utilisation=None if found is None else found[0],
-        utilisation_colour=use_colour(None if found is None else found[0]),
+        utilisation=share,
+        utilisation_colour=use_colour(share),
     )
 
 
@@ -362,14 +360,8 @@ def _torsions(found: TorsionModes, build: Build) -> Iterator[SceneMode]:
         node = "; ".join(_node_texts(found, number - 1))
         said = Quantity(float(omega), "frequency", 3).told(reader())
         name = _("torsional mode {number}: {frequency}").format(number=number, frequency=said)
-        yield SceneMode(
-            name=name,
-            text=node,
-            kind="torsion",
-            frames=MODE_FRAMES,
-            turns=turns,
-            curves=tuple(_lines(found, build, shape, swing)),
-        )
+        curves = tuple(_lines(found, build, shape, swing))
+        yield SceneMode(name=name, text=node, kind="torsion", frames=MODE_FRAMES, turns=turns, curves=curves)
 
 
 def _ends(build: Build, joints: tuple[tuple[int, int], ...], shape: Array) -> Iterator[tuple[int, tuple[int, float]]]:
@@ -473,17 +465,11 @@ def loads(drive: Drive, build: Build, size: float) -> Loads:
     if whole:
         arrows += whole
         groups.append(SceneGroup(name="forces", title=_("Forces"), on=True, text=text))
-    turning = list(_torques(build, np.asarray(found.shaft_torque), np.asarray(found.output_torque)))
-    bent = [
-        (
-            _("secondary couple of {shaft}").format(shaft=shaft_name(k, build.count + 1)),
-            _middle(build, k),
-            np.asarray(found.secondary_couple)[k - 1],
-            "first order",
-        )
-        for k in range(1, build.count + 2)
-    ]
-    whole, text = _scaled([*turning, *bent], "couples", "Nm", LONGEST * size, curl=True)
+    turning = _torques(build, np.asarray(found.shaft_torque), np.asarray(found.output_torque))
+    for k, couple in enumerate(np.asarray(found.secondary_couple), start=1):
+        name = _("secondary couple of {shaft}").format(shaft=shaft_name(k, build.count + 1))
+        turning.append((name, _middle(build, k), couple, "first order"))
+    whole, text = _scaled(turning, "couples", "Nm", LONGEST * size, curl=True)
     if whole:
         arrows += whole
         groups.append(SceneGroup(name="couples", title=_("Couples"), on=False, text=text))
@@ -509,19 +495,11 @@ def _torques(build: Build, torque: Array, output: Array) -> list[tuple[str, Arra
     """Return the torque that drives the input, and the one that resists the output."""
     last = build.count + 1
     low, high = extent(build, 1)[0], extent(build, last)[1]
+    first, behind = build.axis(1), build.axis(last)
+    driven, held = torque[0][:, None] * first, -np.broadcast_to(output, torque[0].shape)[:, None] * behind
     return [
-        (
-            _("torque that drives the input"),
-            build.centre(0) + 1.08 * low * build.axis(1),
-            torque[0][:, None] * build.axis(1),
-            "good",
-        ),
-        (
-            _("torque that resists the output"),
-            build.centre(build.count - 1) + 1.08 * high * build.axis(last),
-            -np.broadcast_to(output, torque[0].shape)[:, None] * build.axis(last),
-            "failed",
-        ),
+        (_("torque that drives the input"), build.centre(0) + 1.08 * low * first, driven, "good"),
+        (_("torque that resists the output"), build.centre(build.count - 1) + 1.08 * high * behind, held, "failed"),
     ]
 
 
