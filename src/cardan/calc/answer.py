@@ -27,42 +27,31 @@ def answer_of_all() -> Answer:
     """Return the names of all formulas, each with what it answers and its source."""
     every = CALCULATIONS.values()
     groups = [group for group in GROUPS for _item in group.calculations]
+    columns = (
+        Column(key="capability", values=list(CALCULATIONS)),
+        Column(key="group", values=[_(group.title) for group in groups]),
+        Column(key="doc", values=[_(item.doc) for item in every]),
+        Column(key="source", values=[_(item.source) for item in every]),
+    )
+    table = Table(name="capabilities", records=True, depth="data", columns=columns)
+    command = ("cardan", "calc", "--list", next(iter(CALCULATIONS)))
     return Answer(
         name="calc",
         title=_("Formulas"),
         sentence=_("{count} formulas, each by name with unit keys.").format(count=len(every)),
-        tables=(
-            Table(
-                name="capabilities",
-                records=True,
-                depth="data",
-                columns=(
-                    Column(key="capability", values=list(CALCULATIONS)),
-                    Column(key="group", values=[_(group.title) for group in groups]),
-                    Column(key="doc", values=[_(item.doc) for item in every]),
-                    Column(key="source", values=[_(item.source) for item in every]),
-                ),
-            ),
-            *(_group(group) for group in GROUPS),
-        ),
-        remarks=(
-            Remark(
-                text=_("The keys of one:"), command=("cardan", "calc", "--list", next(iter(CALCULATIONS))), tone="next"
-            ),
-        ),
+        tables=(table, *(_group(group) for group in GROUPS)),
+        remarks=(Remark(text=_("The keys of one:"), command=command, tone="next"),),
     )
 
 
 def _group(group: Formulas) -> Table:
     """Return the formulas of a subject, for people."""
     names, docs = zip(*((item.name, _(item.doc)) for item in group.calculations), strict=True)
+    heads = Column(key="", heading=_("formula"), values=names)
     return Table(
         title=_(group.title),
         fixed=0,
-        columns=(
-            Column(key="", heading=_("formula"), values=names),
-            Column(key="", heading=_("what it answers"), values=docs, wrap=True),
-        ),
+        columns=(heads, Column(key="", heading=_("what it answers"), values=docs, wrap=True)),
     )
 
 
@@ -121,34 +110,18 @@ def answer(item: Calculation, found: Mapping[str, Any]) -> Answer:
     wordy = any(isinstance(value, str) and len(value) > WORDY for value in found.values())
     meanings = () if wordy else (Column(key="", values=[docs.get(key, "") for key in found], wrap=True),)
     flat = [(key, value) for name, entry in found.items() for key, value in leaves(name, entry)]
+    short = [_short(value) for value in found.values()]
+    outputs = Column(key="", heading=_("output"), values=list(found))
+    values = Column(key="", heading=_("value"), values=short, left=True, wrap=wordy)
+    keys = Column(key="key", values=[key for key, _value in flat])
     return Answer(
         name="calc",
         title=_("Formulas"),
         sentence=f"{item.name}: {_(item.doc)}",
-        tables=(
-            Table(
-                fixed=0,
-                columns=(
-                    Column(key="", heading=_("output"), values=list(found)),
-                    Column(
-                        key="",
-                        heading=_("value"),
-                        values=[_short(value) for value in found.values()],
-                        left=True,
-                        wrap=wordy,
-                    ),
-                    *meanings,
-                ),
-            ),
-        ),
+        tables=(Table(fixed=0, columns=(outputs, values, *meanings)),),
         remarks=(_source(item),),
         facts={"capability": item.name, "source": _(item.source), "result": found},
-        full=lambda: Table(
-            columns=(
-                Column(key="key", values=[key for key, _value in flat]),
-                Column(key="value", values=[value for _key, value in flat]),
-            )
-        ),
+        full=lambda: Table(columns=(keys, Column(key="value", values=[value for _key, value in flat]))),
     )
 
 

@@ -29,7 +29,7 @@ from cardan.reading.given import at_least_zero, flag, given, joint_angle, positi
 from cardan.texts import _
 from cardan.units import mm
 
-from .forces import SHAFT, unknown_shafts
+from .forces import SHAFT, held, unknown_shafts
 
 formula = Formulas(__doc__)
 
@@ -73,11 +73,6 @@ def _bearings(v: Values) -> Problems:
     for k, bearing in enumerate(v.bearings):
         if not bearing.get("radial", True) and not bearing.get("axial", True):
             yield Problem(f"bearings[{k}].radial", _("a bearing that holds neither across nor along is none"))
-
-
-def _holds(bearing: Values) -> tuple[Hold, ...]:
-    held: dict[Hold, bool] = {"radial": bearing["radial"], "axial": bearing["axial"]}
-    return tuple(hold for hold, there in held.items() if there)
 
 
 @formula(
@@ -137,15 +132,9 @@ def _assembly_forces(v: Values) -> Any:
     def size(angle: Array) -> Array:
         return frames.norm(answer(angle)[0].unknowns[..., :3])[None]
 
-    return {
-        "gap_vector_frame1_m": -gap[0, 0],
-        "force_magnitude_N": float(frames.norm(force)[0]),
-        "force_abs_along_shaft1_N": float(np.abs(force[0] @ axis[0])),
-        "force_abs_along_shaft2_N": float(np.abs(force[0] @ axis[1])),
-        "strain_energy_J": float(found.energy[0]),
-        "extra_input_torque_Nm": float(found.torque[0]),
-        "max_force_over_turn_N": float(peaks(size, TURN, size(TURN))[1][0]),
-    }
+    along = (float(np.abs(force[0] @ one)) for one in axis)
+    most = float(peaks(size, TURN, size(TURN))[1][0])
+    return -gap[0, 0], float(frames.norm(force)[0]), *along, float(found.energy[0]), float(found.torque[0]), most
 
 
 @formula(
@@ -162,19 +151,16 @@ def _assembly_forces(v: Values) -> Any:
 def _indeterminate_reactions(v: Values) -> Any:
     """Return the reactions of bearings that give way, in the housings where they are."""
     bearings = v.bearings
-    kinds = [(bearing["shaft"] - 1, _holds(bearing)) for bearing in bearings]
     stiffness = [
         [math.nan if one is None else one for one in (bearing["k_radial_N_m"], bearing["k_axial_N_m"], None)]
         for bearing in bearings
     ]
-    offset = [
-        (0.0, 0.0, 0.0) if bearing["housing_offset"] is None else bearing["housing_offset"] for bearing in bearings
-    ]
+    offset = [np.zeros(3) if bearing["housing_offset"] is None else bearing["housing_offset"] for bearing in bearings]
     whole = train_of_points(
         v.points,
         yoke_angle=v.gamma,
         start_phase=v.psi1,
-        bearings=tuple(kinds),
+        bearings=tuple(held(bearing) for bearing in bearings),
         position=np.asarray([bearing["x_from_shaft_start"] for bearing in bearings], dtype=float),
         stiffness=np.asarray(stiffness),
         offset=np.asarray(offset, dtype=float),

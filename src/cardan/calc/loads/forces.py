@@ -95,8 +95,8 @@ def _spline_problems(v: Values) -> Problems:
 
 def held(row: Values) -> tuple[int, tuple[Hold, ...]]:
     """Return shaft, counted from 0, and holds of a bearing."""
-    holds: list[Hold] = [*(["radial"] if row.radial else []), *(["axial"] if row.axial else [])]  # type: ignore[list-item]
-    return row.shaft - 1, tuple(holds)
+    both: dict[Hold, bool] = {"radial": row.radial, "axial": row.axial}
+    return row.shaft - 1, tuple(hold for hold, there in both.items() if there)
 
 
 def train_of(v: Values, **parts: Any) -> Train:
@@ -196,19 +196,10 @@ def _kinetostatics(v: Values) -> Any:
         **v.of(torque="M_out", speed="omega1", acceleration="eps1"),
     )
     at = _each(v)
-    return {
-        "M_in_Nm": at(found.shaft_torque)[..., 0],
-        "shaft_torque_Nm": at(found.shaft_torque),
-        "omega_rad_s": at(found.speed),
-        "eps_rad_s2": at(found.acceleration),
-        "couple_on_driving_yoke_Nm": at(-found.driving_couple),
-        "couple_on_driven_yoke_Nm": at(found.driven_couple),
-        "joint_force_on_driven_shaft_N": at(found.joint_force),
-        "bearing_reaction_N": at(found.reaction),
-        "secondary_couple_on_shaft_Nm": at(found.secondary_couple),
-        "equations": found.equations,
-        "unknowns": found.unknowns,
-    }
+    torque, driving = at(found.shaft_torque), at(-found.driving_couple)
+    more = found.driven_couple, found.joint_force, found.reaction, found.secondary_couple
+    moved = at(found.speed), at(found.acceleration)
+    return torque[..., 0], torque, *moved, driving, *map(at, more), found.equations, found.unknowns
 
 
 @formula(
@@ -366,16 +357,8 @@ def _moving_axis_gyro(v: Values) -> Any:
     swung = paths.swing(v.A, v.W, 0.0, np.asarray(v.t, dtype=float))
     joint_angle = paths.plus(paths.resting(np.asarray(v.alpha0, dtype=float)), swung)
     axes, spins = parallel_ends(joint_angle, v.phi1, speed=v.omega1, yoke_angle=v.gamma2)
-    middle = axes[0][..., 1, :], axes[1][..., 1, :], axes[2][..., 1, :]
-    found = gyroscopic_couple(middle, spins.spin[..., 1], v.J_polar, v.J_transverse)
-    return {
-        "alpha_rad": joint_angle[0],
-        "alpha_dot_rad_s": joint_angle[1],
-        "alpha_ddot_rad_s2": joint_angle[2],
-        "omega2_rad_s": spins.spin[..., 1],
-        "eps2_rad_s2": spins.spin_acceleration[..., 1],
-        "omega3_rad_s": spins.spin[..., 2],
-        "gyroscopic_couple_Nm": frames.norm(found.gyroscopic),
-        "transverse_inertia_couple_Nm": frames.norm(found.transverse),
-        "total_transverse_couple_Nm": frames.norm(found.whole),
-    }
+    middle = tuple(one[..., 1, :] for one in axes)
+    spin = spins.spin
+    found = gyroscopic_couple(middle, spin[..., 1], v.J_polar, v.J_transverse)
+    couples = (frames.norm(one) for one in (found.gyroscopic, found.transverse, found.whole))
+    return *joint_angle, spin[..., 1], spins.spin_acceleration[..., 1], spin[..., 2], *couples

@@ -176,8 +176,7 @@ def _joint_life(v: Values) -> Any:
 )
 def _iso_life(v: Values) -> Any:
     found = bearing_life(v.C, v.R, v.torque, **v.of("speed", joint_angle="alpha", torque_at="torque_side"))
-    names = {"L10h_simple": found.simple, "L10h_driving_bearings": found.driving, "L10h_driven_bearings": found.driven}
-    return {key: life / HOUR for key, life in names.items()}
+    return tuple(life / HOUR for life in (found.simple, found.driving, found.driven))
 
 
 @formula(
@@ -309,8 +308,4 @@ def _needle_hertz(v: Values) -> Any:
 )
 def _small_oscillation(v: Values) -> Any:
     inner, outer = critical_swing(v.needles, v.needle_d, v.journal_d)
-    return {
-        "alpha_crit_inner_deg": inner,
-        "alpha_crit_outer_deg": outer,
-        "warnings": said(small_oscillation=v.alpha < inner),
-    }
+    return inner, outer, said(small_oscillation=v.alpha < inner)

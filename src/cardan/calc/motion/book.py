@@ -34,14 +34,12 @@ _MOTION = (
 )
 
 
+_CURVES = tuple(key.partition(":")[0] for key in _MOTION)
+
+
 def _curves(v: Values, moved: OutputMotion) -> dict[str, Any]:
-    at = v.single("phi1")
-    return {
-        "lead_deg": at(moved.angle_error),
-        "phi_out_deg": at(moved.output_angle),
-        "ratio": at(moved.ratio),
-        "eps_over_omega1_sq": at(moved.slope),
-    }
+    values = moved.angle_error, moved.output_angle, moved.ratio, moved.slope
+    return dict(zip(_CURVES, map(v.single("phi1"), values), strict=True))
 
 
 def _collinear_check(v: Values) -> Problems:
@@ -92,12 +90,8 @@ def _blokh(v: Values) -> Any:
 def _book_series(v: Values) -> Any:
     found = book_series(drives(v), v.order, amplitude=v.amplitude, phases=v.phases)
     at, phi = v.single("phi1"), np.atleast_1d(v.phi1)
-    return found, {
-        "lead_deg": at(found.angle_error(phi)),
-        "phi_out_deg": at(phi + found.angle_error(phi)),
-        "ratio": at(found.ratio(phi)),
-        "eps_over_omega1_sq": at(found.slope(phi)),
-    }
+    ahead = found.angle_error(phi)
+    return found, dict(zip(_CURVES, map(at, (ahead, phi + ahead, found.ratio(phi), found.slope(phi))), strict=True))
 
 
 @formula(

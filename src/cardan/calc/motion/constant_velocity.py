@@ -174,13 +174,9 @@ def _groove_offset(v: Values) -> Any:
 )
 def _tracta(v: Values) -> Any:
     joint_angle, first, second, angle = (v[name] for name in ("alpha", "OA", "OB", "phi1"))
-    one, two = tracta.joint_angles(joint_angle, first, second)
-    return {
-        "alpha1_rad": one,
-        "alpha2_rad": two,
-        "irregularity": tracta.speed_fluctuation(joint_angle, first, second),
-        "phi2_minus_phi1_rad": None if angle is None else tracta.deviation(angle, joint_angle, first, second),
-    }
+    size = joint_angle, first, second
+    ahead = None if angle is None else tracta.deviation(angle, *size)
+    return *tracta.joint_angles(*size), tracta.speed_fluctuation(*size), ahead
 
 
 @formula(
@@ -202,12 +198,6 @@ def _tripod(v: Values) -> Any:
     angle, joint_angle, radius = (v[name] for name in ("phi1", "alpha", "track_radius"))
     x, y = tripod.spider_centre(angle, joint_angle, radius)
     length = v.shaft_length
-    return {
-        "phi2_minus_phi1_rad": 0.0 * np.asarray(angle, dtype=float),
-        "orbit_radius_m": tripod.orbit_radius(joint_angle, radius),
-        "center_x_m": x,
-        "center_y_m": y,
-        "roller_reach_m": tripod.roller_reach(angle, joint_angle, radius),
-        "track_travel_m": tripod.track_travel(angle, joint_angle, radius),
-        "shaft_tilt_rad": None if length is None else tripod.shaft_tilt(joint_angle, radius, length),
-    }
+    ahead, orbit = 0.0 * np.asarray(angle, dtype=float), tripod.orbit_radius(joint_angle, radius)
+    roller = tripod.roller_reach(angle, joint_angle, radius), tripod.track_travel(angle, joint_angle, radius)
+    return ahead, orbit, x, y, *roller, None if length is None else tripod.shaft_tilt(joint_angle, radius, length)

@@ -23,13 +23,11 @@ JOINT_ANGLE = joint_angle("alpha_deg", "joint angle between the outer shafts")
 TURN = given("phi1_deg", "input angle from the inner side of the joint angle", axes=(0, 1))
 
 
-def _ratios(first: float, second: float, *, crossed: bool = False) -> dict[str, Any]:
+def _ratios(first: float, second: float, *, crossed: bool = False) -> tuple[float, float, float]:
+    """Return largest and smallest speed ratio, and the speed fluctuation."""
     gain = double_cardan.gain(first, second, crossed=crossed)
-    return {
-        "ratio_max": max(gain, 1.0 / gain),
-        "ratio_min": min(gain, 1.0 / gain),
-        "irregularity": abs(double_cardan.unevenness(first, second, crossed=crossed)),
-    }
+    uneven = abs(double_cardan.unevenness(first, second, crossed=crossed))
+    return max(gain, 1.0 / gain), min(gain, 1.0 / gain), uneven
 
 
 RATIOS = (
@@ -100,14 +98,8 @@ FORCE = gives("contact_force_per_torque_N_per_Nm", "contact force without fricti
 def _double_cardan_centring(v: Values) -> Any:
     joint_angle, share = v.alpha, v.lambda_
     first, second = double_cardan.split(joint_angle, share)
-    return {
-        "alpha12_rad": first,
-        "alpha23_rad": second,
-        "Delta_rad": double_cardan.lag(joint_angle, share),
-        "Delta_book12_rad": double_cardan.lag_book(joint_angle, share),
-        "x_over_l": double_cardan.slide(joint_angle, share),
-        **_ratios(first, second),
-    }
+    lag, book = double_cardan.lag(joint_angle, share), double_cardan.lag_book(joint_angle, share)
+    return first, second, lag, book, double_cardan.slide(joint_angle, share), *_ratios(first, second)
 
 
 @formula(
@@ -239,9 +231,6 @@ def _profile_coupling(v: Values) -> Any:
 def _offset_cross(v: Values) -> Any:
     angle, joint_angle = np.asarray(v.phi1, dtype=float), v.alpha
     size = v.cross_offset, v.support_distance
-    return {
-        "phi2_rad": offset_cross.output_angle(angle, joint_angle),
-        "shaft_tilt_rad": offset_cross.tilt(angle, joint_angle, *size, v.cross_sign),
-        "joint_to_support_m": offset_cross.span(angle, joint_angle, *size, v.cross_sign),
-        "nutation_half_angle_rad": offset_cross.wobble(joint_angle, *size),
-    }
+    case = angle, joint_angle, *size, v.cross_sign
+    turned, wobble = offset_cross.output_angle(angle, joint_angle), offset_cross.wobble(joint_angle, *size)
+    return turned, offset_cross.tilt(*case), offset_cross.span(*case), wobble

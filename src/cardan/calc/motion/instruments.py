@@ -175,12 +175,8 @@ def _helical_cam(v: Values) -> Any:
 )
 def _friction_drive(v: Values) -> Any:
     torque, radius, friction = (v[name] for name in ("torque", "radius", "friction"))
-    driving = v.driving_radius
-    return {
-        "press_min_N": least_press(torque, radius, friction),
-        "press_N": press(torque, radius, friction, v.safety),
-        "ratio": None if driving is None else speed_ratio(driving, radius),
-    }
+    ratio = None if v.driving_radius is None else speed_ratio(v.driving_radius, radius)
+    return least_press(torque, radius, friction), press(torque, radius, friction, v.safety), ratio
 
 
 @formula(

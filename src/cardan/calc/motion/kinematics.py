@@ -93,6 +93,14 @@ def _motion(v: Values) -> tuple[Motion, Callable[[Any], Any]]:
     return motion(drives(v), v.phi1, speed=v.omega1, acceleration=v.get("eps1", 0.0)), v.single("phi1")
 
 
+def _output_speed(v: Values, moved: Motion) -> tuple[Any, Any]:
+    """Return speed and acceleration of the output, where that of the input is known."""
+    if v.omega1 is None:
+        return None, None
+    at = v.single("phi1")
+    return at(moved.shaft_speed[..., -1, :]), at(moved.shaft_acceleration[..., -1, :])
+
+
 @formula(
     "angle, speed and acceleration of the shaft driven by one Hooke joint, and the turns of its cross",
     "Kozhevnikov & Perfil'ev (1978), eq. 17–25, 103",
@@ -107,15 +115,8 @@ def _motion(v: Values) -> tuple[Motion, Callable[[Any], Any]]:
 )
 def _single_joint(v: Values) -> Any:
     moved, at = _motion(v.but(alpha=np.asarray(v.alpha)[..., None]))
-    known = v.omega1 is not None
-    return {
-        "phi2_deg": at(moved.output_angle),
-        "ratio_21": at(moved.ratio),
-        "omega2_rad_s": at(moved.shaft_speed[..., -1, :]) if known else None,
-        "eps2_rad_s2": at(moved.shaft_acceleration[..., -1, :]) if known else None,
-        "cross_vs_driving_yoke_deg": at(moved.cross_driving[..., 0, :]),
-        "cross_vs_driven_yoke_deg": at(moved.cross_driven[..., 0, :]),
-    }
+    cross = at(moved.cross_driving[..., 0, :]), at(moved.cross_driven[..., 0, :])
+    return at(moved.output_angle), at(moved.ratio), *_output_speed(v, moved), *cross
 
 
 @formula(
@@ -188,12 +189,8 @@ def _geometry_from_points(v: Values) -> Any:
     if v.phi1 is None:
         return found
     moved, at = _motion(v)
-    known = v.omega1 is not None
-    return found | {
-        "phi_out_deg": at(moved.output_angle),
-        "omega_out_rad_s": at(moved.shaft_speed[..., -1, :]) if known else None,
-        "eps_out_rad_s2": at(moved.shaft_acceleration[..., -1, :]) if known else None,
-    }
+    speed, acceleration = _output_speed(v, moved)
+    return found | {"phi_out_deg": at(moved.output_angle), "omega_out_rad_s": speed, "eps_out_rad_s2": acceleration}
 
 
 @formula(

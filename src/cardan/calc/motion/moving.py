@@ -64,15 +64,11 @@ def _standing(points: Any, movement: Movement) -> Any:
     return moving_points(points, [movement], [0.0])[0][0]
 
 
-def _turned(points: Any, gamma: float) -> dict[str, Any]:
+def _turned(points: Any, gamma: float) -> tuple[Any, Any, float, float]:
+    """Return joint angles, plane twists, length of the shaft between and speed fluctuation."""
     place = geometry_from_points(points)
     whole = equivalent_joint(Drives.from_points(points, yoke_angle=[gamma]))
-    return {
-        "joint_angle": place.joint_angle,
-        "length": place.length[1],
-        "twist": place.plane_twist,
-        "delta": whole.speed_fluctuation,
-    }
+    return place.joint_angle, place.plane_twist, place.length[1], whole.speed_fluctuation
 
 
 def _hitch_check(v: Values) -> Problems:
@@ -115,15 +111,9 @@ def _moving_centres(v: Values) -> Any:
     moved = _path(v, np.atleast_1d(v.t))
     if np.any(moved.shafts.joint_angle >= RIGHT):
         raise refuse("points0", _("at a given time a joint angle is 90° or more"))
-    at = v.single("t", 0)
-    return {
-        "spin_rad_s": at(moved.spins.spin),
-        "spin_acc_rad_s2": at(moved.spins.spin_acceleration),
-        "alpha_deg": at(moved.shafts.joint_angle),
-        "length_m": at(moved.shafts.length),
-        "length_rate_m_s": at(moved.shafts.length_rate),
-        "length_acc_m_s2": at(moved.shafts.length_acceleration),
-    }
+    spins, shafts = moved.spins, moved.shafts
+    lengths = shafts.length, shafts.length_rate, shafts.length_acceleration
+    return tuple(map(v.single("t", 0), (spins.spin, spins.spin_acceleration, shafts.joint_angle, *lengths)))
 
 
 @formula(
@@ -183,8 +173,8 @@ def _motion_hitch(v: Values) -> Any:
     end = one + two
     line = [[-one - end, 0.0, 0.0], [-one, 0.0, 0.0], [two, 0.0, 0.0], [two + end, 0.0, 0.0]]
     hitch = Hitch(moves=MOVED, pivot=(0.0, 0.0, 0.0), yaw=v.yaw, pitch=v.pitch, frequency=1.0, phase=RIGHT)
-    found = _turned(_standing(line, hitch), v.gamma2)
-    return found["joint_angle"][0], found["joint_angle"][1], found["length"], found["twist"][0], found["delta"]
+    (first, second), (twist,), length, delta = _turned(_standing(line, hitch), v.gamma2)
+    return first, second, length, twist, delta
 
 
 @formula(
@@ -209,24 +199,10 @@ def _motion_hitch(v: Values) -> Any:
 def _motion_arm(v: Values) -> Any:
     one, two = v.B1, v.B2_at_rest
     rest = np.stack((one - v.a1, one, two, two + v.a3_at_rest))
-    arm = Arm(
-        moves=MOVED,
-        pivot=tuple(v.pivot.tolist()),
-        axis=tuple(v.axis.tolist()),
-        amplitude=v.arm_rotation,
-        frequency=1.0,
-        phase=RIGHT,
-    )
+    pivot, axis = (tuple(way.tolist()) for way in (v.pivot, v.axis))
+    arm = Arm(moves=MOVED, pivot=pivot, axis=axis, amplitude=v.arm_rotation, frequency=1.0, phase=RIGHT)
     points = _standing(rest, arm)
-    found = _turned(points, v.gamma2)
-    return {
-        "B2_m": points[2],
-        "a3": geometry_from_points(points).axis[-1],
-        "alpha_deg": found["joint_angle"],
-        "beta_deg": found["twist"],
-        "length2_m": found["length"],
-        "delta": found["delta"],
-    }
+    return points[2], geometry_from_points(points).axis[-1], *_turned(points, v.gamma2)
 
 
 def _swing_check(v: Values) -> Problems:

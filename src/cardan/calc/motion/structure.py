@@ -205,13 +205,8 @@ def _release_analysis(v: Values) -> Any:
 def _finite_mobility(v: Values) -> Any:
     mechanism = _mechanism(v)
     found = finite_mobility(mechanism, **v.of("driven_joint", "steps", angle="drive", tolerance="closure_tolerance"))
-    return {
-        "closes": found.closes,
-        "max_residual": float(np.max(found.residual)),
-        "residual_at_end": float(found.residual[-1]),
-        "max_gap_m": float(np.max(found.gap)),
-        "max_turn_deg": float(np.max(found.turn)),
-    }
+    most = [float(np.max(one)) for one in (found.residual, found.gap, found.turn)]
+    return found.closes, most[0], float(found.residual[-1]), *most[1:]
 
 
 @formula(

@@ -87,6 +87,10 @@ class UpToOrder(Calculation):
         return {key.replace("_to_N", f"_to_{order}"): value for key, value in found.items()}
 
 
+def _order(key: str, doc: str, low: int) -> Given:
+    return whole(key, doc, low=low, high=HIGHEST, default=None)
+
+
 def _asked(v: Values) -> Problems:
     asked = [v.get(name, 0) is not None for name in ("a", "boundaries_up_to_order", "zone")]
     if not any(asked):
@@ -110,20 +114,8 @@ def _fits(v: Values) -> Problems:
     "Hill's determinant; Kozhevnikov & Perfil'ev (1978), eq. 197, 208, 221, 225 beside it",
     given("a", "parameter a of the equation, (ω_e/ω_1)²", low=LEAST_A, high=LARGEST_A, default=None),
     (WAVE, DAMPING),
-    whole(
-        "boundaries_up_to_order",
-        "order N up to which to tell the boundaries of stability",
-        low=0,
-        high=HIGHEST,
-        default=None,
-    ),
-    whole(
-        "zone",
-        "number of the unstable zone whose edges to tell, with damping; 1 is the principal one",
-        low=1,
-        high=HIGHEST,
-        default=None,
-    ),
+    _order("boundaries_up_to_order", "order N up to which to tell the boundaries of stability", low=0),
+    _order("zone", "number of the unstable zone whose edges to tell, with damping; 1 is the principal one", low=1),
     "half_trace_undamped: cos πβ of the equation freed of its damping",
     "beta: characteristic exponent, where the undamped equation is stable",
     gives("growth_rate_per_rad", "rate of growth per radian of shaft angle", None),
@@ -178,17 +170,17 @@ def _mathieu_stability(v: Values) -> Any:
     "B: forcing by cos 2φ, Kozhevnikov & Perfil'ev (1978), eq. 195 [rad]",
     "D: change of the compliance by cos 2φ, Kozhevnikov & Perfil'ev (1978), eq. 195 [rad/(N·m)]",
     "F: change of the compliance by sin 2φ, Kozhevnikov & Perfil'ev (1978), eq. 195 [rad/(N·m)]",
-    "s_n1: amplitude √(A² + B²) [rad]",
-    "delta1_rad: its phase δ_1",
-    "c_Nm_per_rad: stiffness of all springs in a row",
-    "J0_kgm2: inertia J_1 J_(n+1)/(J_1 + J_(n+1))",
-    "natural_frequency_rad_s: natural frequency √(c/J_0)",
+    "s_n1 = amplitude: amplitude √(A² + B²) [rad]",
+    "delta1_rad = forcing_phase: its phase δ_1",
+    "c_Nm_per_rad = stiffness: stiffness of all springs in a row",
+    "J0_kgm2 = inertia: inertia J_1 J_(n+1)/(J_1 + J_(n+1))",
+    "natural_frequency_rad_s = natural_frequency: natural frequency √(c/J_0)",
     "a: parameter a = c/(J_0 ω_1²)",
-    "kappa: place of each joint from the node of the elastic mode, a share of the twist",
+    "kappa = off_node: place of each joint from the node of the elastic mode, a share of the twist",
     "principal_zone_speeds_rpm: speeds between which steady running is unstable without damping",
     "q_book: parametric term by Kozhevnikov & Perfil'ev (1978), eq. 196, half of what it should be",
-    "q_corrected: parametric term",
-    "delta0_rad: its phase δ_0",
+    "q_corrected = q: parametric term",
+    "delta0_rad = wave_phase: its phase δ_0",
     "half_trace_exact: half the trace of the elastic multipliers over half a turn, exact drive",
     "half_trace_mathieu_q_book: the same by Mathieu's equation with the book's parametric term",
     "half_trace_mathieu_q_corrected: the same with the right parametric term",
@@ -198,22 +190,10 @@ def _mathieu_reduction(v: Values) -> Any:
     found = mathieu_reduction(
         v.alpha, v.psi, v.stiffness, **v.of("speed", first_inertia="J_first", last_inertia="J_last")
     )
+    forcing, play = found.forcing, found.play
     answer: dict[str, Any] = {
-        "A": found.forcing.real,
-        "B": found.forcing.imag,
-        "D": found.play.real,
-        "F": found.play.imag,
-        "s_n1": found.amplitude,
-        "delta1_rad": found.forcing_phase,
-        "c_Nm_per_rad": found.stiffness,
-        "J0_kgm2": found.inertia,
-        "natural_frequency_rad_s": found.natural_frequency,
-        "a": found.a,
-        "kappa": found.off_node,
+        **{"A": forcing.real, "B": forcing.imag, "D": play.real, "F": play.imag},
         "principal_zone_speeds_rpm": found.zone_speeds(),
-        "q_book": found.q_book,
-        "q_corrected": found.q,
-        "delta0_rad": found.wave_phase,
     }
     if v.drive_torque is not None:
         slow = max(found.a / LARGEST_A, found.q / LARGEST_Q)
@@ -226,7 +206,7 @@ def _mathieu_reduction(v: Values) -> Any:
             "half_trace_mathieu_q_book": traces[0],
             "half_trace_mathieu_q_corrected": traces[1],
         }
-    return answer
+    return found, answer
 
 
 @formula(
@@ -270,13 +250,8 @@ def by_order(orders: list[float], sizes: Any) -> dict[str, float]:
 
 
 def _harmonic_rows(key: str, doc: str) -> Given:
-    return rows(
-        key,
-        doc,
-        positive("order", "order per turn of the driving shaft"),
-        given("amplitude_Nm", "its amplitude"),
-        default=[],
-    )
+    order, amplitude = positive("order", "order per turn of the driving shaft"), given("amplitude_Nm", "its amplitude")
+    return rows(key, doc, order, amplitude, default=[])
 
 
 @formula(

@@ -8,7 +8,7 @@ import numpy as np
 
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.errors import InputError, Problem, check
-from cardan.questions.torsion.transient.simulation import Simulation, Status
+from cardan.questions.torsion.transient.simulation import Status
 from cardan.questions.torsion.transient.transient import simulate
 from cardan.reading.given import given, positive
 from cardan.texts import _, mark
@@ -37,15 +37,6 @@ def _problems(v: Values) -> Problems:
         if len(angles) != wanted:
             text = _("{given} values given, {wanted} needed, one for each coordinate: stations without driven yokes")
             yield v.wrong("initial_angles", text.format(given=len(angles), wanted=wanted))
-
-
-def _extremes(found: Simulation) -> dict[str, Any]:
-    return {
-        "highest_element_torque_Nm": found.extremes.torque_high,
-        "lowest_element_torque_Nm": found.extremes.torque_low,
-        "highest_station_speed_rad_s": found.extremes.speed_high,
-        "lowest_station_speed_rad_s": found.extremes.speed_low,
-    }
 
 
 @formula(
@@ -88,14 +79,8 @@ def _torsional_simulation(v: Values) -> Any:
     status = Status(int(found.status))
     text = _(_CAUSES.get(status, ""))
     check([Problem("t_end", text.format(time=float(found.ended)))] if text else [])
-    return {
-        "station_angle_rad": found.angle[-1],
-        "station_speed_rad_s": found.speed[-1],
-        "element_torque_Nm": found.torque[-1],
-        "energy_J": found.energy[-1],
-        "energy_residual_J": found.residual[-1],
-        "input_torque_Nm": None if found.input_torque is None else found.input_torque[-1],
-        **_extremes(found),
-        "method": found.method,
-        "steps": found.steps,
-    }
+    curves = found.angle, found.speed, found.torque, found.energy, found.residual, found.input_torque
+    ends = (None if one is None else one[-1] for one in curves)
+    reached = found.extremes
+    extremes = reached.torque_high, reached.torque_low, reached.speed_high, reached.speed_low
+    return *ends, *extremes, found.method, found.steps

@@ -86,10 +86,7 @@ def _linear_forced_response(v: Values) -> Any:
     at = np.flatnonzero(found.resonant)
     check([Problem("omega", text.format(omega=found.omega[at[0]]))] if at.size else [])
     single = np.ndim(omega) == 0
-    return {
-        "station_amplitude_rad": np.abs(found.angle[:, 0] if single else found.angle),
-        "element_torque_Nm": np.abs(found.torque[:, 0] if single else found.torque),
-    }
+    return tuple(np.abs(one[:, 0] if single else one) for one in (found.angle, found.torque))
 
 
 RATIO = positive("inertia_ratio", "inertia of the absorber over that of the system, α_J")
@@ -127,8 +124,7 @@ def _setting(found: Tuning) -> dict[str, Any]:
 def _absorber_response(v: Values) -> Any:
     tuned = v.frequency_ratio_absorber
     xi = v.xi * (tuned if v.xi_definition == ABSORBER else 1.0)
-    size, natural = _amplification(v, tuned, xi)
-    return size, natural
+    return _amplification(v, tuned, xi)
 
 
 @formula(
@@ -238,11 +234,12 @@ def _run_up(v: Values) -> Any:
         omega, zeta, rate = (v[name] for name in _SWEEP)
         found = run_up(omega, zeta, rate, end, time=time)
         return {
-            "y": found.response if time is not None else None,
-            "peak_abs": found.peak,
-            "peak_time_s": found.peak_time,
-            "passing_time_s": found.passing_time,
-            "steady_peak_abs": found.steady_peak,
+            **{
+                "y": found.response if time is not None else None,
+                "peak_abs": found.peak,
+                "peak_time_s": found.peak_time,
+            },
+            **{"passing_time_s": found.passing_time, "steady_peak_abs": found.steady_peak},
         }
     joint_angle, stiffness, inertia, rise = (v[name] for name in _JOINT)
     joint = joint_run_up(joint_angle, stiffness, inertia, rise, end, damping=v.damping, time=time)
