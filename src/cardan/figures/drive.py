@@ -134,15 +134,8 @@ def _view(drive: Drive, seen: Solids, meshes: Sequence[Mesh], sheet: _Sheet, inc
     series: list[Series] = [*meshes, *_labels(drive, seen, sheet.view, 72.0 / inch)]
     if not title:
         series += _triad(sheet.view, np.asarray([sheet.left, low]), inch)
-    return Panel(
-        series=tuple(series),
-        x=_axis(middle - half, middle + half, 8),
-        y=_axis(low, high, 4),
-        title=title,
-        equal=True,
-        bare=not title,
-        view=sheet.view,
-    )
+    x, y = _axis(middle - half, middle + half, 8), _axis(low, high, 4)
+    return Panel(series=tuple(series), x=x, y=y, title=title, equal=True, bare=not title, view=sheet.view)
 
 
 def _axis(low: float, high: float, count: int) -> Axis:
@@ -223,13 +216,11 @@ def _triad(view: View, corner: Array, inch: float) -> Iterator[Series]:
     for name, direction in zip("xyz", np.eye(3), strict=True):
         tip = frame @ direction * 0.34 * inch
         start, end = origin, origin + tip
-        yield Curve(
-            x=np.asarray([start[0], end[0]]), y=np.asarray([start[1], end[1]]), role="muted", width=0.9, arrow=True
-        )
+        x, y = np.stack((start, end), axis=-1)
+        yield Curve(x=x, y=y, role="muted", width=0.9, arrow=True)
         away = tip / max(float(np.hypot(*tip)), 1e-12)
-        yield Note(
-            text=name, x=float(end[0]), y=float(end[1]), role="muted", size=7.4, shift=(5.0 * away[0], 5.0 * away[1])
-        )
+        shift = (5.0 * away[0], 5.0 * away[1])
+        yield Note(text=name, x=float(x[1]), y=float(y[1]), role="muted", size=7.4, shift=shift)
 
 
 def yoke_figure(drive: Drive, seen: Solids) -> Figure:

@@ -39,6 +39,8 @@ _LINES: dict[str, Any] = {
 }
 _SIDES = {"left": "left", "centre": "center", "right": "right"}
 _LEVELS = {"top": "top", "middle": "center", "bottom": "bottom"}
+OVER: dict[str, Any] = {"path_effects": [withStroke(linewidth=2.4, foreground="white")], "zorder": 6.0}
+"""Words over lines: with a white rim, in front."""
 
 
 def render(
@@ -100,14 +102,8 @@ def _legend(axes: Axes, page: Page) -> None:
     axes.axis("off")
     for entry in page.legend:
         _sign(axes, entry)
-        axes.text(
-            entry.left + 0.34,
-            entry.top,
-            entry.item.label,
-            fontsize=8.2,
-            va="center_baseline",
-            color=palette.colour("ink"),
-        )
+        how: dict[str, Any] = {"fontsize": 8.2, "va": "center_baseline", "color": palette.colour("ink")}
+        axes.text(entry.left + 0.34, entry.top, entry.item.label, **how)
 
 
 def _sign(axes: Axes, entry: Entry) -> None:
@@ -137,18 +133,16 @@ def _panel(axes: Axes, panel: Panel, box: Box) -> None:
         if isinstance(item, Rule | Band) and item.text:
             _rule_text(axes, item, known.get(order, Label()))
     if panel.heading:
-        axes.annotate(
-            panel.heading,
-            (0.0, 1.0),
-            xycoords="axes fraction",
-            xytext=(0.0, 6.0),
-            textcoords="offset points",
-            fontsize=8.4,
-            fontweight="bold",
-            color=palette.colour("ink"),
-            va="bottom",
-            ha="left",
-        )
+        how: dict[str, Any] = {"fontweight": "bold", "va": "bottom", "ha": "left"}
+        _word(axes, panel.heading, (0.0, 1.0), (0.0, 6.0), 8.4, "ink", xycoords="axes fraction", **how)
+
+
+def _word(
+    axes: Axes, text: str, at: tuple[Any, Any], shift: tuple[float, float], size: float, role: str, **how: Any
+) -> None:
+    """Write a word at a place, shifted by points."""
+    tint = palette.colour(role)
+    axes.annotate(text, at, xytext=shift, textcoords="offset points", fontsize=size, color=tint, **how)
 
 
 def _frame(axes: Axes, panel: Panel, box: Box) -> None:
@@ -226,55 +220,21 @@ def _series(axes: Axes, panel: Panel, item: Series, order: float) -> None:
 def _curve(axes: Axes, panel: Panel, item: Curve, order: float) -> None:
     x, y = _flat(panel, item.x, item.y, item.z)
     tint = palette.colour(item.role)
-    axes.plot(
-        x,
-        y,
-        color=tint,
-        linewidth=item.width,
-        linestyle=_LINES[item.dash] if item.width else "none",
-        marker="o" if item.marker else "",
-        markersize=item.marker,
-        markeredgewidth=0.0,
-        zorder=order,
-    )
+    dash = _LINES[item.dash] if item.width else "none"
+    dots: dict[str, Any] = {"marker": "o" if item.marker else "", "markersize": item.marker, "markeredgewidth": 0.0}
+    axes.plot(x, y, color=tint, linewidth=item.width, linestyle=dash, zorder=order, **dots)
     if item.arrow and len(x) > 1:
-        axes.annotate(
-            "",
-            (x[-1], y[-1]),
-            (x[-2], y[-2]),
-            arrowprops={
-                "arrowstyle": "-|>",
-                "color": tint,
-                "linewidth": item.width,
-                "shrinkA": 0,
-                "shrinkB": 0,
-                "mutation_scale": 7.0,
-            },
-            zorder=order,
-        )
+        tip = {"arrowstyle": "-|>", "color": tint, "linewidth": item.width, "mutation_scale": 7.0}
+        ends = (x[-1], y[-1]), (x[-2], y[-2])
+        axes.annotate("", *ends, arrowprops={**tip, "shrinkA": 0, "shrinkB": 0}, zorder=order)
 
 
 def _note(axes: Axes, panel: Panel, item: Note) -> None:
     x, y = _flat(panel, item.x, item.y, item.z)
-    axes.annotate(
-        item.text,
-        (float(x), float(y)),
-        xytext=item.shift,
-        textcoords="offset points",
-        fontsize=item.size,
-        fontweight="bold" if item.bold else "normal",
-        color=palette.colour(item.role),
-        ha=_SIDES[item.side],
-        va=_LEVELS[item.level],
-        zorder=6.0,
-        annotation_clip=False,
-        path_effects=_rim() if item.halo else [],
-    )
-
-
-def _rim() -> list[Any]:
-    """Return the white rim of words over lines."""
-    return [withStroke(linewidth=2.4, foreground="white")]
+    how: dict[str, Any] = {"fontweight": "bold" if item.bold else "normal", "annotation_clip": False}
+    over = OVER if item.halo else {**OVER, "path_effects": []}
+    sides = {"ha": _SIDES[item.side], "va": _LEVELS[item.level]}
+    _word(axes, item.text, (float(x), float(y)), item.shift, item.size, item.role, **sides, **how, **over)
 
 
 def _bars(axes: Axes, item: Bars, order: float) -> None:
@@ -285,19 +245,9 @@ def _bars(axes: Axes, item: Bars, order: float) -> None:
     else:
         axes.bar(item.at, lengths, item.thick, bottom=item.base, color=tints, linewidth=0.0, zorder=order)
     for at, size, text in zip(item.at, item.ends, item.texts, strict=False):
-        axes.annotate(
-            text,
-            (size, at) if item.lying else (at, size),
-            xytext=(4.0, 0.0) if item.lying else (0.0, 2.5),
-            textcoords="offset points",
-            fontsize=7.6,
-            color=palette.colour("ink"),
-            ha="left" if item.lying else "center",
-            va="center" if item.lying else "bottom",
-            annotation_clip=False,
-            path_effects=_rim(),
-            zorder=6.0,
-        )
+        place, shift = ((size, at), (4.0, 0.0)) if item.lying else ((at, size), (0.0, 2.5))
+        sides = {"ha": "left", "va": "center"} if item.lying else {"ha": "center", "va": "bottom"}
+        _word(axes, text, place, shift, 7.6, "ink", annotation_clip=False, **sides, **OVER)
 
 
 def _cells(axes: Axes, item: Cells, order: float) -> None:
@@ -314,16 +264,9 @@ def _rule(axes: Axes, item: Rule) -> None:
 def _rule_text(axes: Axes, item: Rule | Band, label: Label) -> None:
     value = item.value if isinstance(item, Rule) else item.high
     upright, away = item.upright, -3.0 if label.before else 3.0
-    axes.annotate(
-        item.text,
-        (value, 1.0) if upright else (1.0, value),
-        xycoords=axes.get_xaxis_transform() if upright else axes.get_yaxis_transform(),
-        xytext=(away, -1.0 - 72.0 * LINE * label.line) if upright else (-2.0, 2.0),
-        textcoords="offset points",
-        fontsize=7.4,
-        color=palette.colour(item.role),
-        ha="left" if upright and not label.before else "right",
-        va="top" if upright else "bottom",
-        path_effects=_rim(),
-        zorder=6.0,
-    )
+    place, shift = (value, 1.0), (away, -1.0 - 72.0 * LINE * label.line)
+    across = axes.get_xaxis_transform()
+    if not upright:
+        place, shift, across = (1.0, value), (-2.0, 2.0), axes.get_yaxis_transform()
+    sides = {"ha": "left" if upright and not label.before else "right", "va": "top" if upright else "bottom"}
+    _word(axes, item.text, place, shift, 7.4, item.role, xycoords=across, **sides, **OVER)

@@ -319,13 +319,10 @@ class _Plot:
             yield _word(item.text, *place, item.size, item.role, **how)
         elif isinstance(item, Bars):
             for at, size, text in zip(item.at, item.ends, item.texts, strict=False):
-                if item.lying:
-                    place, how = (_one(self.x, size) + 4.0 * POINT, _one(self.y, at)), {"level": "line"}
-                else:
-                    place, how = (
-                        (_one(self.x, at), _one(self.y, size) - 2.5 * POINT),
-                        {"side": "centre", "level": "bottom"},
-                    )
+                place, how = (_one(self.x, size) + 4.0 * POINT, _one(self.y, at)), {"level": "line"}
+                if not item.lying:
+                    place = _one(self.x, at), _one(self.y, size) - 2.5 * POINT
+                    how = {"side": "centre", "level": "bottom"}
                 yield _word(text, *place, 7.6, "ink", rim=True, **how)
 
     def _heads(self) -> Iterator[str]:
