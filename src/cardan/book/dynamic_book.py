@@ -254,13 +254,8 @@ def truck_example(
     8110.62 79.2 0.05129 0.8798275
     """
     check(Problem(name, _("needs to be positive")) for name, value in (("speed", speed), ("a", a)) if not value > 0.0)
-    solution = forced(
-        a,
-        q,
-        order=[0.0, 2.0, TRUCK["order"]],
-        amplitude=[TRUCK["constant"], sway, TRUCK["engine"]],
-        phase=[0.5 * np.pi, 0.0, TRUCK["phase"]],
-    )
+    orders, sizes = [0.0, 2.0, TRUCK["order"]], [TRUCK["constant"], sway, TRUCK["engine"]]
+    solution = forced(a, q, order=orders, amplitude=sizes, phase=[0.5 * np.pi, 0.0, TRUCK["phase"]])
     return TruckExample(
         speed=speed,
         natural_frequency=float(np.sqrt(a)) * speed,

@@ -46,18 +46,12 @@ def reduction_figure(found: MathieuReduction) -> Figure:
     shown = near * near > 0.25 * found.a
     top = max(LEAST_Q, ROOM * found.q * max(1.0 if shown else 0.0, centre / found.a))
     reach = max(1.2 * abs(found.a - centre) if shown else 0.0, 1.6 * top, 0.05)
+    ray, label = np.asarray([0.0, 1e3]), _("the drive at other speeds")
     close = chart_panel(
         (centre - reach, centre + reach),
         top,
         (
-            Curve(
-                x=np.asarray([0.0, 1e3 * found.a]),
-                y=np.asarray([0.0, 1e3 * found.q]),
-                role="muted",
-                width=1.0,
-                dash="dotted",
-                label=_("the drive at other speeds"),
-            ),
+            Curve(x=ray * found.a, y=ray * found.q, role="muted", width=1.0, dash="dotted", label=label),
             *(_point(found.a, found.q_book, _("by the book's q, half of it"), "muted") if shown else ()),
             *(_point(found.a, found.q, _("the drive"), "accent") if shown else ()),
         ),
@@ -242,24 +236,17 @@ def book_figure(found: BookComparison) -> Figure:
         x=across(angle),
         y=axis(_("Angle error of the output"), "deg", [exact, first, second], dimension="angle", least=0.02),
     )
+    off = [first - exact, second - exact]
     lower = Panel(
         series=(
             Rule(value=0.0, dash="solid", role="faint"),
-            Curve(x=angle, y=first - exact, role="first order", width=1.4, dash="dashed"),
-            Curve(x=angle, y=second - exact, role="second order", width=1.4, dash="dotted"),
+            Curve(x=angle, y=off[0], role="first order", width=1.4, dash="dashed"),
+            Curve(x=angle, y=off[1], role="second order", width=1.4, dash="dotted"),
         ),
         x=across(angle, named=True),
-        y=axis(
-            _("Error of the approximation"),
-            "deg",
-            [first - exact, second - exact],
-            dimension="angle",
-            mirrored=0.0,
-            least=1e-9,
-            count=4,
-        ),
+        y=axis(_("Error of the approximation"), "deg", off, dimension="angle", mirrored=0.0, least=1e-9, count=4),
     )
-    misses = [float(np.max(np.abs(row - exact))) for row in (first, second)]
+    misses = [float(np.max(np.abs(row))) for row in off]
     worst, agree = tuple(Quantity(miss * deg, "angle", 2) for miss in misses), max(misses) < 1e-11
     return Figure(
         name="book",

@@ -10,7 +10,6 @@ import numpy as np
 from cardan.errors import JointAngleLimitError, Problem, check
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.curves import paths
-from cardan.maths.curves import paths as spectra
 from cardan.maths.curves.paths import Jet, plus
 from cardan.questions.motion.moving_chain import moving_axes
 from cardan.texts import _
@@ -160,9 +159,7 @@ def swinging_joint(
     147.140135
     """
     at = np.asarray(times, dtype=float)
-    joint_angle = paths.plus(
-        (np.asarray(mean), np.asarray(0.0), np.asarray(0.0)), paths.swing(amplitude, frequency, phase, at)
-    )
+    joint_angle = paths.plus(paths.resting(np.asarray(mean)), paths.swing(amplitude, frequency, phase, at))
     angle = speed * at + 0.5 * acceleration * at**2
     omega = speed + acceleration * at
     driven = driven_motion(joint_angle, angle + start_phase, speed=omega, acceleration=acceleration)
@@ -339,7 +336,7 @@ def rate_deviation(frequency: ArrayLike, density: ArrayLike) -> float:
     frequency (m,) [rad/s]: corners of the spectrum, rising.
     density (m,) [unit²·s/rad]: one-sided density there, linear between.
     """
-    return math.sqrt(spectra.rate_variance(frequency, density))
+    return math.sqrt(paths.rate_variance(frequency, density))
 
 
 def sideband_gain(mean: float) -> float:
@@ -362,10 +359,8 @@ def sidebands(at: ArrayLike, *, mean: float, frequency: ArrayLike, density: Arra
     κ² σ_α²/2. To first order in the deviation of the joint angle; the higher orders 4ω_1 … are smaller by τ.
     """
     omega = np.asarray(at, dtype=float)
-    both = spectra.two_sided(frequency, density, omega - 2.0 * speed) + spectra.two_sided(
-        frequency, density, omega + 2.0 * speed
-    )
-    result: Array = 0.25 * sideband_gain(mean) ** 2 * both
+    below, above = (paths.two_sided(frequency, density, omega + shift) for shift in (-2.0 * speed, 2.0 * speed))
+    result: Array = 0.25 * sideband_gain(mean) ** 2 * (below + above)
     return result
 
 
@@ -379,8 +374,8 @@ def random_joint_angle_path(
     components: number of cosines; enough not to repeat within the times by default.
     """
     at = np.atleast_1d(np.asarray(times, dtype=float))
-    count = components or spectra.enough_components(frequency, float(at[-1] - at[0]))
-    path = spectra.sample_path(frequency, density, at, seed=seed, components=count)
+    count = components or paths.enough_components(frequency, float(at[-1] - at[0]))
+    path = paths.sample_path(frequency, density, at, seed=seed, components=count)
     return plus((np.full(at.shape, mean), np.zeros(at.shape), np.zeros(at.shape)), path)
 
 
@@ -399,15 +394,7 @@ def _problems(mean: float, deviation: float, rate: float, nodes: int) -> list[Pr
     if nodes < 40:
         found.append(Problem("nodes", _("{nodes} nodes are too few; at least 40").format(nodes=nodes)))
     if not abs(mean) + REACH * abs(deviation) < 0.5 * math.pi:
-        raise JointAngleLimitError(
-            [
-                *found,
-                Problem(
-                    "deviation",
-                    _("mean {mean:.4g}° and six standard deviations of {deviation:.4g}° reach 90°").format(
-                        mean=mean / deg, deviation=deviation / deg
-                    ),
-                ),
-            ]
-        )
+        text = _("mean {mean:.4g}° and six standard deviations of {deviation:.4g}° reach 90°")
+        message = text.format(mean=mean / deg, deviation=deviation / deg)
+        raise JointAngleLimitError([*found, Problem("deviation", message)])
     return found

@@ -87,17 +87,8 @@ def _axis(old: Axis, scale: float, reader: Reader) -> Axis:
         if scale != 1.0:
             ticks = _decades(low, high) if old.log else steps(low, high, max(len(old.ticks) - 1, 3))
         texts = ("",) * len(ticks)
-    return replace(
-        old,
-        label=label,
-        unit=_printed(old, reader),
-        dimension="",
-        low=low,
-        high=high,
-        ticks=ticks,
-        texts=texts,
-        numeric=numeric,
-    )
+    made = replace(old, label=label, unit=_printed(old, reader), dimension="", low=low, high=high)
+    return replace(made, ticks=ticks, texts=texts, numeric=numeric)
 
 
 def _printed(what: Axis | Panel, reader: Reader) -> str:

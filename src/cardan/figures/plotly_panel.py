@@ -159,21 +159,13 @@ class PanelWriter:
         if item.z is not None and self.panel.view is not None:
             seen = onto(self.panel.view, np.asarray([item.x, item.y, item.z]))
             x, y = float(seen[0]), float(seen[1])
-        self.layout["annotations"].append(
-            {
-                "text": f"<b>{escape(item.text)}</b>" if item.bold else escape(item.text),
-                "x": float(np.log10(x)) if self.panel.x.log else x,
-                "y": float(np.log10(y)) if self.panel.y.log else y,
-                "xref": f"x{self.tail}",
-                "yref": f"y{self.tail}",
-                "xanchor": _SIDES[item.side],
-                "yanchor": item.level,
-                "xshift": 1.5 * item.shift[0],
-                "yshift": 1.5 * item.shift[1],
-                "showarrow": False,
-                "font": {"size": 1.45 * item.size, "color": palette.colour(item.role)},
-            }
-        )
+        x = float(np.log10(x)) if self.panel.x.log else x
+        y = float(np.log10(y)) if self.panel.y.log else y
+        place = {"x": x, "y": y, "xref": f"x{self.tail}", "yref": f"y{self.tail}"}
+        sides = {"xanchor": _SIDES[item.side], "yanchor": item.level}
+        shift = {"xshift": 1.5 * item.shift[0], "yshift": 1.5 * item.shift[1], "showarrow": False}
+        font = {"size": 1.45 * item.size, "color": palette.colour(item.role)}
+        self.layout["annotations"].append({"text": _marked(item), **place, **sides, **shift, "font": font})
 
     def _shape(self, item: Rule | Band, low: float, high: float, **how: Any) -> None:
         """Add a rule or band across the panel, and its words at its upper or right end."""
@@ -317,9 +309,13 @@ def _surface(corners: Array, triangles: Any, tint: str, name: str, item: Mesh | 
     return {**made, "text": item.text, "hoverinfo": "text"}
 
 
+def _marked(item: Note) -> str:
+    return f"<b>{escape(item.text)}</b>" if item.bold else escape(item.text)
+
+
 def _word(item: Note) -> Spec:
     return {
-        "text": f"<b>{escape(item.text)}</b>" if item.bold else escape(item.text),
+        "text": _marked(item),
         **{"x": item.x, "y": item.y, "z": item.z, "showarrow": False},
         **{"xshift": item.shift[0] * 1.5, "yshift": item.shift[1] * 1.5},
         "font": {"color": palette.colour(item.role), "size": 12},

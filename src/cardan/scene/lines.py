@@ -26,6 +26,8 @@ STEP = math.radians(5.0)
 LEAST = math.radians(0.05)
 """Smaller angles are not drawn, only told."""
 
+SHOWN = ("names", "axes")
+"""Groups that are drawn from the start."""
 Drawn = tuple[tuple[SceneLine, ...], tuple[SceneArea, ...], tuple[SceneLabel, ...], tuple[SceneGroup, ...]]
 
 
@@ -101,38 +103,25 @@ def drawn_round(build: Build, size: float) -> Drawn:
         draw(paper)
     _dimensions(paper, size)
     _names(paper)
-    groups = (
-        SceneGroup(name="names", title=_("Names"), on=True),
-        SceneGroup(name="axes", title=_("Axes"), on=True, text=_("Chain lines are the axes of the shafts.")),
-        SceneGroup(
-            name="planes",
-            title=_("Planes"),
-            on=False,
-            text=_("The plane of a joint holds its two shafts; β is the twist from one plane to the next."),
-        ),
-        SceneGroup(
-            name="angles",
-            title=_("Joint angles"),
-            on=False,
-            text=_("The joint angle of a joint is the angle between its two shafts."),
-        ),
-        SceneGroup(
-            name="yokes",
-            title=_("Yoke angles"),
-            on=False,
-            text=_(
-                "γ runs from the driving to the driven yoke of a shaft, ψ from the plane of a joint to its driving "
-                "yoke at the start; clockwise along the power flow is positive."
-            ),
-        ),
-        SceneGroup(
-            name="dimensions",
-            title=_("Dimensions"),
-            on=False,
-            text=_("Lengths between joint centres, and how far the last one lies off the first."),
+    yokes = _(
+        "γ runs from the driving to the driven yoke of a shaft, ψ from the plane of a joint to its driving "
+        "yoke at the start; clockwise along the power flow is positive."
+    )
+    planes = _("The plane of a joint holds its two shafts; β is the twist from one plane to the next.")
+    rows = (
+        ("names", _("Names"), ""),
+        ("axes", _("Axes"), _("Chain lines are the axes of the shafts.")),
+        ("planes", _("Planes"), planes),
+        ("angles", _("Joint angles"), _("The joint angle of a joint is the angle between its two shafts.")),
+        ("yokes", _("Yoke angles"), yokes),
+        (
+            "dimensions",
+            _("Dimensions"),
+            _("Lengths between joint centres, and how far the last one lies off the first."),
         ),
     )
-    return tuple(paper.lines), tuple(paper.areas), tuple(paper.labels), groups
+    groups = (SceneGroup(name=name, title=title, on=name in SHOWN, text=text) for name, title, text in rows)
+    return tuple(paper.lines), tuple(paper.areas), tuple(paper.labels), tuple(groups)
 
 
 def _ends(build: Build, k: int) -> tuple[Array, Array]:
