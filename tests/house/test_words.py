@@ -28,6 +28,8 @@ BANNED = (
 WORDS = re.compile(rf"(?<!there )(?<!There )\b(?:{'|'.join(BANNED)})(?:(?<= )|\b)")
 
 TRADE = (
+    "Performance Composites, mechanical properties of carbon fibre composite materials, 120 C cure epoxy, Vf 60 % UD, "
+    "50 % fabric (performance-composites.com/carbonfibre/mechanicalproperties_2.asp)",
     "swing the joint by hand: it sticks or catches",
     "The lightest tube that passes weighs {mass}: {outer} by {wall}; now it is {now}.",
     "sizes 800-3000 daN m, norm ON 025 311-68 (Fig. 41)",

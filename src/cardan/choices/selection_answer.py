@@ -191,7 +191,7 @@ def _sizes(sizes: Sequence[SizeFit], asked: bool) -> Table:
 def _remarks(result: Selection) -> Iterator[Remark]:
     unrated = [one.row.id for one in result.types if one.state == "unrated"]
     if unrated:
-        text = _("Their sources give no torque, so these types are no candidates: {types}.")
+        text = _("Their sources give no torque, so these types are not candidates: {types}.")
         yield Remark(text=text.format(types=", ".join(unrated)))
     yield Remark(text=_("A figure that the source of a type does not give is a condition: look it up at the maker's."))
     if any(one.fits for one in result.sizes):
