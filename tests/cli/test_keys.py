@@ -2,7 +2,7 @@
 
 import pytest
 
-from cardan.cli.files.lookup import SYNONYMS, finds
+from cardan.cli.shared.words import SYNONYMS, finds
 from cardan.drive.drive import Drive
 from cardan.io import schema
 from cardan.io.keys import file_keys, written_in_examples

@@ -23,7 +23,7 @@ from cardan.files import refusal
 from cardan.later import later
 from cardan.texts import _, language, mark, plural
 
-lookup = later("cardan.cli.files.lookup")
+words = later("cardan.cli.shared.words")
 
 DONE, FAILED, BAD_INPUT, FAULT, INTERRUPTED = 0, 1, 2, 70, 130
 """Exit codes."""
@@ -109,7 +109,7 @@ def _usage(error: Any) -> str:
     command = context.command_path if context is not None else "cardan"
     said = " ".join(str(error.format_message()).split()).replace("Value error, ", "")
     unknown = re.fullmatch(r"No such command '(.*)'\.", said)
-    meant = lookup().commands_for(unknown[1]) if unknown else []
+    meant = words().commands_for(unknown[1]) if unknown else []
     if unknown and meant:
         said = f"No such command {unknown[1]!r}. Did you mean {', '.join(meant)}?"
     text = reworded(said)
