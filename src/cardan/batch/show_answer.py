@@ -301,10 +301,7 @@ def _facts(asked: Asked, exported: tuple[Path, int] | None) -> dict[str, Any]:
     chosen: dict[str, Any] = (
         {"spans": asked.spans, "count": results.count(asked.where)}
         if not (asked.query or asked.goals)
-        else {
-            "rows": {name: column[:LISTED].tolist() for name, column in asked.rows.items()},
-            "count": asked.length,
-        }
+        else {"rows": {name: column[:LISTED].tolist() for name, column in asked.rows.items()}, "count": asked.length}
     )
     return {
         "folder": str(asked.path),

@@ -102,7 +102,7 @@ def answer_of_table(known: Catalogue, name: str) -> Answer:
                 columns=(
                     *_columns(name, brief, rows, who),
                     Column(key="", heading=_("how sure"), values=[row.confidence for row in rows], left=True),
-                ),
+                )
             ),
         ),
         remarks=(
@@ -227,7 +227,7 @@ def answer_of_file(path: Path, found: Catalogue) -> Answer:
                     Column(key="rows", heading=_("rows"), values=[len(rows) for rows in own.values()]),
                     Column(key="ids", heading=_("ids"), values=[", ".join(rows) for rows in own.values()]),
                     Column(key="replaces", heading=_("in place of shipped ones"), values=instead, wrap=True),
-                ),
+                )
             ),
         ),
         remarks=(Remark(text=use.format(file=path.name)),),

@@ -224,7 +224,7 @@ COMMANDS = {
                 QUESTIONS,
                 _("Results of a sweep: the best points, pictures, exports."),
                 ("cardan sweep show results", "cardan sweep show results --plot sweep.html"),
-            ),
+            )
         },
     ),
     "report": Entry(

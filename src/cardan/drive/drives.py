@@ -87,8 +87,7 @@ class Drives:
             given = xp.zeros(between, dtype=xp.float64) if value is None else real(value, xp)
             if given.shape[-1:] != between[-1:]:
                 raise refuse(
-                    name,
-                    _("{given} values given, {wanted} needed").format(given=given.shape[-1], wanted=between[-1]),
+                    name, _("{given} values given, {wanted} needed").format(given=given.shape[-1], wanted=between[-1])
                 )
             if not _fits(given.shape, between):
                 raise refuse(name, _misfit(given.shape, between))

@@ -117,18 +117,10 @@ class Shaft:
     name: str = plain("", doc="name of the shaft, for tables and pictures")
     length: float | None = quantity("length", None, doc="length between the joint centres at its ends", above=0.0)
     side_slope: float | None = quantity(
-        "angle",
-        None,
-        doc="slope in side view, positive when rising along the power flow",
-        above=-1.57,
-        below=1.57,
+        "angle", None, doc="slope in side view, positive when rising along the power flow", above=-1.57, below=1.57
     )
     plan_slope: float | None = quantity(
-        "angle",
-        None,
-        doc="slope in plan view, positive to the left of the power flow",
-        above=-1.57,
-        below=1.57,
+        "angle", None, doc="slope in plan view, positive to the left of the power flow", above=-1.57, below=1.57
     )
     yoke_angle: float = quantity(
         "angle",

@@ -38,12 +38,7 @@ PICTURE = re.compile(
 LONGEST_TITLE = 250
 """Letters of a title among the properties."""
 
-QUIET = {
-    "in_memory": True,
-    "strings_to_formulas": False,
-    "strings_to_urls": False,
-    "strings_to_numbers": False,
-}
+QUIET = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
 """Words that look like a formula, an address or a number are words."""
 
 

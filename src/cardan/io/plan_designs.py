@@ -210,12 +210,7 @@ def _following(plan: Plan, table: Table) -> Following | None:
     if table.problems or ask is None:
         return None
     return Following(
-        ask=ask,
-        bounds=bounds,
-        limits=limits,
-        coarse=(coarse[0], coarse[1]),
-        halvings=halvings,
-        accuracy=accuracy,
+        ask=ask, bounds=bounds, limits=limits, coarse=(coarse[0], coarse[1]), halvings=halvings, accuracy=accuracy
     )
 
 

@@ -144,11 +144,7 @@ def _shafts(on: Subject) -> Table:
         columns.append(Column(key="spline_teeth", heading=_("spline teeth"), values=teeth))
     columns.append(
         Column(
-            key="speed_fluctuation",
-            heading=_("speed fluctuation δ"),
-            values=fluctuation,
-            dimension="share",
-            digits=3,
+            key="speed_fluctuation", heading=_("speed fluctuation δ"), values=fluctuation, dimension="share", digits=3
         )
     )
     return table(answer.Table(title=_("Shafts"), columns=columns))

@@ -276,10 +276,7 @@ def _changes(on: Subject) -> Iterator[tuple[Text, float]]:
         closing, now = float(on.closing.joint_angle_allowed), float(on.joint_angle[on.closing.longest - 1])
         if round(closing / deg, 2) != round(now / deg, 2):
             text = _("reduce joint angle {k} from {now} to {closing} and re-phase the yokes")
-            angles = {
-                "closing": Quantity(closing, "angle", decimals=2),
-                "now": Quantity(now, "angle", decimals=2),
-            }
+            angles = {"closing": Quantity(closing, "angle", decimals=2), "now": Quantity(now, "angle", decimals=2)}
             yield say(text, k=on.closing.longest, **angles), 0.0
 
 

@@ -97,11 +97,7 @@ def _light(group: Sequence[Verdict]) -> Light:
 def _applicable(light: Light, found: Sequence[Remedy]) -> tuple[Applicable, ...]:
     mine = [one for one in found if f"{one.check} {one.subject}" == light.name]
     return tuple(
-        Applicable(
-            label=f"{one.path} = {typed(one.value)}",
-            effect=_effect(one),
-            values={one.path: one.value},
-        )
+        Applicable(label=f"{one.path} = {typed(one.value)}", effect=_effect(one), values={one.path: one.value})
         for one in mine[:REMEDIES]
     )
 

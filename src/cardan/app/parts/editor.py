@@ -120,12 +120,7 @@ class Source:
 COLUMNS = {
     "points": {"input": ("point",), "joints": ("centre",), "shafts": (), "output": ("point",)},
     "angles": {"input": (), "joints": ("joint_angle", "plane_twist"), "shafts": ("length", "yoke_angle"), "output": ()},
-    "slopes": {
-        "input": (),
-        "joints": (),
-        "shafts": ("length", "side_slope", "plan_slope", "yoke_angle"),
-        "output": (),
-    },
+    "slopes": {"input": (), "joints": (), "shafts": ("length", "side_slope", "plan_slope", "yoke_angle"), "output": ()},
 }
 """Form of the geometry -> the keys of each table that give it."""
 

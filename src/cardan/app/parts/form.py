@@ -73,12 +73,7 @@ class Form:
 
     def _adders(self) -> None:
         with ui.element("div").classes("adders"):
-            names = {
-                "supports": _("support"),
-                "stations": _("station"),
-                "movements": _("movement"),
-                "poses": _("pose"),
-            }
+            names = {"supports": _("support"), "stations": _("station"), "movements": _("movement"), "poses": _("pose")}
             with drop_down(_("add"), "add", icon="add"):
                 ui.item(_("joint"), on_click=lambda: self._add_joint())
                 for name, title in names.items():

@@ -216,16 +216,7 @@ class SettingsMenu:
 
 
 def _dimensions() -> dict[str, str]:
-    titles = (
-        _("length"),
-        _("angle"),
-        _("speed"),
-        _("torque"),
-        _("force"),
-        _("mass"),
-        _("stress"),
-        _("power"),
-    )
+    titles = (_("length"), _("angle"), _("speed"), _("torque"), _("force"), _("mass"), _("stress"), _("power"))
     return dict(zip(CHOSEN, titles, strict=True))
 
 

@@ -163,14 +163,7 @@ class _Running:
     """One run of a sweep."""
 
     def __init__(
-        self,
-        work: Work,
-        engine: Engine,
-        chunks: Chunks,
-        *,
-        keeps: bool,
-        told: _Told,
-        store: Store | None = None,
+        self, work: Work, engine: Engine, chunks: Chunks, *, keeps: bool, told: _Told, store: Store | None = None
     ) -> None:
         self.work, self.engine, self.chunks, self.store, self.keeps = work, engine, chunks, store, keeps
         self.told = told

@@ -63,12 +63,7 @@ def shown(column: Field, values: Sequence[Any], digits: int = 5, *, heading: str
     told = [(one * size if dimension else tidied(one)) if isinstance(one, float) else one for one in values]
     unit = column.unit if dimension else ""
     return Column(
-        key=column.name,
-        heading=heading or called(column),
-        values=told,
-        dimension=dimension,
-        unit=unit,
-        digits=digits,
+        key=column.name, heading=heading or called(column), values=told, dimension=dimension, unit=unit, digits=digits
     )
 
 

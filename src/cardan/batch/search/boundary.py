@@ -335,12 +335,7 @@ def _joined(grid: _Grid, cells: Array, crossings: dict[tuple[int, int, int], Arr
 
 
 def _check(
-    ask: Evaluator,
-    bounds: Bounds,
-    limits: Sequence[Limit],
-    coarse: tuple[int, int],
-    halvings: int,
-    accuracy: float,
+    ask: Evaluator, bounds: Bounds, limits: Sequence[Limit], coarse: tuple[int, int], halvings: int, accuracy: float
 ) -> None:
     """Refuse what cannot be followed, all at once."""
     check_names(limits, ask.answers)

@@ -321,14 +321,7 @@ def _descend(search: _Search, how: Local, start: Array, *, small: bool) -> bool:
     def cost(share: Any) -> Any:
         return search.single(share)[0]
 
-    found: Any = scipy.optimize.minimize(
-        cost,
-        start,
-        method="COBYQA",
-        bounds=box,
-        constraints=limits,
-        options=options,
-    )
+    found: Any = scipy.optimize.minimize(cost, start, method="COBYQA", bounds=box, constraints=limits, options=options)
     return bool(found.success) or int(found.status) in (0, 1, 2)
 
 

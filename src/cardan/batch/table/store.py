@@ -84,12 +84,7 @@ class Store:
 
 @contextmanager
 def opened(
-    path: Path,
-    work: Work,
-    *,
-    keeps: bool,
-    cut: Callable[[], int],
-    heard: Callable[[], object] = lambda: None,
+    path: Path, work: Work, *, keeps: bool, cut: Callable[[], int], heard: Callable[[], object] = lambda: None
 ) -> Iterator[Store]:
     """Open the folder of a sweep and keep others from it; what is there and whole is known afterwards.
 

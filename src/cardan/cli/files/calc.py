@@ -49,8 +49,7 @@ def calc(
         ),
     ] = None,
     list_: Annotated[
-        bool,
-        typer.Option("--list", "-l", help=_("List the formulas, or the keys of one."), show_default=False),
+        bool, typer.Option("--list", "-l", help=_("List the formulas, or the keys of one."), show_default=False)
     ] = False,
     json: AsJson = False,
     csv: AsCsv = False,

@@ -91,11 +91,7 @@ def _copied(name: str, text: str, place: Path) -> Answer:
         title=_("Examples"),
         sentence=_("{path}: example {name} copied.").format(path=place, name=name),
         tone="good",
-        remarks=(
-            Remark(text=about(text)),
-            *first,
-            Remark(text=_("Look at it:"), command=tuple(command), tone="next"),
-        ),
+        remarks=(Remark(text=about(text)), *first, Remark(text=_("Look at it:"), command=tuple(command), tone="next")),
         facts={"example": name, "file": str(place), "shows": about(text)},
     )
 

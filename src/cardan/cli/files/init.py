@@ -17,8 +17,7 @@ from cardan.texts import _
 
 def init(
     file: Annotated[
-        Path,
-        typer.Argument(metavar="FILE", help=_("File to write, TOML; - prints it."), show_default=False),
+        Path, typer.Argument(metavar="FILE", help=_("File to write, TOML; - prints it."), show_default=False)
     ],
     force: Annotated[bool, typer.Option("--force", help=_("Overwrite FILE."), show_default=False)] = False,
     json: AsJson = False,

@@ -25,9 +25,7 @@ def mobility(
     file: Annotated[
         Path,
         typer.Argument(
-            metavar="FILE",
-            help=_("Drive or mechanism file, TOML or JSON; - reads standard input."),
-            show_default=False,
+            metavar="FILE", help=_("Drive or mechanism file, TOML or JSON; - reads standard input."), show_default=False
         ),
     ],
     turn: Annotated[

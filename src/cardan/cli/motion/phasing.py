@@ -33,10 +33,7 @@ def phasing(
     fix: Annotated[
         list[str] | None,
         typer.Option(
-            "--fix",
-            metavar="SHAFT=DEG",
-            help=_("Hold the yoke angle of a shaft; may be repeated."),
-            show_default=False,
+            "--fix", metavar="SHAFT=DEG", help=_("Hold the yoke angle of a shaft; may be repeated."), show_default=False
         ),
     ] = None,
     goal: Annotated[

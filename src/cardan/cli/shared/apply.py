@@ -18,13 +18,7 @@ from cardan.texts import _
 
 
 def written(
-    found: Phasing,
-    drive: Drive,
-    text: str,
-    *,
-    label: str | None,
-    out: Path,
-    also: Mapping[str, Any],
+    found: Phasing, drive: Drive, text: str, *, label: str | None, out: Path, also: Mapping[str, Any]
 ) -> tuple[YokeSetting, dict[str, Any]]:
     """Write a setting into a file and return it with what changed there, by paths with units.
 

@@ -79,12 +79,7 @@ SUFFIX = {
 
 
 def check_options(
-    speed_rpm: float | None = None,
-    torque: float | None = None,
-    *,
-    json: bool,
-    csv: bool,
-    plot: Path | None = None,
+    speed_rpm: float | None = None, torque: float | None = None, *, json: bool, csv: bool, plot: Path | None = None
 ) -> None:
     """Refuse common options that cannot be, before anything is read."""
     check_common(json=json, csv=csv, plot=plot)

@@ -34,10 +34,7 @@ Pulses: TypeAlias = Annotated[
 Rate: TypeAlias = Annotated[
     float | None,
     typer.Option(
-        "--rate-hz",
-        metavar="HZ",
-        help=_("Values a second, for files that do not say it."),
-        show_default=False,
+        "--rate-hz", metavar="HZ", help=_("Values a second, for files that do not say it."), show_default=False
     ),
 ]
 Titles: TypeAlias = Annotated[

@@ -31,19 +31,13 @@ AsCsv: TypeAlias = Annotated[bool, typer.Option("--csv", help=_("Print the full 
 Plot: TypeAlias = Annotated[
     Path | None,
     typer.Option(
-        "--plot",
-        metavar="PATH",
-        help=_("Draw the figure into PATH: .svg, .png, .pdf or .html."),
-        show_default=False,
+        "--plot", metavar="PATH", help=_("Draw the figure into PATH: .svg, .png, .pdf or .html."), show_default=False
     ),
 ]
 SpeedRpm: TypeAlias = Annotated[
     float | None,
     typer.Option(
-        "--speed-rpm",
-        metavar="RPM",
-        help=_("Input speed, instead of the one in the file."),
-        show_default=False,
+        "--speed-rpm", metavar="RPM", help=_("Input speed, instead of the one in the file."), show_default=False
     ),
 ]
 MoreRows: TypeAlias = Annotated[

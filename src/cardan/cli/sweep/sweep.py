@@ -28,10 +28,7 @@ HELD = 200_000
 
 
 def sweep(
-    plan: Annotated[
-        Path,
-        typer.Argument(metavar="PLAN", help=_("Plan file, TOML or JSON."), show_default=False),
-    ],
+    plan: Annotated[Path, typer.Argument(metavar="PLAN", help=_("Plan file, TOML or JSON."), show_default=False)],
     into: Annotated[
         Path | None,
         typer.Option(
@@ -75,8 +72,7 @@ def sweep(
         ),
     ] = None,
     resume: Annotated[
-        bool,
-        typer.Option("--resume", help=_("Go on with the sweep of FOLDER, and begin none."), show_default=False),
+        bool, typer.Option("--resume", help=_("Go on with the sweep of FOLDER, and begin none."), show_default=False)
     ] = False,
     design: Annotated[
         str | None,
@@ -109,12 +105,7 @@ def sweep(
     where = _engine(read, engine, workers, scheduler)
     with keeping(_("answering points"), count=work.size) as progress:
         found = run(
-            work,
-            engine=where,
-            into=into,
-            rows="kept" if keeps else "none",
-            chunk=read.chunk,
-            progress=progress,
+            work, engine=where, into=into, rows="kept" if keeps else "none", chunk=read.chunk, progress=progress
         )
     title = read.title or read.drive.name or _("the drive")
     return ended(tell(answer(work, found, plan, keeps=keeps), name=title, json=json, csv=csv), progress)

@@ -23,8 +23,7 @@ KINDS = ("lines", "pareto", "map", "histogram", "tornado")
 
 def sweep_show(
     results: Annotated[
-        Path,
-        typer.Argument(metavar="RESULTS", help=_("Folder that a sweep was run into."), show_default=False),
+        Path, typer.Argument(metavar="RESULTS", help=_("Folder that a sweep was run into."), show_default=False)
     ],
     best: Annotated[
         str | None,

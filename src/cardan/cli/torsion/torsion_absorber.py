@@ -68,8 +68,7 @@ def torsion_absorber(
         typer.Option("--mode", metavar="N", help=_("Mode to suppress; the strongest by default."), show_default=False),
     ] = None,
     order: Annotated[
-        float | None,
-        typer.Option("--order", metavar="ORDER", help=_("Order that excites it."), show_default=False),
+        float | None, typer.Option("--order", metavar="ORDER", help=_("Order that excites it."), show_default=False)
     ] = None,
     radius: Annotated[
         float | None,

@@ -251,10 +251,7 @@ def sizes(drive: Drive, place: Geometry) -> Sizes:
         solid.append(radius is not None)
     ends = tuple(
         _end(drive, number, length, size)
-        for number, length, size in (
-            (1, lengths[0], joints[0]),
-            (len(drive.shafts), lengths[-1], joints[-1]),
-        )
+        for number, length, size in ((1, lengths[0], joints[0]), (len(drive.shafts), lengths[-1], joints[-1]))
     )
     return Sizes(joints=joints, bodies=tuple(bodies), solid=tuple(solid), ends=ends, usual=usual)  # type: ignore[arg-type]
 

@@ -28,10 +28,7 @@ class DoubleCardan(Joint):
 
     kind: ClassVar[str] = "double_cardan"
     title: ClassVar[str] = mark("double cardan")
-    types: ClassVar[tuple[str, ...]] = (
-        "double_centred",
-        "double_frame",
-    )
+    types: ClassVar[tuple[str, ...]] = ("double_centred", "double_frame")
     fixed: ClassVar[bool] = True
     steepest: ClassVar[float] = 0.5 * math.pi
 

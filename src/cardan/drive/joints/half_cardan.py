@@ -28,11 +28,7 @@ class HalfCardan(Joint):
 
     kind: ClassVar[str] = "half_cardan"
     title: ClassVar[str] = mark("half joint")
-    types: ClassVar[tuple[str, ...]] = (
-        "half_bell",
-        "half_gear",
-        "gear_crowned_modern",
-    )
+    types: ClassVar[tuple[str, ...]] = ("half_bell", "half_gear", "gear_crowned_modern")
     crossed: ClassVar[bool] = True
     slides: ClassVar[bool] = True
     refusals: ClassVar[Mapping[str, str]] = {

@@ -30,12 +30,7 @@ class Rzeppa(Joint):
 
     kind: ClassVar[str] = "rzeppa"
     title: ClassVar[str] = mark("Rzeppa")
-    types: ClassVar[tuple[str, ...]] = (
-        "rzeppa_lever",
-        "rzeppa_offset",
-        "rzeppa_fixed_modern",
-        "plunging_ball_modern",
-    )
+    types: ClassVar[tuple[str, ...]] = ("rzeppa_lever", "rzeppa_offset", "rzeppa_fixed_modern", "plunging_ball_modern")
     fixed: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(47.0)
 

@@ -72,10 +72,7 @@ class Weiss(Joint):
 
     kind: ClassVar[str] = "weiss"
     title: ClassVar[str] = mark("Weiss")
-    types: ClassVar[tuple[str, ...]] = (
-        "weiss_curved",
-        "weiss_straight",
-    )
+    types: ClassVar[tuple[str, ...]] = ("weiss_curved", "weiss_straight")
     fixed: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(40.0)
 
@@ -157,11 +154,7 @@ def course(angle: Array, angle_error: Callable[[Array], Array]) -> tuple[Array, 
     orders = np.flatnonzero(np.abs(wave[: SAMPLES // 2]) > NOISE)
     turn = np.exp(1j * theta[..., None] * orders)
     parts = wave[orders]
-    return (
-        (turn @ parts).real,
-        1.0 + (turn @ (1j * orders * parts)).real,
-        (turn @ (-(orders**2) * parts)).real,
-    )
+    return ((turn @ parts).real, 1.0 + (turn @ (1j * orders * parts)).real, (turn @ (-(orders**2) * parts)).real)
 
 
 # Balls between circular grooves whose centres stand off the joint: curved Weiss grooves, offset Rzeppa grooves.

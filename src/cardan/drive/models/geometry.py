@@ -421,10 +421,7 @@ def _to_slopes(drive: Drive, place: Geometry) -> Drive:
         joints=tuple(replace(joint, centre=None, joint_angle=None, plane_twist=None) for joint in drive.joints),
         shafts=tuple(
             replace(
-                shaft,
-                length=length,
-                side_slope=math.atan2(axis[2], axis[0]),
-                plan_slope=math.atan2(axis[1], axis[0]),
+                shaft, length=length, side_slope=math.atan2(axis[2], axis[0]), plan_slope=math.atan2(axis[1], axis[0])
             )
             for shaft, axis, length in zip(drive.shafts, place.axis, _shaft_lengths(drive, place), strict=True)
         ),

@@ -61,12 +61,7 @@ def read(path: Path, asked: Asked) -> Raw:
     names = ("left", "right") if len(rows) == 2 else tuple(f"channel {k + 1}" for k in range(len(rows)))
     return Raw(
         columns=[
-            Column(
-                title=one,
-                values=row * scale[k % len(scale)],
-                rate=rate,
-                scaled=bool(asked.full_scale) or not whole,
-            )
+            Column(title=one, values=row * scale[k % len(scale)], rate=rate, scaled=bool(asked.full_scale) or not whole)
             for k, (one, row) in enumerate(zip(names, rows, strict=True))
         ],
         cautions=tuple(cautions),

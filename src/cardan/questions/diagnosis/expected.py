@@ -373,11 +373,7 @@ def _tight(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedO
 def _crack(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     across, along = (min(0.8, one * severity) for one in LOSSES)
     weight = float(base.mass[chosen]) * GRAVITY
-    for order, share in (
-        (1.0, 0.25 * across),
-        (2.0, 0.25 * (across - along)),
-        (3.0, 0.125 * (across - along)),
-    ):
+    for order, share in ((1.0, 0.25 * across), (2.0, 0.25 * (across - along)), (3.0, 0.125 * (across - along))):
         force = share * weight
         yield from _spread(base, _ends(chosen, force), order=order, power=0.0, source=PAPER, axial=0.1, amplified=True)
 

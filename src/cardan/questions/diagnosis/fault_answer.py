@@ -82,12 +82,7 @@ def answer_of_list() -> Answer:
         ),
     )
     text = _("{count} faults can be simulated.")
-    return Answer(
-        name="simulate-fault",
-        title=_("Faults"),
-        sentence=say(text, count=len(FAULTS)),
-        tables=(table,),
-    )
+    return Answer(name="simulate-fault", title=_("Faults"), sentence=say(text, count=len(FAULTS)), tables=(table,))
 
 
 def fault_words(fault: str) -> str:

@@ -107,11 +107,7 @@ def _known(drive: Drive) -> tuple[DriveModel, Expected]:
 
 
 def features(
-    signal: Signal,
-    drive: Drive,
-    *,
-    speed_range: tuple[float, float] | None = None,
-    progress: Progress | None = None,
+    signal: Signal, drive: Drive, *, speed_range: tuple[float, float] | None = None, progress: Progress | None = None
 ) -> Features:
     """Return what a recording of a drive shows, in figures.
 

@@ -90,11 +90,7 @@ def as_data(content: Content) -> dict[str, Any]:
 
 def _words() -> dict[str, str]:
     """Return the words of the template itself."""
-    return {
-        "kicker": _("Drive report"),
-        "summary": _("Summary"),
-        "contents": _("Contents"),
-    }
+    return {"kicker": _("Drive report"), "summary": _("Summary"), "contents": _("Contents")}
 
 
 def _printable(data: Any) -> Any:

@@ -158,9 +158,7 @@ def ball_demands(angle: ArrayLike, joint_angle: ArrayLike, tilt: ArrayLike, coun
     step = xp.arange(count, dtype=xp.float64) * (2.0 * xp.pi / count)
     each = deviation(phi[..., None] + step, alpha[..., None], eta[..., None])
     return BallDemands(
-        mean=mean + 0.0,
-        spread=xp.max(each, axis=-1) - xp.min(each, axis=-1),
-        largest=xp.max(xp.abs(each), axis=-1),
+        mean=mean + 0.0, spread=xp.max(each, axis=-1) - xp.min(each, axis=-1), largest=xp.max(xp.abs(each), axis=-1)
     )
 
 

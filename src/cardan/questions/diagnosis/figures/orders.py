@@ -387,12 +387,7 @@ def expected_figure(found: Expected) -> Figure:
             series=(*marks, *curves),
             x=axis(_("speed"), "rpm", [speed / rpm], dimension="angular_speed", count=8),
             y=axis(
-                title.format(place=place),
-                unit,
-                [one.y for one in curves],
-                dimension=dimension,
-                include=(0.0,),
-                count=4,
+                title.format(place=place), unit, [one.y for one in curves], dimension=dimension, include=(0.0,), count=4
             ),
         )
         rows.append(Row(panels=(panel,), height=1.5))

@@ -56,11 +56,7 @@ class Turned:
 
 
 def turned(
-    channel: Channel,
-    rotation: Rotation,
-    *,
-    highest: float = HIGHEST,
-    progress: Progress | None = None,
+    channel: Channel, rotation: Rotation, *, highest: float = HIGHEST, progress: Progress | None = None
 ) -> Turned:
     """Return a channel at even angles of the shaft, filtered so that nothing folds onto the orders asked for.
 
