@@ -14,7 +14,6 @@ from cardan.io import example, example_names, example_text, loads
 from cardan.io.edit import edit
 from cardan.questions.gathering import principal
 from cardan.register import QUESTIONS, groups
-from cardan.report import subject as subjects
 from cardan.report.answers import answered, subject, told
 from cardan.report.content import loaded, moved
 from cardan.report.subject import Subject
@@ -95,8 +94,8 @@ def test_the_page_of_the_motion_asks_nothing_about_the_yokes(monkeypatch):
     def never(*_args, **_kwargs):
         raise AssertionError("asked")
 
-    monkeypatch.setattr(subjects, "phases", never)
-    monkeypatch.setattr(subjects, "articulation", never)
+    monkeypatch.setattr(QUESTIONS["phasing"].home, "ask", never)
+    monkeypatch.setattr(QUESTIONS["articulation"].home, "ask", never)
     assert moved(example("truck-power-unit"))[0].blocks
     assert answered("motion", Subject(drive=example("truck-power-unit"))).blocks
 

@@ -130,7 +130,7 @@ def test_a_drive_even_but_for_rounded_coordinates_is_not_called_uneven():
     on = asked(example("pto-spline-thrust"), None, None)
     assert on.rounded
     assert not on.phasing.feasible
-    yokes = phased(on.drive, on.phasing)
+    yokes = phased(on)
     drawn = yokes.blocks[0].figure.sentence
     said = [uniformity(on).text, yokes.answer, proof(yokes), drawn, moved(on.drive)[0].answer]
     assert all("but for the rounding" in text.lower() for text in said)
@@ -144,7 +144,7 @@ def test_joints_that_turn_evenly_by_themselves_are_said_to():
 
     for name in ("front-halfshaft", "pto-hitch"):
         on = asked(example(name), None, None)
-        yokes = phased(on.drive, on.phasing)
+        yokes = phased(on)
         told = (proof(yokes), yokes.answer, moved(on.drive)[0].answer)
         assert all("joint turns uniformly by itself" in text for text in told)
         assert ["as drawn" in text.lower() for text in told] == 3 * [bool(on.drive.movements)]
@@ -154,7 +154,7 @@ def test_the_bend_that_would_close_is_told_of_the_hooke_joint_that_turns_alike()
     from cardan.report.subject import asked
 
     on = asked(example("double-cardan-propshaft"), None, None)
-    text = proof(phased(on.drive, on.phasing))
+    text = proof(phased(on))
     assert "if the Hooke joint that turns like that joint had an angle of 1.00°. α is the angle of the Hooke" in text
 
 
@@ -195,7 +195,7 @@ def test_a_degree_off_costs_something_where_the_slope_is_zero():
     from cardan.report.subject import asked
 
     on = asked(example("three-joints-unequal"), None, None)
-    blocks = phased(on.drive, on.phasing).blocks
+    blocks = phased(on).blocks
     costs = next(block for block in blocks if getattr(block, "title", "").startswith("Growth of δ"))
     assert abs(on.best.sensitivity).max() < 1e-8
     assert all(0.0 < float(row[2].full) < float(row[1].full) for row in costs.rows)

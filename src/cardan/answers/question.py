@@ -68,6 +68,8 @@ class Question:
         Whether its answer is there at once; the others are worth a process of their own.
     report : bool
         Whether the report has a page of it.
+    apart : bool
+        Whether that page has a place of its own there; the others follow in the order of the register.
     takes : tuple of str
         What ``ask`` takes beside the drive, of ``known`` (a catalogue), ``progress`` and what a user may choose.
     command : str
@@ -90,6 +92,7 @@ class Question:
     without: Mapping[Aspect, str] = field(default_factory=dict, compare=False)
     quick: bool = True
     report: bool = True
+    apart: bool = False
     takes: tuple[str, ...] = ()
     command: str = ""
     examples: tuple[str, ...] = ()

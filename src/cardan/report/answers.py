@@ -3,30 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any, TypeAlias, cast
-
-import numpy as np
+from typing import Any, TypeAlias
 
 from cardan.answers.answer import Tone
 from cardan.answers.quantity import Quantity, say
 from cardan.answers.question import Lacking, Question
 from cardan.answers.reader import reader
 from cardan.catalogue import Catalogue
-from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
-from cardan.drive.duty import Duty
 from cardan.drive.fields.keys import key_of
-from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.kinematics_model import unmapped
 from cardan.errors import InputError
-from cardan.maths.arrays import Array
 from cardan.questions.gathering import gather, principal
 from cardan.questions.motion.equivalence import SPECK
 from cardan.questions.motion.kinds import kind_name
-from cardan.questions.motion.motion import Motion, motion
-from cardan.questions.motion.motion import followed as by_laws
-from cardan.questions.motion.turning import Swing, swing
 from cardan.register import QUESTIONS
 from cardan.texts import _, plural
 from cardan.version import VERSION
@@ -40,14 +29,7 @@ Choices: TypeAlias = Mapping[str, Any]
 
 
 def subject(drive: Drive, *, known: Catalogue | None = None) -> Subject:
-    """Return a drive to be asked about.
-
-    drive: the drive, of joints of any kinds.
-    known: norms, types and sizes that it is judged by; the shipped ones when not given.
-    """
-    if unmapped(drive.joints):
-        # What the pages ask for it has under the same names.
-        return cast(Subject, replace(asked_by_laws(drive, None), known=known))
+    """Return a drive of joints of any kinds to be asked about; known: what it is judged by instead of shipped norms."""
     return Subject(drive=drive, known=known)
 
 
@@ -119,47 +101,9 @@ def refused(name: str, title: str, error: InputError) -> Page:
 # amounts to, and no polygon of yoke angles.
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Followed:
-    """A drive and what is known of its motion; the names are those of `cardan.report.subject.Subject`."""
-
-    drive: Drive
-    place: Geometry
-    seen: Solids
-    found: Motion
-    whole: Swing
-    phase: Array
-    complete: bool = True
-    mixed: bool = True
-    known: Catalogue | None = None
-
-    @property
-    def joint_angle(self) -> Array:
-        """Joint angle of every joint, array (n) [rad]."""
-        return np.asarray(self.place.joint_angle)
-
-    @property
-    def joints(self) -> int:
-        """Number of joints."""
-        return len(self.drive.joints)
-
-
-def asked_by_laws(drive: Drive, duty: Duty | None) -> Followed:
-    """Ask what can be asked about a drive with joints that turn by laws of their own."""
-    whole = drive if duty is None else replace(drive, duty=duty)
-    return Followed(
-        drive=whole,
-        place=geometry(whole),
-        seen=solids(whole),
-        found=motion(whole),
-        whole=swing(whole),
-        phase=by_laws(whole, np.zeros(1))["yoke_rotation"][:, 0],
-    )
-
-
-def judgement_by_laws(on: Followed, pages: Sequence[Page]) -> Words:
+def judgement_by_laws(on: Subject, pages: Sequence[Page]) -> Words:
     """Return the one sentence the reader came for."""
-    share = float(on.whole.speed_fluctuation[-1])
+    share = on.fluctuation
     said = {"name": on.drive.name or _("The drive"), "share": Quantity(share, "share", 3)}
     text = _("{name} has {share} speed fluctuation.")
     if share < SPECK:
@@ -171,15 +115,15 @@ def judgement_by_laws(on: Followed, pages: Sequence[Page]) -> Words:
     return Words(text=say(text, **said), tone=tone)
 
 
-def warnings_by_laws(on: Followed, pages: Sequence[Page]) -> Iterator[Words]:
+def warnings_by_laws(on: Subject, pages: Sequence[Page]) -> Iterator[Words]:
     """Yield what the reader must not overlook."""
     yield from (alarm for page in pages for alarm in page.alarms)
     yield from steep_joints(on.drive, on.joint_angle)
 
 
-def changes_by_laws(on: Followed) -> Words:
+def changes_by_laws(on: Subject) -> Words:
     """Return what would make the drive even."""
-    if float(on.whole.speed_fluctuation[-1]) < SPECK:
+    if on.fluctuation < SPECK:
         return Words(text=_("Nothing needs to be changed for a uniform output."))
     own = [str(i) for i, joint in enumerate(on.drive.joints, 1) if not joint.has_map]
     text = plural(
@@ -192,7 +136,7 @@ def changes_by_laws(on: Followed) -> Words:
     return Words(text=text)
 
 
-def method_by_laws(on: Followed, source_text: str | None) -> Page:
+def method_by_laws(on: Subject, source_text: str | None) -> Page:
     """Return the page of the method."""
     own = [f"{k}: {kind_name(joint)}" for k, joint in enumerate(on.drive.joints, start=1)]
     blocks: list[Words | Points | Listing] = [

@@ -9,8 +9,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Literal, TypeAlias
 
-import numpy as np
-
 from cardan.answers.answer import KeyFigure
 from cardan.answers.printed import number
 from cardan.answers.quantity import Joined, Quantity
@@ -276,7 +274,7 @@ def _answer(variants: Sequence[Variant]) -> str:
 
 
 def _evenness(variants: Sequence[Variant]) -> str:
-    shares = [float(np.ravel(one.subject.whole.speed_fluctuation)[-1]) for one in variants]
+    shares = [one.subject.fluctuation for one in variants]
     told = [shown(Quantity(share, "share", 3)) for share in shares]
     best = shares.index(min(shares))
     if len(variants) == 1:

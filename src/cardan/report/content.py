@@ -3,34 +3,26 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
-from typing import cast
 
-from cardan.answers.answer import KeyFigure
 from cardan.answers.reader import reader
 from cardan.book import answer as classical
 from cardan.catalogue import Catalogue
-from cardan.drive.bodies.solids import Solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.kinematics_model import unmapped
 from cardan.errors import InputError
 from cardan.figures import Figure
 from cardan.figures.drive import space_figure
 from cardan.questions.gathering import gather, principal
 from cardan.questions.motion import answer as motion
 from cardan.questions.motion import articulation_answer as articulation
-from cardan.questions.motion.articulation import Articulation
 from cardan.questions.phases import answer as yokes
-from cardan.questions.phases.phases import Phasing
 from cardan.register import QUESTIONS
 from cardan.texts import _
 from cardan.version import VERSION
 
 from .answers import (
-    Followed,
-    asked_by_laws,
     changes_by_laws,
     found_page,
     judgement_by_laws,
@@ -103,74 +95,24 @@ def content(
     known : Catalogue, optional
         Norms, types and sizes that it is judged by; the shipped ones when not given.
     """
-    if unmapped(drive.joints):
-        return _by_laws(replace(asked_by_laws(drive, duty), known=known), source_text)
     on = replace(asked(drive, duty, progress), known=known)
-    pages: list[Page] = [description(on), *moved(on.drive), phased(on.drive, on.phasing)]
-    if on.moving is not None:
-        pages.append(_articulated(on.drive, on.moving))
-    if on.unmoved is not None:
-        pages.append(refused("articulation", _("Articulation"), on.unmoved))
-    pages += loaded(on)
+    pages: list[Page] = [description(on), *moved(on.drive), phased(on), *_articulated(on), *loaded(on)]
     limits = judged(on) if on.complete else Judged()
     if limits.page is not None:
         pages.append(limits.page)
-    pages.append(method(on, source_text))
-    return _written(
-        drive,
-        on.seen,
-        pages,
-        limits,
-        said=judgement(on, pages),
-        warned=tuple(warnings(on, pages)),
-        figures=key_figures([*(one.keys for one in pages), limits.keys]),
-        changed=changes(on),
-    )
-
-
-def _by_laws(on: Followed, source_text: str | None) -> Content:
-    """Return the report of a drive with joints that turn by laws of their own."""
-    alike = cast(Subject, on)  # what these pages ask for it has under the same names
-    pages = [description(alike), *moved(on.drive), _phased_by_laws(on.drive), *loaded(alike)]
-    limits = judged(alike)
-    if limits.page is not None:
-        pages.append(limits.page)
-    pages.append(method_by_laws(on, source_text))
-    return _written(
-        on.drive,
-        on.seen,
-        pages,
-        limits,
-        said=judgement_by_laws(on, pages),
-        warned=tuple(warnings_by_laws(on, pages)),
-        figures=key_figures([*(one.keys for one in pages), limits.keys]),
-        changed=changes_by_laws(on),
-    )
-
-
-def _written(
-    drive: Drive,
-    seen: Solids,
-    pages: Sequence[Page],
-    limits: Judged,
-    *,
-    said: Words,
-    warned: tuple[Words, ...],
-    figures: Sequence[KeyFigure],
-    changed: Table | Words,
-) -> Content:
+    pages.append((method_by_laws if on.by_laws else method)(on, source_text))
     return Content(
         title=drive.name or _("Universal-joint drive"),
         note=drive.note,
         version=VERSION,
         date=today(),
-        judgement=said,
-        warnings=warned,
+        judgement=(judgement_by_laws if on.by_laws else judgement)(on, pages),
+        warnings=tuple((warnings_by_laws if on.by_laws else warnings)(on, pages)),
         lights=limits.lights,
         remedies=limits.changes,
-        sketch=space_figure(drive, seen, name="sketch"),
-        figures=key_table(figures),
-        changes=changed,
+        sketch=space_figure(on.drive, on.seen, name="sketch"),
+        figures=key_table(key_figures([*(one.keys for one in pages), limits.keys])),
+        changes=changes_by_laws(on) if on.by_laws else changes(on),
         pages=tuple(pages),
     )
 
@@ -187,35 +129,35 @@ def moved(drive: Drive) -> list[Page]:
     return pages
 
 
-def phased(drive: Drive, found: Phasing) -> Page:
-    """Return the page of the yokes."""
-    return page(gather(QUESTIONS["phasing"], drive, yokes.answer(drive, found)), reader())
-
-
-def _articulated(drive: Drive, found: Articulation) -> Page:
-    """Return the page of the movement; what it warns of stands on the first page."""
-    said = gather(QUESTIONS["articulation"], drive, articulation.answer(drive, found))
-    calm = [one for one in said.remarks if one.tone not in ("failed", "warning")]
-    return page(replace(said, remarks=calm), reader())
-
-
-def _phased_by_laws(drive: Drive) -> Page:
-    """Return the page of the yokes of a drive with joints that turn by laws of their own: mostly why there is none."""
+def phased(on: Subject) -> Page:
+    """Return the page of the yokes; where joints turn by laws of their own mostly why there is none."""
     try:
-        return phased(drive, yokes.ask(drive))
+        found = on.phasing
     except InputError as error:
+        if not on.by_laws:
+            raise
         return replace(refused("phasing", _("Phasing of the yokes"), error), alarms=())
+    return page(gather(QUESTIONS["phasing"], on.drive, yokes.answer(on.drive, found)), reader())
+
+
+def _articulated(on: Subject) -> Iterator[Page]:
+    """Yield the page of the movement, if any; what it warns of stands on the first page."""
+    if on.by_laws:
+        return
+    if on.moving is not None:
+        said = gather(QUESTIONS["articulation"], on.drive, articulation.answer(on.drive, on.moving))
+        calm = [one for one in said.remarks if one.tone not in ("failed", "warning")]
+        yield page(replace(said, remarks=calm), reader())
+    if on.unmoved is not None:
+        yield refused("articulation", _("Articulation"), on.unmoved)
 
 
 # The parts of the report about a drive under load and as made: each only where the drive file says enough.
 
-ELSEWHERE = ("motion", "classical", "articulation", "phasing", "check")
-"""Questions whose pages have places of their own in the report."""
-
 
 def loaded(on: Subject) -> Iterator[Page]:
     """Yield the parts that the drive file asks for; none once the reader stopped the work."""
-    asked = (one for one in QUESTIONS.values() if one.report and one.name not in ELSEWHERE)
+    asked = (one for one in QUESTIONS.values() if one.report and not one.apart)
     for question in asked if on.complete else ():
         page = None if question.lacking(principal(question, on.drive)) else found_page(question, on)
         if page is not None:

@@ -119,7 +119,7 @@ def _inside(within: Sequence[tuple[int, Inside]]) -> Table:
 
 def _shafts(on: Subject) -> Table:
     shafts, count = on.drive.shafts, on.joints + 1
-    fluctuation: list[float | None] = [None, *np.asarray(on.whole.shaft_speed_fluctuation, dtype=float).tolist()]
+    fluctuation: list[float | None] = [None, *np.asarray(on.evenness.shaft_speed_fluctuation, dtype=float).tolist()]
     ends = {1: _("input"), count: _("output")}
     heads = [
         Cell(value=" ".join(part for part in (str(k), ends.get(k, ""), one.name) if part), chip=colour(shaft(k)))

@@ -8,29 +8,29 @@ from functools import cached_property
 
 import numpy as np
 
-from cardan.book.comparison import BookComparison, book_comparison
 from cardan.book.evidence import SelfCheck, evidence, swing_by_vectors
 from cardan.catalogue import Catalogue
 from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.kinematics_model import Chain, as_hooke, mixed, turning_chain
+from cardan.drive.models.kinematics_model import Chain, as_hooke, mixed, turning_chain, unmapped
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
-from cardan.questions.motion.articulation import Articulation, articulation
+from cardan.questions.motion.articulation import Articulation
 from cardan.questions.motion.equivalence import (
     SYNCHRONOUS,
     Closure,
     EquivalentJoint,
-    after_each_joint,
     closure,
     equivalent_joint,
     is_rounding,
 )
-from cardan.questions.motion.motion import Motion, initial_phases, motion
+from cardan.questions.motion.motion import followed, initial_phases
+from cardan.questions.motion.turning import Evenness, swing
 from cardan.questions.phases.phases import Phasing, phases
 from cardan.questions.phases.setting import YokeSetting
+from cardan.register import QUESTIONS
 
 Progress = Callable[[float], object]
 
@@ -40,7 +40,10 @@ ALONE = 12
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Subject:
-    """A drive and the answers to all questions about it, each calculated when it is read first."""
+    """A drive and what the first and the last page tell of it, each calculated when it is read first.
+
+    All else is asked through `cardan.register.QUESTIONS`, of the drive itself.
+    """
 
     drive: Drive  # the drive with the duty asked for
     # what its yokes can do, where somebody watched the search for it; None to search when it is needed
@@ -64,39 +67,37 @@ class Subject:
         return solids(self.drive)
 
     @cached_property
-    def found(self) -> Motion:
-        """How every shaft turns."""
-        return motion(self.drive)
-
-    @cached_property
     def whole(self) -> EquivalentJoint:
         """The one joint that it amounts to."""
         return equivalent_joint(self.drive)
 
     @cached_property
-    def each(self) -> EquivalentJoint:
-        """The joint that it amounts to up to every shaft."""
-        return after_each_joint(self.drive)
+    def evenness(self) -> Evenness:
+        """How even its shafts turn, of joints of any kinds."""
+        return swing(self.drive) if self.by_laws else self.whole
+
+    @property
+    def fluctuation(self) -> float:
+        """Speed fluctuation of its output."""
+        return float(np.ravel(self.evenness.speed_fluctuation)[-1])
 
     @cached_property
     def phase(self) -> Array:
         """Phase angle of every joint, array (n) [rad]."""
+        if self.by_laws:
+            return np.asarray(followed(self.drive, np.zeros(1))["yoke_rotation"][:, 0])
         return np.asarray(initial_phases(self.drive))
 
     @cached_property
     def phasing(self) -> Phasing:
         """What its yokes can do."""
-        return phases(self.drive) if self.watched is None else self.watched
+        found: Phasing = QUESTIONS["phasing"].ask(self.drive) if self.watched is None else self.watched
+        return found
 
     @cached_property
     def closing(self) -> Closure:
         """Whether its joint angles can be closed to a polygon."""
         return closure(self.drive)
-
-    @cached_property
-    def compared(self) -> BookComparison:
-        """What the classical approximations say of it."""
-        return book_comparison(self.drive)
 
     @cached_property
     def checks(self) -> tuple[SelfCheck, ...]:
@@ -127,11 +128,12 @@ class Subject:
         if not self.drive.movements or not self.complete:
             return None
         try:
-            return articulation(self.drive)
+            found: Articulation = QUESTIONS["articulation"].ask(self.drive)
         except InputError as error:
             if not self.mixed:
                 raise
             return error
+        return found
 
     @property
     def moving(self) -> Articulation | None:
@@ -146,12 +148,12 @@ class Subject:
     @property
     def even(self) -> bool:
         """Whether the drive is synchronous as built."""
-        return float(self.whole.speed_fluctuation) < SYNCHRONOUS
+        return self.fluctuation < SYNCHRONOUS
 
     @property
     def rounded(self) -> bool:
         """Whether it is synchronous as built but for the rounding of the figures that describe it."""
-        return not self.even and self.rounding(float(self.whole.speed_fluctuation))
+        return not self.even and self.rounding(self.fluctuation)
 
     def rounding(self, share: float) -> bool:
         """Tell whether a fluctuation is no more than rounding, see `cardan.questions.motion.equivalence.is_rounding`.
@@ -183,6 +185,11 @@ class Subject:
         return mixed(self.drive.joints)
 
     @property
+    def by_laws(self) -> bool:
+        """Whether joints turn by laws of their own, so that no single joint and no polygon of yokes is like it."""
+        return bool(unmapped(self.drive.joints))
+
+    @property
     def joints(self) -> int:
         """Number of joints."""
         return len(self.drive.joints)
@@ -195,7 +202,7 @@ def asked(drive: Drive, duty: Duty | None, progress: Progress | None) -> Subject
     progress: told the share done; answering "stop" leaves out what is still to do.
     """
     on = Subject(drive=drive if duty is None else replace(drive, duty=duty))
-    if progress is None:
+    if progress is None or on.by_laws:
         return on
     stopped = False
 

@@ -67,7 +67,7 @@ def _limits(pages: Sequence[Page]) -> Page | None:
 
 def uniformity(on: Subject) -> Words:
     """Return a sentence on how uniformly the drive turns."""
-    share = Quantity(float(on.whole.speed_fluctuation), "share", 3)
+    share = Quantity(on.fluctuation, "share", 3)
     posed, pose = _in_poses(on)
     made = _as_made(on)
     text, tone = _as_specified(on, posed, made)
@@ -81,13 +81,13 @@ def uniformity(on: Subject) -> Words:
         )
     ]
     limit = on.drive.limits.speed_fluctuation
-    if float(on.whole.speed_fluctuation) < (CALM if limit is None else min(CALM, limit)):
+    if on.fluctuation < (CALM if limit is None else min(CALM, limit)):
         tone = "good"
     swings = _while_moving(on)
     if swings > UTMOST:
         tone = "warning" if tone == "good" and swings > CALM else tone
         parts.append(say(_("While it moves, the speed fluctuation reaches {share}."), share=_share(swings)))
-    if posed > max(swings, float(on.whole.speed_fluctuation)) + UTMOST:
+    if posed > max(swings, on.fluctuation) + UTMOST:
         tone = "warning" if tone == "good" and posed > CALM else tone
         parts.append(say(_("In the pose {name} the speed fluctuation is {share}."), name=pose, share=_share(posed)))
     if on.moving is not None and any(one.flags for one in on.moving.splines):
@@ -135,7 +135,7 @@ def _as_specified(on: Subject, posed: float, made: float) -> tuple[str, Tone]:
         if on.mixed:
             return _("{name} has one joint and {share} speed fluctuation."), "warning"
         return _("{name} has one joint and {share} speed fluctuation; a single joint always fluctuates."), "warning"
-    if float(on.whole.speed_fluctuation) - on.best.speed_fluctuation > UTMOST:
+    if on.fluctuation - on.best.speed_fluctuation > UTMOST:
         text = _(
             "{name} has {share} speed fluctuation as specified; no phasing of the yokes makes it uniform, the best "
             "leaves {least}."
@@ -171,7 +171,7 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
     if limits is not None:
         yield uniformity(on)
     yield from steep_joints(on.drive, on.joint_angle)
-    fluctuating = not on.rounding(min(float(on.whole.speed_fluctuation), on.phasing.speed_fluctuation_min))
+    fluctuating = not on.rounding(min(on.fluctuation, on.phasing.speed_fluctuation_min))
     if on.joints > 1 and fluctuating and not on.phasing.feasible and on.phasing.limiting_joint is not None:
         why: Text = _("Joints tied by fixed yokes act as one whose joint angle is too large for the others.")
         if len(on.phasing.limiting_joints) == 1:
@@ -207,7 +207,7 @@ def changes(on: Subject) -> Table | Words:
     drawn = _("This concerns the drive as drawn, standing still.") if on.drive.movements else ""
     if on.even or on.rounded:
         return Words(text=_nothing_as_drawn(on))
-    now = float(on.whole.speed_fluctuation)
+    now = on.fluctuation
     found = sorted(((after, text) for text, after in _changes(on) if now - after > max(UTMOST, 0.01 * now)), key=_first)
     if not found:
         if on.joints == 1 and on.mixed:
@@ -242,7 +242,7 @@ def _first(change: tuple[float, Text]) -> tuple[float, str]:
 
 def _nothing_as_drawn(on: Subject) -> Text:
     """Return what is left to be done where the drive as drawn is uniform."""
-    little, moving, posed = max(UTMOST, 2.0 * float(on.whole.speed_fluctuation)), _while_moving(on), _in_poses(on)[0]
+    little, moving, posed = max(UTMOST, 2.0 * on.fluctuation), _while_moving(on), _in_poses(on)[0]
     for one in on.phasing.pose_settings[:1]:
         left = float(np.max(one.pose_speed_fluctuation))
         if posed > little and posed - left > max(UTMOST, 0.01 * posed):

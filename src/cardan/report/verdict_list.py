@@ -18,7 +18,7 @@ from cardan.figures.axes import percent
 from cardan.questions.motion.equivalence import SYNCHRONOUS
 from cardan.questions.motion.kinds import kind_name
 from cardan.questions.phases.answer import excess
-from cardan.questions.phases.phases import Phasing, phases
+from cardan.questions.phases.phases import Phasing
 from cardan.questions.phases.setting import YokeSetting, values_of
 from cardan.texts import _, plural
 
@@ -170,12 +170,12 @@ def synchronous(on: Subject) -> Applicable | str:
 
 def _phasing(on: Subject) -> Phasing | None:
     """Return what the yokes can do; None where joints turn by laws of their own that count."""
-    if isinstance(on, Subject):
-        return on.phasing
     try:
-        return phases(on.drive)
+        return on.phasing
     except InputError:
-        return None
+        if on.by_laws:
+            return None
+        raise
 
 
 def _why_not(on: Subject, found: Phasing) -> str:
