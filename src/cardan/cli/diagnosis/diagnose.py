@@ -7,13 +7,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from cardan.answers.answer import FILE, Answer, Remark
 from cardan.answers.reader import reader
 from cardan.catalogue import catalogue
 from cardan.catalogue.catalogue import with_files
 from cardan.cli.shared.failure import about
+from cardan.cli.shared.options import argument, flag, option
 from cardan.cli.shared.output import check_common, check_target
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.recording import FullScale, Places, Pulses, Rate, Reading, Tacho, Titles, placed, read_both
@@ -40,17 +39,9 @@ LEAST = 0.1
 
 def diagnose(
     recording: Annotated[
-        Path | None,
-        typer.Argument(
-            metavar="SIGNAL", help=_("Recording: .csv, .txt, .wav, .uff, .unv or .tdms."), show_default=False
-        ),
+        Path | None, argument("SIGNAL", _("Recording: .csv, .txt, .wav, .uff, .unv or .tdms."))
     ] = None,
-    file: Annotated[
-        Path | None,
-        typer.Argument(
-            metavar="DRIVE", help=_("Drive file, TOML or JSON; - reads standard input."), show_default=False
-        ),
-    ] = None,
+    file: Annotated[Path | None, argument("DRIVE", _("Drive file, TOML or JSON; - reads standard input."))] = None,
     tacho: Tacho = None,
     pulses_per_turn: Pulses = 1.0,
     rate: Rate = None,
@@ -59,57 +50,29 @@ def diagnose(
     full_scale: FullScale = None,
     speeds: Annotated[
         str | None,
-        typer.Option(
-            "--speeds",
-            metavar="LOW:HIGH",
-            help=_("Least and greatest speed of the shaft in rpm, for a recording without a tacho."),
-            show_default=False,
+        option(
+            "--speeds", "LOW:HIGH", _("Least and greatest speed of the shaft in rpm, for a recording without a tacho.")
         ),
     ] = None,
     channel: Annotated[
         str | None,
-        typer.Option(
-            "--channel",
-            metavar="CHANNEL",
-            help=_("Channel whose orders are shown; the one with the highest line otherwise."),
-            show_default=False,
-        ),
+        option("--channel", "CHANNEL", _("Channel whose orders are shown; the one with the highest line otherwise.")),
     ] = None,
     orders: Annotated[
         str | None,
-        typer.Option(
-            "--orders",
-            metavar="N,N…",
-            help=_("Orders seen, as 1,2 or 1=3.2,2=5 with their sizes, instead of a recording."),
-            show_default=False,
-        ),
+        option("--orders", "N,N…", _("Orders seen, as 1,2 or 1=3.2,2=5 with their sizes, instead of a recording.")),
     ] = None,
     torque_sensitive: Annotated[
         bool | None,
-        typer.Option(
-            "--with-torque/--no-torque",
-            help=_("With --orders or --symptom: whether it changes with the torque."),
-            show_default=False,
-        ),
+        flag("--with-torque/--no-torque", _("With --orders or --symptom: whether it changes with the torque.")),
     ] = None,
     symptom: Annotated[
         str | None,
-        typer.Option(
-            "--symptom",
-            metavar="NAME",
-            help=_("What is noticed, instead of a recording, as clunk_on_load_reversal."),
-            show_default=False,
-        ),
+        option("--symptom", "NAME", _("What is noticed, instead of a recording, as clunk_on_load_reversal.")),
     ] = None,
     report: Annotated[
         Path | None,
-        typer.Option(
-            "--report",
-            "-o",
-            metavar="PATH",
-            help=_("Write the diagnosis with its pictures into PATH: .html, .pdf or .xlsx."),
-            show_default=False,
-        ),
+        option("--report -o", "PATH", _("Write the diagnosis with its pictures into PATH: .html, .pdf or .xlsx.")),
     ] = None,
     more: MoreRows = None,
     json: AsJson = False,

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
+from cardan.cli.shared.options import argument, flag, option
 from cardan.cli.shared.output import check_common, check_new
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Force, Plot, read
@@ -37,42 +36,22 @@ NAMES = {
 
 def simulate_fault(
     file: DriveFile,
-    fault: Annotated[
-        str | None, typer.Argument(metavar="FAULT", help=_("Name of the fault, see --list."), show_default=False)
-    ] = None,
-    listed: Annotated[
-        bool, typer.Option("--list", help=_("List the faults, and do nothing else."), show_default=False)
-    ] = False,
+    fault: Annotated[str | None, argument("FAULT", _("Name of the fault, see --list."))] = None,
+    listed: Annotated[bool, flag("--list", _("List the faults, and do nothing else."))] = False,
     out: Annotated[
         Path | None,
-        typer.Option(
-            "--out",
-            "-o",
-            metavar="PATH",
-            help=_("Write a recording of it into PATH: .csv, .wav, .uff, .unv or .tdms."),
-            show_default=False,
-        ),
+        option("--out -o", "PATH", _("Write a recording of it into PATH: .csv, .wav, .uff, .unv or .tdms.")),
     ] = None,
-    severity: Annotated[float, typer.Option("--severity", metavar="X", help=_("Fault severity; 1 = typical."))] = 1.0,
-    shaft: Annotated[
-        int | None,
-        typer.Option(
-            "--shaft", metavar="N", help=_("Shaft with the fault; the heaviest otherwise."), show_default=False
-        ),
-    ] = None,
-    snr: Annotated[float, typer.Option("--snr-db", metavar="DB", help=_("Signal-to-noise ratio in decibels."))] = 10.0,
-    seed: Annotated[int, typer.Option("--seed", metavar="N", help=_("Random seed."))] = 0,
-    run_up: Annotated[
-        float, typer.Option("--run-up-s", metavar="S", help=_("Time to run up from the lowest to the top speed."))
-    ] = 10.0,
-    hold: Annotated[float, typer.Option("--hold-s", metavar="S", help=_("Time at each of two torques."))] = 4.0,
+    severity: Annotated[float, option("--severity", "X", _("Fault severity; 1 = typical."))] = 1.0,
+    shaft: Annotated[int | None, option("--shaft", "N", _("Shaft with the fault; the heaviest otherwise."))] = None,
+    snr: Annotated[float, option("--snr-db", "DB", _("Signal-to-noise ratio in decibels."))] = 10.0,
+    seed: Annotated[int, option("--seed", "N", _("Random seed."))] = 0,
+    run_up: Annotated[float, option("--run-up-s", "S", _("Time to run up from the lowest to the top speed."))] = 10.0,
+    hold: Annotated[float, option("--hold-s", "S", _("Time at each of two torques."))] = 4.0,
     steady: Annotated[
-        float | None,
-        typer.Option(
-            "--steady-rpm", metavar="RPM", help=_("Do not run up: keep this speed at both torques."), show_default=False
-        ),
+        float | None, option("--steady-rpm", "RPM", _("Do not run up: keep this speed at both torques."))
     ] = None,
-    rate: Annotated[float, typer.Option("--rate-hz", metavar="HZ", help=_("Values a second."))] = 2048.0,
+    rate: Annotated[float, option("--rate-hz", "HZ", _("Values a second."))] = 2048.0,
     force: Force = False,
     json: AsJson = False,
     csv: AsCsv = False,

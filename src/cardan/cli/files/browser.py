@@ -5,40 +5,22 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from cardan.app.server import Start, start
 from cardan.cli.shared.failure import about
+from cardan.cli.shared.options import argument, flag, option
 from cardan.texts import _
 
 
 def browser(
-    file: Annotated[
-        Path | None,
-        typer.Argument(
-            metavar="[FILE]", help=_("Drive file to open; examples are offered without."), show_default=False
-        ),
-    ] = None,
+    file: Annotated[Path | None, argument("[FILE]", _("Drive file to open; examples are offered without."))] = None,
     host: Annotated[
-        str,
-        typer.Option(
-            "--host", metavar="ADDRESS", help=_("Address to listen at; others than this machine need a token.")
-        ),
+        str, option("--host", "ADDRESS", _("Address to listen at; others than this machine need a token."))
     ] = "127.0.0.1",
     port: Annotated[
         int | None,
-        typer.Option(
-            "--port",
-            metavar="PORT",
-            min=1,
-            max=65535,
-            help=_("Port to listen at; 8321 or any free one when not given."),
-            show_default=False,
-        ),
+        option("--port", "PORT", _("Port to listen at; 8321 or any free one when not given."), min=1, max=65535),
     ] = None,
-    no_browser: Annotated[
-        bool, typer.Option("--no-browser", help=_("Print the address and open nothing."), show_default=False)
-    ] = False,
+    no_browser: Annotated[bool, flag("--no-browser", _("Print the address and open nothing."))] = False,
 ) -> int:
     """Open the app in the browser."""
     there = (file or Path.cwd()).resolve()

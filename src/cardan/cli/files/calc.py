@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
-
 from cardan.calc import CALCULATIONS, find
 from cardan.calc import calc as compute
 from cardan.calc.answer import answer, answer_of_all, answer_of_keys
 from cardan.cli.shared.failure import RefusedError, about
+from cardan.cli.shared.options import argument, flag, option
 from cardan.cli.shared.output import check_common
 from cardan.cli.shared.source import STDIN, AsCsv, AsJson, stdin_text, value_of
 from cardan.cli.shared.tell import tell
@@ -26,31 +25,20 @@ def _names(incomplete: str) -> list[tuple[str, str]]:
 
 
 def calc(
-    capability: Annotated[
-        str | None,
-        typer.Argument(metavar="NAME", help=_("Name of the formula."), show_default=False, autocompletion=_names),
-    ] = None,
+    capability: Annotated[str | None, argument("NAME", _("Name of the formula."), autocompletion=_names)] = None,
     values: Annotated[
         list[str] | None,
-        typer.Argument(
-            metavar="KEY=VALUE",
-            help=_("Inputs: alpha_deg=20, beta_deg=[1.9,-23]; lists and tables as JSON."),
-            show_default=False,
-        ),
+        argument("KEY=VALUE", _("Inputs: alpha_deg=20, beta_deg=[1.9,-23]; lists and tables as JSON.")),
     ] = None,
     input: Annotated[
         Path | None,
-        typer.Option(
-            "--input",
-            "-i",
-            metavar="FILE",
-            help=_("Read the inputs from a JSON file; - reads standard input. KEY=VALUE goes before it."),
-            show_default=False,
+        option(
+            "--input -i",
+            "FILE",
+            _("Read the inputs from a JSON file; - reads standard input. KEY=VALUE goes before it."),
         ),
     ] = None,
-    list_: Annotated[
-        bool, typer.Option("--list", "-l", help=_("List the formulas, or the keys of one."), show_default=False)
-    ] = False,
+    list_: Annotated[bool, flag("--list -l", _("List the formulas, or the keys of one."))] = False,
     json: AsJson = False,
     csv: AsCsv = False,
 ) -> int:

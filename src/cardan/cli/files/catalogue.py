@@ -5,14 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from cardan.answers.answer import Answer
 from cardan.catalogue.answer import answer, answer_of_file, answer_of_keys, answer_of_row, answer_of_table
 from cardan.catalogue.catalogue import Catalogue, with_files
 from cardan.catalogue.catalogue import catalogue as shipped
 from cardan.catalogue.rows import TABLES, Grade, Row
 from cardan.cli.shared.failure import about
+from cardan.cli.shared.options import argument, flag, option
 from cardan.cli.shared.output import check_common
 from cardan.cli.shared.source import AsCsv, AsJson, MoreRows
 from cardan.cli.shared.tell import tell
@@ -22,28 +21,12 @@ from cardan.units import nearest
 
 
 def catalogue(
-    table: Annotated[
-        str | None,
-        typer.Argument(metavar="[TABLE]", help=_("A table; all of them are listed without one."), show_default=False),
-    ] = None,
-    row: Annotated[
-        str | None,
-        typer.Argument(
-            metavar="[ID]", help=_("A row of the table; materials by any of their names."), show_default=False
-        ),
-    ] = None,
+    table: Annotated[str | None, argument("[TABLE]", _("A table; all of them are listed without one."))] = None,
+    row: Annotated[str | None, argument("[ID]", _("A row of the table; materials by any of their names."))] = None,
     checked: Annotated[
-        Path | None,
-        typer.Option(
-            "--check",
-            metavar="FILE",
-            help=_("Check a catalogue file of your own, every problem at once."),
-            show_default=False,
-        ),
+        Path | None, option("--check", "FILE", _("Check a catalogue file of your own, every problem at once."))
     ] = None,
-    keys: Annotated[
-        bool, typer.Option("--keys", help=_("List the keys that a row of the table can have."), show_default=False)
-    ] = False,
+    keys: Annotated[bool, flag("--keys", _("List the keys that a row of the table can have."))] = False,
     more: MoreRows = None,
     json: AsJson = False,
     csv: AsCsv = False,

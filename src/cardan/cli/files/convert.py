@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Literal
 
-import typer
-
 from cardan import io
 from cardan.answers.answer import Answer
+from cardan.cli.shared.options import argument, flag, option
 from cardan.cli.shared.output import SUFFIXES, check_new, print_text
 from cardan.cli.shared.source import STDIN, AsJson, DriveFile, read
 from cardan.cli.shared.tell import tell
@@ -27,25 +26,17 @@ BODIES = ".glb"
 def convert(
     file: DriveFile,
     out: Annotated[
-        Path,
-        typer.Argument(
-            metavar="OUT",
-            help=_("File to write: .toml or .json, or .glb for a turning model in space; - prints TOML."),
-            show_default=False,
-        ),
+        Path, argument("OUT", _("File to write: .toml or .json, or .glb for a turning model in space; - prints TOML."))
     ],
     form: Annotated[
         Literal["points", "angles", "slopes"] | None,
-        typer.Option(
+        option(
             "--form",
-            metavar="FORM",
-            help=_(
-                "points (joint centres), angles (joint angles and plane twists) or slopes; that of FILE by default."
-            ),
-            show_default=False,
+            "FORM",
+            _("points (joint centres), angles (joint angles and plane twists) or slopes; that of FILE by default."),
         ),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help=_("Overwrite OUT."), show_default=False)] = False,
+    force: Annotated[bool, flag("--force", _("Overwrite OUT."))] = False,
     json: AsJson = False,
 ) -> int:
     """Rewrite a drive file in another form or format."""

@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from cardan.answers.answer import Answer, Column, Remark, Table
+from cardan.cli.shared.options import argument, flag
 from cardan.cli.shared.output import check_common, check_new, print_text, write_text
 from cardan.cli.shared.source import STDIN, AsCsv, AsJson
 from cardan.cli.shared.tell import tell
@@ -22,16 +21,9 @@ def _names(incomplete: str) -> list[str]:
 
 
 def example(
-    name: Annotated[
-        str | None, typer.Argument(help=_("Example to copy."), show_default=False, autocompletion=_names)
-    ] = None,
-    out: Annotated[
-        Path | None,
-        typer.Argument(
-            metavar="OUT", help=_("File to write; its own name here by default, - prints it."), show_default=False
-        ),
-    ] = None,
-    force: Annotated[bool, typer.Option("--force", help=_("Overwrite OUT."), show_default=False)] = False,
+    name: Annotated[str | None, argument(None, _("Example to copy."), autocompletion=_names)] = None,
+    out: Annotated[Path | None, argument("OUT", _("File to write; its own name here by default, - prints it."))] = None,
+    force: Annotated[bool, flag("--force", _("Overwrite OUT."))] = False,
     json: AsJson = False,
     csv: AsCsv = False,
 ) -> int:

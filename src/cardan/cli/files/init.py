@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from cardan.answers.answer import Answer, Remark
+from cardan.cli.shared.options import argument, flag
 from cardan.cli.shared.output import check_new, print_text, write_text
 from cardan.cli.shared.source import STDIN, AsJson
 from cardan.cli.shared.tell import tell
@@ -16,10 +15,8 @@ from cardan.texts import _
 
 
 def init(
-    file: Annotated[
-        Path, typer.Argument(metavar="FILE", help=_("File to write, TOML; - prints it."), show_default=False)
-    ],
-    force: Annotated[bool, typer.Option("--force", help=_("Overwrite FILE."), show_default=False)] = False,
+    file: Annotated[Path, argument("FILE", _("File to write, TOML; - prints it."))],
+    force: Annotated[bool, flag("--force", _("Overwrite FILE."))] = False,
     json: AsJson = False,
 ) -> int:
     """Write a commented drive file to start from."""

@@ -7,11 +7,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from cardan.answers.answer import Answer, Remark
 from cardan.answers.quantity import Quantity, say
 from cardan.answers.reader import reader
+from cardan.cli.shared.options import flag, option
 from cardan.cli.shared.output import check_speed, check_target
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.source import STDIN, AsJson, DriveFile, SpeedRpm, read_with_text
@@ -29,23 +28,14 @@ def report(
     file: DriveFile,
     out: Annotated[
         Path | None,
-        typer.Option(
-            "--out",
-            "-o",
-            metavar="PATH",
-            help=_("File to write: .html, .pdf or a workbook, .xlsx; FILE's name with .html by default."),
-            show_default=False,
+        option(
+            "--out -o", "PATH", _("File to write: .html, .pdf or a workbook, .xlsx; FILE's name with .html by default.")
         ),
     ] = None,
     interactive: Annotated[
-        bool,
-        typer.Option(
-            "--interactive", help=_("Figures to point at, zoom and turn; some megabytes more."), show_default=False
-        ),
+        bool, flag("--interactive", _("Figures to point at, zoom and turn; some megabytes more."))
     ] = False,
-    open_: Annotated[
-        bool, typer.Option("--open", help=_("Open the report when it is written."), show_default=False)
-    ] = False,
+    open_: Annotated[bool, flag("--open", _("Open the report when it is written."))] = False,
     speed_rpm: SpeedRpm = None,
     json: AsJson = False,
 ) -> int:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from cardan.answers.answer import Answer
 from cardan.answers.data import as_json
+from cardan.cli.shared.options import flag, option
 from cardan.cli.shared.output import check_target, print_text, write_text
 from cardan.cli.shared.source import AsJson
 from cardan.cli.shared.tell import tell
@@ -18,13 +17,8 @@ from cardan.texts import _
 
 
 def schema(
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", "-o", metavar="PATH", help=_("Write it to PATH instead."), show_default=False),
-    ] = None,
-    mechanism: Annotated[
-        bool, typer.Option("--mechanism", help=_("That of the mechanism file instead."), show_default=False)
-    ] = False,
+    out: Annotated[Path | None, option("--out -o", "PATH", _("Write it to PATH instead."))] = None,
+    mechanism: Annotated[bool, flag("--mechanism", _("That of the mechanism file instead."))] = False,
     json: AsJson = False,
 ) -> int:
     """Print the JSON Schema of the drive file."""

@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from cardan.checks.checks import CHECKS
 from cardan.choices.check_answer import answer, answer_of_list, checked
 from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
+from cardan.cli.shared.options import argument, flag, option
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.source import STDIN, AsCsv, AsJson, MoreRows, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
@@ -22,24 +21,12 @@ from cardan.units import nearest
 
 
 def check(
-    file: Annotated[
-        Path | None,
-        typer.Argument(metavar="FILE", help=_("Drive file, TOML or JSON; - reads standard input."), show_default=False),
-    ] = None,
-    only: Annotated[
-        list[str] | None,
-        typer.Option("--only", metavar="CHECK", help=_("Only this check; may be repeated."), show_default=False),
-    ] = None,
-    listed: Annotated[
-        bool, typer.Option("--list", help=_("List all checks, and do nothing else."), show_default=False)
-    ] = False,
+    file: Annotated[Path | None, argument("FILE", _("Drive file, TOML or JSON; - reads standard input."))] = None,
+    only: Annotated[list[str] | None, option("--only", "CHECK", _("Only this check; may be repeated."))] = None,
+    listed: Annotated[bool, flag("--list", _("List all checks, and do nothing else."))] = False,
     catalogue: MoreRows = None,
-    sources: Annotated[
-        bool, typer.Option("--sources", help=_("Say of every verdict where it comes from."), show_default=False)
-    ] = False,
-    missing: Annotated[
-        bool, typer.Option("--missing", help=_("Say which keys the checks need that were not run."), show_default=False)
-    ] = False,
+    sources: Annotated[bool, flag("--sources", _("Say of every verdict where it comes from."))] = False,
+    missing: Annotated[bool, flag("--missing", _("Say which keys the checks need that were not run."))] = False,
     torque: TorqueNm = None,
     speed_rpm: SpeedRpm = None,
     json: AsJson = False,

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Annotated
 
-import typer
-
 from cardan.cli.motion.motion import check_positions, positions
 from cardan.cli.shared.asked import CurveAngle, CurveStep, TorqueNm, check_options, keys_of, on_duty
+from cardan.cli.shared.options import option
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
@@ -35,11 +34,10 @@ def forces(
     speed_rpm: SpeedRpm = None,
     movement: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
             "--movement",
-            metavar="NAME",
-            help=_("Movement of the file that runs meanwhile: its name or number, or all; may be repeated."),
-            show_default=False,
+            "NAME",
+            _("Movement of the file that runs meanwhile: its name or number, or all; may be repeated."),
         ),
     ] = None,
     json: AsJson = False,

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated
 
-import typer
-
 from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
+from cardan.cli.shared.options import option
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
@@ -23,20 +22,18 @@ def life(
     speed_rpm: SpeedRpm = None,
     method: Annotated[
         str | None,
-        typer.Option(
+        option(
             "--method",
-            metavar="METHOD",
-            help=_("By which the first joint to fail is found: iso, simple (mean load), maker or book."),
-            show_default=False,
+            "METHOD",
+            _("By which the first joint to fail is found: iso, simple (mean load), maker or book."),
         ),
     ] = None,
     reliability: Annotated[
         float | None,
-        typer.Option(
+        option(
             "--reliability-percent",
-            metavar="PERCENT",
-            help=_("Share of joints that reach the life: 50 to 99.999, instead of the one in the file."),
-            show_default=False,
+            "PERCENT",
+            _("Share of joints that reach the life: 50 to 99.999, instead of the one in the file."),
         ),
     ] = None,
     json: AsJson = False,

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
+from cardan.cli.shared.options import flag
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.errors import refuse
@@ -20,12 +19,7 @@ def losses(
     torque: TorqueNm = None,
     speed_rpm: SpeedRpm = None,
     over: Annotated[
-        bool,
-        typer.Option(
-            "--map",
-            help=_("Efficiency and power loss over speed and torque, around those of the duty."),
-            show_default=False,
-        ),
+        bool, flag("--map", _("Efficiency and power loss over speed and torque, around those of the duty."))
     ] = False,
     json: AsJson = False,
     csv: AsCsv = False,

@@ -7,12 +7,11 @@ from math import isfinite
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
-
 from cardan.catalogue import Catalogue, catalogue, with_files
 from cardan.choices.selection import JointDuty, joint_duty
 from cardan.choices.selection_answer import answer, selected
 from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
+from cardan.cli.shared.options import argument, flag, option
 from cardan.cli.shared.source import STDIN, AsCsv, AsJson, MoreRows, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
@@ -25,54 +24,26 @@ from cardan.units import deg, mm, rpm
 def select(
     file: Annotated[
         Path | None,
-        typer.Argument(
-            metavar="[FILE]",
-            help=_("Drive file whose joints are to be chosen; - reads standard input. Options count before it."),
-            show_default=False,
+        argument(
+            "[FILE]", _("Drive file whose joints are to be chosen; - reads standard input. Options count before it.")
         ),
     ] = None,
     joint: Annotated[
-        int | None,
-        typer.Option(
-            "--joint",
-            metavar="NUMBER",
-            help=_("Only this joint of the file; all of them by default."),
-            show_default=False,
-        ),
+        int | None, option("--joint", "NUMBER", _("Only this joint of the file; all of them by default."))
     ] = None,
     torque: TorqueNm = None,
-    joint_angle_deg: Annotated[
-        float | None, typer.Option("--joint-angle-deg", metavar="DEG", help=_("Joint angle."), show_default=False)
-    ] = None,
+    joint_angle_deg: Annotated[float | None, option("--joint-angle-deg", "DEG", _("Joint angle."))] = None,
     speed_rpm: SpeedRpm = None,
-    factor: Annotated[
-        float | None,
-        typer.Option("--service-factor", metavar="FACTOR", help=_("Factor on the torque."), show_default=False),
-    ] = None,
+    factor: Annotated[float | None, option("--service-factor", "FACTOR", _("Factor on the torque."))] = None,
     outer_mm: Annotated[
-        float | None,
-        typer.Option(
-            "--outer-mm", metavar="MM", help=_("Outer diameter, for the speed of the rim."), show_default=False
-        ),
+        float | None, option("--outer-mm", "MM", _("Outer diameter, for the speed of the rim."))
     ] = None,
     synchronous: Annotated[
-        bool | None,
-        typer.Option("--synchronous/--uneven", help=_("Whether the output must be uniform."), show_default=False),
+        bool | None, flag("--synchronous/--uneven", _("Whether the output must be uniform."))
     ] = None,
-    continuous: Annotated[
-        bool | None,
-        typer.Option("--continuous/--short", help=_("Whether it runs for long at a time."), show_default=False),
-    ] = None,
-    modern: Annotated[
-        bool,
-        typer.Option(
-            "--modern", help=_("Count modern types too, whose limits are typical values."), show_default=False
-        ),
-    ] = False,
-    life_h: Annotated[
-        float | None,
-        typer.Option("--life-h", metavar="H", help=_("Running time asked of the bearings."), show_default=False),
-    ] = None,
+    continuous: Annotated[bool | None, flag("--continuous/--short", _("Whether it runs for long at a time."))] = None,
+    modern: Annotated[bool, flag("--modern", _("Count modern types too, whose limits are typical values."))] = False,
+    life_h: Annotated[float | None, option("--life-h", "H", _("Running time asked of the bearings."))] = None,
     more: MoreRows = None,
     json: AsJson = False,
     csv: AsCsv = False,

@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
-import typer
-
 from cardan.checks.strength.answer import answer
 from cardan.checks.strength.strength import strength as ask
 from cardan.choices import sizing_answer
@@ -14,6 +12,7 @@ from cardan.choices.size_search import Sizing
 from cardan.choices.sizing import size
 from cardan.cli.shared.apply import check_copy
 from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
+from cardan.cli.shared.options import option
 from cardan.cli.shared.output import write_text
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.source import STDIN, AsCsv, AsJson, DriveFile, Force, MoreRows, Plot, SpeedRpm, read_with_text
@@ -35,39 +34,29 @@ def strength(
     file: DriveFile,
     part: Annotated[
         str | None,
-        typer.Option(
+        option(
             "--size",
-            metavar="PART",
-            help=_(
+            "PART",
+            _(
                 "Size a part: tube:2, shaft:2 (solid), journal:1, needles:1, joint:1, or joint for all joints; the "
                 "number may be left out where there is one."
             ),
-            show_default=False,
         ),
     ] = None,
     hold: Annotated[
         Hold,
-        typer.Option(
+        option(
             "--hold",
-            metavar="WHAT",
-            help=_("What a sized tube keeps: wall over outer diameter (ratio), its wall, or its outer diameter."),
+            "WHAT",
+            _("What a sized tube keeps: wall over outer diameter (ratio), its wall, or its outer diameter."),
         ),
     ] = "ratio",
     series: Annotated[
-        str,
-        typer.Option(
-            "--series", metavar="SERIES", help=_("What sizes are rounded up to: step (of a drawing), R10, R20 or R40.")
-        ),
+        str, option("--series", "SERIES", _("What sizes are rounded up to: step (of a drawing), R10, R20 or R40."))
     ] = "step",
     out: Annotated[
         Path | None,
-        typer.Option(
-            "--out",
-            "-o",
-            metavar="PATH",
-            help=_("Write the new size into a copy of FILE, comments kept; may be FILE."),
-            show_default=False,
-        ),
+        option("--out -o", "PATH", _("Write the new size into a copy of FILE, comments kept; may be FILE.")),
     ] = None,
     force: Force = False,
     more: MoreRows = None,

@@ -8,10 +8,9 @@ from math import inf
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-import typer
-
 from cardan.cli.shared.asked import keys_of
 from cardan.cli.shared.changed import write_changed
+from cardan.cli.shared.options import option
 from cardan.cli.shared.output import check_common, check_target
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, read_with_text
@@ -36,57 +35,34 @@ def accuracy(
     file: DriveFile,
     method: Annotated[
         How,
-        typer.Option(
-            "--method",
-            metavar="METHOD",
-            help=_("How errors add up: root of their squares, worst case, or samples of exact drives."),
+        option(
+            "--method", "METHOD", _("How errors add up: root of their squares, worst case, or samples of exact drives.")
         ),
     ] = "squares",
-    samples: Annotated[
-        int | None,
-        typer.Option("--samples", metavar="N", help=_("Drives that samples draws: 65536."), show_default=False),
-    ] = None,
-    seed: Annotated[
-        int | None,
-        typer.Option("--seed", metavar="N", help=_("The same seed draws the same drives: 1."), show_default=False),
-    ] = None,
+    samples: Annotated[int | None, option("--samples", "N", _("Drives that samples draws: 65536."))] = None,
+    seed: Annotated[int | None, option("--seed", "N", _("The same seed draws the same drives: 1."))] = None,
     target: Annotated[
         str | None,
-        typer.Option(
+        option(
             "--allocate",
-            metavar="TARGET",
-            help=_(
-                "Find the cheapest tolerances for this error of the output: 2arcmin, 0.05deg; 0.01mm for its shift."
-            ),
-            show_default=False,
+            "TARGET",
+            _("Find the cheapest tolerances for this error of the output: 2arcmin, 0.05deg; 0.01mm for its shift."),
         ),
     ] = None,
     of: Annotated[
-        What,
-        typer.Option(
-            "--of", metavar="WHAT", help=_("What --allocate limits: the angle, or only its change in a turn.")
-        ),
+        What, option("--of", "WHAT", _("What --allocate limits: the angle, or only its change in a turn."))
     ] = "angle",
     keep: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
             "--keep",
-            metavar="KEY",
-            help=_(
-                "Tolerance that --allocate leaves as it is: joints[0].tolerance.alpha4, or alpha4; may be repeated."
-            ),
-            show_default=False,
+            "KEY",
+            _("Tolerance that --allocate leaves as it is: joints[0].tolerance.alpha4, or alpha4; may be repeated."),
         ),
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option(
-            "--out",
-            "-o",
-            metavar="PATH",
-            help=_("Write what --allocate finds into a copy of FILE, comments kept; may be FILE."),
-            show_default=False,
-        ),
+        option("--out -o", "PATH", _("Write what --allocate finds into a copy of FILE, comments kept; may be FILE.")),
     ] = None,
     json: AsJson = False,
     csv: AsCsv = False,
@@ -121,12 +97,12 @@ def _check(
 ) -> None:
     """Refuse options that do not belong together, before any work is done."""
     problems = []
-    for option, given in (("--samples", samples), ("--seed", seed)):
+    for name, given in (("--samples", samples), ("--seed", seed)):
         if given is not None and method != "samples":
-            problems.append(Problem(option, _("belongs to --method samples")))
-    for option, said in (("--of", of != "angle"), ("--keep", bool(keep)), ("--out", out is not None)):
+            problems.append(Problem(name, _("belongs to --method samples")))
+    for name, said in (("--of", of != "angle"), ("--keep", bool(keep)), ("--out", out is not None)):
         if said and target is None:
-            problems.append(Problem(option, _("belongs to --allocate TARGET")))
+            problems.append(Problem(name, _("belongs to --allocate TARGET")))
     if target is not None and method == "samples":
         problems.append(Problem("--method", _("--allocate adds errors up by squares or worst")))
     if samples is not None and samples > MOST_SAMPLES:

@@ -6,8 +6,8 @@ from math import isfinite
 from typing import Annotated, Any
 
 import numpy as np
-import typer
 
+from cardan.cli.shared.options import option
 from cardan.cli.shared.output import check_common, check_speed
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
@@ -23,24 +23,11 @@ MOST_INSTANTS = 1_000_000
 def articulation(
     file: DriveFile,
     until: Annotated[
-        float | None,
-        typer.Option(
-            "--until-s",
-            "--until",
-            metavar="S",
-            help=_("Time span from 0, instead of a whole period."),
-            show_default=False,
-        ),
+        float | None, option("--until-s --until", "S", _("Time span from 0, instead of a whole period."))
     ] = None,
     step: Annotated[
         float | None,
-        typer.Option(
-            "--step-s",
-            "--step",
-            metavar="S",
-            help=_("Step of --until-s; fine enough to follow the movement by default."),
-            show_default=False,
-        ),
+        option("--step-s --step", "S", _("Step of --until-s; fine enough to follow the movement by default.")),
     ] = None,
     speed_rpm: SpeedRpm = None,
     json: AsJson = False,

@@ -7,9 +7,8 @@ from dataclasses import dataclass, fields
 from math import isfinite
 from typing import Annotated, Any
 
-import typer
-
 from cardan.cli.shared.asked import check_options
+from cardan.cli.shared.options import argument, option
 from cardan.cli.shared.source import AsCsv, AsJson, Plot, value_of
 from cardan.cli.shared.tell import tell
 from cardan.drive.joints import JOINTS
@@ -33,21 +32,17 @@ def _words(incomplete: str) -> list[tuple[str, str]]:
 def joint(
     words: Annotated[
         list[str] | None,
-        typer.Argument(
-            metavar="KIND [KEY=VALUE]",
-            help=_("Kinds of joints, each followed by its sizes as a drive file has them; none lists the kinds."),
-            show_default=False,
+        argument(
+            "KIND [KEY=VALUE]",
+            _("Kinds of joints, each followed by its sizes as a drive file has them; none lists the kinds."),
             autocompletion=_words,
         ),
     ] = None,
     joint_angle_deg: Annotated[
-        float, typer.Option("--joint-angle-deg", "--joint-angle", metavar="DEG", help=_("Joint angle of the joints."))
+        float, option("--joint-angle-deg --joint-angle", "DEG", _("Joint angle of the joints."))
     ] = USUAL,
     speed_rpm: Annotated[
-        float | None,
-        typer.Option(
-            "--speed-rpm", metavar="RPM", help=_("Input speed, for accelerations and limits."), show_default=False
-        ),
+        float | None, option("--speed-rpm", "RPM", _("Input speed, for accelerations and limits."))
     ] = None,
     json: AsJson = False,
     csv: AsCsv = False,

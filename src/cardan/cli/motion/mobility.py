@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from cardan.cli.shared.asked import keys_of
 from cardan.cli.shared.failure import about
+from cardan.cli.shared.options import argument, flag
 from cardan.cli.shared.output import check_common
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.source import STDIN, AsCsv, AsJson, Plot, form_of, stdin_text
@@ -22,15 +21,8 @@ from cardan.texts import _
 
 
 def mobility(
-    file: Annotated[
-        Path,
-        typer.Argument(
-            metavar="FILE", help=_("Drive or mechanism file, TOML or JSON; - reads standard input."), show_default=False
-        ),
-    ],
-    turn: Annotated[
-        bool, typer.Option("--turn", help=_("Follow it over a turn of the input."), show_default=False)
-    ] = False,
+    file: Annotated[Path, argument("FILE", _("Drive or mechanism file, TOML or JSON; - reads standard input."))],
+    turn: Annotated[bool, flag("--turn", _("Follow it over a turn of the input."))] = False,
     json: AsJson = False,
     csv: AsCsv = False,
     plot: Plot = None,

@@ -6,8 +6,8 @@ import math
 from typing import Annotated, Any
 
 import numpy as np
-import typer
 
+from cardan.cli.shared.options import flag, option
 from cardan.cli.shared.output import check_common, check_speed
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
@@ -27,27 +27,21 @@ def motion(
     file: DriveFile,
     angle: Annotated[
         list[float] | None,
-        typer.Option(
-            "--angle-deg",
-            "--angle",
-            metavar="DEG",
-            help=_("Input angle from the start position; may be repeated. Instead of a whole turn."),
-            show_default=False,
+        option(
+            "--angle-deg --angle",
+            "DEG",
+            _("Input angle from the start position; may be repeated. Instead of a whole turn."),
         ),
     ] = None,
     step: Annotated[
         float | None,
-        typer.Option(
-            "--angle-step-deg",
-            "--angle-step",
-            metavar="DEG",
-            help=_("Step of the input angle over one turn: 30 in the table, 1 otherwise."),
-            show_default=False,
+        option(
+            "--angle-step-deg --angle-step",
+            "DEG",
+            _("Step of the input angle over one turn: 30 in the table, 1 otherwise."),
         ),
     ] = None,
-    table: Annotated[
-        bool, typer.Option("--table", help=_("Print a table over the input angle, too."), show_default=False)
-    ] = False,
+    table: Annotated[bool, flag("--table", _("Print a table over the input angle, too."))] = False,
     speed_rpm: SpeedRpm = None,
     json: AsJson = False,
     csv: AsCsv = False,

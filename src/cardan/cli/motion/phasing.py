@@ -8,10 +8,9 @@ from math import isfinite, radians
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-import typer
-
 from cardan.answers.answer import Answer
 from cardan.cli.shared.apply import check_copy, named, written
+from cardan.cli.shared.options import flag, option
 from cardan.cli.shared.output import check_common
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Force, Plot, read_with_text
@@ -31,17 +30,14 @@ Goal: TypeAlias = Literal["intermediate", "nearest"]
 def phasing(
     file: DriveFile,
     fix: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--fix", metavar="SHAFT=DEG", help=_("Hold the yoke angle of a shaft; may be repeated."), show_default=False
-        ),
+        list[str] | None, option("--fix", "SHAFT=DEG", _("Hold the yoke angle of a shaft; may be repeated."))
     ] = None,
     goal: Annotated[
         Goal,
-        typer.Option(
+        option(
             "--goal",
-            metavar="GOAL",
-            help=_(
+            "GOAL",
+            _(
                 "Among equally uniform settings prefer the least fluctuation of the intermediate shafts (intermediate) "
                 "or the least change of the present yokes (nearest)."
             ),
@@ -49,30 +45,17 @@ def phasing(
     ] = "intermediate",
     layout: Annotated[
         bool,
-        typer.Option(
+        flag(
             "--layout",
-            help=_("Also move the joint centres within their limits (move_within), for the smallest joint angles."),
-            show_default=False,
+            _("Also move the joint centres within their limits (move_within), for the smallest joint angles."),
         ),
     ] = False,
     apply: Annotated[
-        str | None,
-        typer.Option(
-            "--apply",
-            metavar="SETTING",
-            help=_("Which setting (A, B …) -o writes; the first by default."),
-            show_default=False,
-        ),
+        str | None, option("--apply", "SETTING", _("Which setting (A, B …) -o writes; the first by default."))
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option(
-            "--out",
-            "-o",
-            metavar="PATH",
-            help=_("Write the yoke angles into a copy of FILE, comments kept; may be FILE."),
-            show_default=False,
-        ),
+        option("--out -o", "PATH", _("Write the yoke angles into a copy of FILE, comments kept; may be FILE.")),
     ] = None,
     force: Force = False,
     json: AsJson = False,

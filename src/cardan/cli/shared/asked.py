@@ -10,8 +10,6 @@ from math import isfinite
 from pathlib import Path
 from typing import Annotated, TypeAlias
 
-import typer
-
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.errors import InputError, Problem, check, refuse
@@ -22,41 +20,26 @@ from cardan.texts import _
 from cardan.units import rpm
 
 from .failure import about
+from .options import option
 from .output import check_common, check_speed, print_text
 from .progress import watching
 from .source import STDIN, AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from .tell import tell
 
 TorqueNm: TypeAlias = Annotated[
-    float | None,
-    typer.Option(
-        "--torque-Nm",
-        "--torque-nm",
-        metavar="NM",
-        help=_("Torque, instead of the one in the file."),
-        show_default=False,
-    ),
+    float | None, option("--torque-Nm --torque-nm", "NM", _("Torque, instead of the one in the file."))
 ]
 
 CurveAngle: TypeAlias = Annotated[
     list[float] | None,
-    typer.Option(
-        "--angle-deg",
-        "--angle",
-        metavar="DEG",
-        help=_("Input angle of the curves (--csv, --json); may be repeated. Instead of a whole turn."),
-        show_default=False,
+    option(
+        "--angle-deg --angle",
+        "DEG",
+        _("Input angle of the curves (--csv, --json); may be repeated. Instead of a whole turn."),
     ),
 ]
 CurveStep: TypeAlias = Annotated[
-    float | None,
-    typer.Option(
-        "--angle-step-deg",
-        "--angle-step",
-        metavar="DEG",
-        help=_("Step of the curves over one turn: 1 by default."),
-        show_default=False,
-    ),
+    float | None, option("--angle-step-deg --angle-step", "DEG", _("Step of the curves over one turn: 1 by default."))
 ]
 
 SUFFIX = {

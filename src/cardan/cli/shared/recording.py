@@ -8,8 +8,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, TypeAlias
 
-import typer
-
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem
 from cardan.io.signals import load_recording
@@ -17,51 +15,32 @@ from cardan.questions.diagnosis.signals.signal import DIRECTIONS, Signal
 from cardan.texts import _
 
 from .failure import RefusedError, about
+from .options import option
 from .source import read
 
 Tacho: TypeAlias = Annotated[
-    str | None,
-    typer.Option(
-        "--tacho",
-        metavar="CHANNEL",
-        help=_("Channel that tells how the shaft turns: pulses, a speed or an angle."),
-        show_default=False,
-    ),
+    str | None, option("--tacho", "CHANNEL", _("Channel that tells how the shaft turns: pulses, a speed or an angle."))
 ]
-Pulses: TypeAlias = Annotated[
-    float, typer.Option("--pulses-per-turn", metavar="N", help=_("Pulses of the tacho in a turn of the shaft."))
-]
+Pulses: TypeAlias = Annotated[float, option("--pulses-per-turn", "N", _("Pulses of the tacho in a turn of the shaft."))]
 Rate: TypeAlias = Annotated[
-    float | None,
-    typer.Option(
-        "--rate-hz", metavar="HZ", help=_("Values a second, for files that do not say it."), show_default=False
-    ),
+    float | None, option("--rate-hz", "HZ", _("Values a second, for files that do not say it."))
 ]
 Titles: TypeAlias = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--title",
-        metavar="NAME=TITLE",
-        help=_("What a channel measures, as left=tacho or right=acceleration_front_z_g; may be repeated."),
-        show_default=False,
+        "NAME=TITLE",
+        _("What a channel measures, as left=tacho or right=acceleration_front_z_g; may be repeated."),
     ),
 ]
 Places: TypeAlias = Annotated[
     list[str] | None,
-    typer.Option(
-        "--place",
-        metavar="NAME=PLACE",
-        help=_("Where a sensor sits and looks, as front=supports[0]:axial; may be repeated."),
-        show_default=False,
-    ),
+    option("--place", "NAME=PLACE", _("Where a sensor sits and looks, as front=supports[0]:axial; may be repeated.")),
 ]
 FullScale: TypeAlias = Annotated[
     list[float] | None,
-    typer.Option(
-        "--full-scale",
-        metavar="VALUE",
-        help=_("What the greatest number of a WAV file stands for; once, or once for each channel."),
-        show_default=False,
+    option(
+        "--full-scale", "VALUE", _("What the greatest number of a WAV file stands for; once, or once for each channel.")
     ),
 ]
 

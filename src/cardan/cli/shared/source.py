@@ -9,49 +9,30 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, TypeAlias
 
-import typer
-
 from cardan.drive.drive import Drive
 from cardan.errors import refuse
 from cardan.io import load, loads
 from cardan.texts import _
 
 from .failure import about
+from .options import argument, flag, option
 
 # Options that mean the same in every command.
 
-DriveFile: TypeAlias = Annotated[
-    Path,
-    typer.Argument(metavar="FILE", help=_("Drive file, TOML or JSON; - reads standard input."), show_default=False),
-]
-AsJson: TypeAlias = Annotated[
-    bool, typer.Option("--json", help=_("Print everything as JSON, errors (on stderr) too."), show_default=False)
-]
-AsCsv: TypeAlias = Annotated[bool, typer.Option("--csv", help=_("Print the full table as CSV."), show_default=False)]
+DriveFile: TypeAlias = Annotated[Path, argument("FILE", _("Drive file, TOML or JSON; - reads standard input."))]
+AsJson: TypeAlias = Annotated[bool, flag("--json", _("Print everything as JSON, errors (on stderr) too."))]
+AsCsv: TypeAlias = Annotated[bool, flag("--csv", _("Print the full table as CSV."))]
 Plot: TypeAlias = Annotated[
-    Path | None,
-    typer.Option(
-        "--plot", metavar="PATH", help=_("Draw the figure into PATH: .svg, .png, .pdf or .html."), show_default=False
-    ),
+    Path | None, option("--plot", "PATH", _("Draw the figure into PATH: .svg, .png, .pdf or .html."))
 ]
 SpeedRpm: TypeAlias = Annotated[
-    float | None,
-    typer.Option(
-        "--speed-rpm", metavar="RPM", help=_("Input speed, instead of the one in the file."), show_default=False
-    ),
+    float | None, option("--speed-rpm", "RPM", _("Input speed, instead of the one in the file."))
 ]
 MoreRows: TypeAlias = Annotated[
     list[Path] | None,
-    typer.Option(
-        "--catalogue",
-        metavar="FILE",
-        help=_("Catalogue file with more sizes, types, grades or standards; may be repeated."),
-        show_default=False,
-    ),
+    option("--catalogue", "FILE", _("Catalogue file with more sizes, types, grades or standards; may be repeated.")),
 ]
-Force: TypeAlias = Annotated[
-    bool, typer.Option("--force", help=_("Overwrite PATH where it is not FILE itself."), show_default=False)
-]
+Force: TypeAlias = Annotated[bool, flag("--force", _("Overwrite PATH where it is not FILE itself."))]
 
 
 STDIN = Path("-")

@@ -5,14 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from cardan.batch.answer import answer
 from cardan.batch.engine.cluster import Cluster
 from cardan.batch.engine.engines import Engine, InProcess, Processes
 from cardan.batch.engine.running import run
 from cardan.batch.table.swept import read_sweep
 from cardan.cli.shared.failure import about
+from cardan.cli.shared.options import argument, flag, option
 from cardan.cli.shared.output import check_common
 from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import AsCsv, AsJson, MoreRows, Plot
@@ -28,59 +27,36 @@ HELD = 200_000
 
 
 def sweep(
-    plan: Annotated[Path, typer.Argument(metavar="PLAN", help=_("Plan file, TOML or JSON."), show_default=False)],
+    plan: Annotated[Path, argument("PLAN", _("Plan file, TOML or JSON."))],
     into: Annotated[
-        Path | None,
-        typer.Option(
-            "--into",
-            metavar="FOLDER",
-            help=_("Folder for the table, as Parquet; a sweep begun there goes on."),
-            show_default=False,
-        ),
+        Path | None, option("--into", "FOLDER", _("Folder for the table, as Parquet; a sweep begun there goes on."))
     ] = None,
     engine: Annotated[
         str | None,
-        typer.Option(
-            "--engine",
-            metavar="in-process|processes|cluster",
-            help=_("Where to work, instead of where the plan says."),
-            show_default=False,
-        ),
+        option("--engine", "in-process|processes|cluster", _("Where to work, instead of where the plan says.")),
     ] = None,
     workers: Annotated[
-        int | None,
-        typer.Option(
-            "--workers", metavar="N", min=1, help=_("How many processes or workers of a cluster."), show_default=False
-        ),
+        int | None, option("--workers", "N", _("How many processes or workers of a cluster."), min=1)
     ] = None,
     scheduler: Annotated[
         str | None,
-        typer.Option(
+        option(
             "--scheduler",
-            metavar="ADDRESS",
-            help=_("Address of the scheduler of a dask cluster; without it a cluster is started here."),
-            show_default=False,
+            "ADDRESS",
+            _("Address of the scheduler of a dask cluster; without it a cluster is started here."),
         ),
     ] = None,
     device: Annotated[
         str | None,
-        typer.Option(
-            "--device",
-            metavar="cpu|gpu",
-            help=_("What computes questions about motion, instead of what the plan says."),
-            show_default=False,
-        ),
+        option("--device", "cpu|gpu", _("What computes questions about motion, instead of what the plan says.")),
     ] = None,
-    resume: Annotated[
-        bool, typer.Option("--resume", help=_("Go on with the sweep of FOLDER, and begin none."), show_default=False)
-    ] = False,
+    resume: Annotated[bool, flag("--resume", _("Go on with the sweep of FOLDER, and begin none."))] = False,
     design: Annotated[
         str | None,
-        typer.Option(
+        option(
             "--design",
-            metavar="search|sensitivity|boundary",
-            help=_("Run the plan's search, sensitivity or boundary instead of the full grid."),
-            show_default=False,
+            "search|sensitivity|boundary",
+            _("Run the plan's search, sensitivity or boundary instead of the full grid."),
         ),
     ] = None,
     catalogue: MoreRows = None,

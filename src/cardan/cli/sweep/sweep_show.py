@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from cardan.batch.search.goals import goal_of, limit_of
 from cardan.batch.show_answer import SHOWN, Asked, answer
 from cardan.batch.table.results import results as read
+from cardan.cli.shared.options import argument, option
 from cardan.cli.shared.output import check_common, check_target
 from cardan.cli.shared.source import AsCsv, AsJson, Plot
 from cardan.cli.shared.tell import tell
@@ -22,81 +21,42 @@ KINDS = ("lines", "pareto", "map", "histogram", "tornado")
 
 
 def sweep_show(
-    results: Annotated[
-        Path, typer.Argument(metavar="RESULTS", help=_("Folder that a sweep was run into."), show_default=False)
-    ],
+    results: Annotated[Path, argument("RESULTS", _("Folder that a sweep was run into."))],
     best: Annotated[
-        str | None,
-        typer.Option(
-            "--best", metavar="GOAL", help=_('The best points by a goal: "min speed_fluctuation".'), show_default=False
-        ),
+        str | None, option("--best", "GOAL", _('The best points by a goal: "min speed_fluctuation".'))
     ] = None,
     pareto: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
             "--pareto",
-            metavar="GOAL",
-            help=_("The points of which none is better in all goals; give two goals or more, each by --pareto."),
-            show_default=False,
+            "GOAL",
+            _("The points of which none is better in all goals; give two goals or more, each by --pareto."),
         ),
     ] = None,
     limit: Annotated[
         list[str] | None,
-        typer.Option(
-            "--limit",
-            metavar="LIMIT",
-            help=_('What a point has to keep: "joint_angle_deg[1] <= 12"; may be repeated.'),
-            show_default=False,
-        ),
+        option("--limit", "LIMIT", _('What a point has to keep: "joint_angle_deg[1] <= 12"; may be repeated.')),
     ] = None,
-    where: Annotated[
-        str,
-        typer.Option(
-            "--where", metavar="SQL", help=_("Only points that fulfil a condition in SQL."), show_default=False
-        ),
-    ] = "",
+    where: Annotated[str, option("--where", "SQL", _("Only points that fulfil a condition in SQL."))] = "",
     query: Annotated[
-        str | None,
-        typer.Option(
-            "--query",
-            metavar="SQL",
-            help=_("Answer a SELECT of the table sweep instead; nothing is changed by it."),
-            show_default=False,
-        ),
+        str | None, option("--query", "SQL", _("Answer a SELECT of the table sweep instead; nothing is changed by it."))
     ] = None,
-    count: Annotated[int, typer.Option("--count", metavar="N", min=1, help=_("How many of the best points."))] = SHOWN,
+    count: Annotated[int, option("--count", "N", _("How many of the best points."), min=1)] = SHOWN,
     kind: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
             "--kind",
-            metavar="KIND",
-            help=_("What --plot draws: lines, pareto, map, histogram or tornado; may be repeated; else what suits."),
-            show_default=False,
+            "KIND",
+            _("What --plot draws: lines, pareto, map, histogram or tornado; may be repeated; else what suits."),
         ),
     ] = None,
-    of: Annotated[
-        str | None,
-        typer.Option(
-            "--of", metavar="COLUMN", help=_("The answer that is drawn; the first by default."), show_default=False
-        ),
-    ] = None,
+    of: Annotated[str | None, option("--of", "COLUMN", _("The answer that is drawn; the first by default."))] = None,
     over: Annotated[
         list[str] | None,
-        typer.Option(
-            "--over",
-            metavar="COLUMN",
-            help=_("The two fields of a map; the first two that hold numbers by default."),
-            show_default=False,
-        ),
+        option("--over", "COLUMN", _("The two fields of a map; the first two that hold numbers by default.")),
     ] = None,
     out: Annotated[
-        Path | None,
-        typer.Option(
-            "--export",
-            metavar="PATH",
-            help=_("Write the points told to PATH: .csv, .parquet or .xlsx."),
-            show_default=False,
-        ),
+        Path | None, option("--export", "PATH", _("Write the points told to PATH: .csv, .parquet or .xlsx."))
     ] = None,
     json: AsJson = False,
     csv: AsCsv = False,

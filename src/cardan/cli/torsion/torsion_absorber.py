@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated
 
-import typer
-
 from cardan.cli.shared.asked import TorqueNm, check_options, on_duty
+from cardan.cli.shared.options import option
 from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Force, Plot, SpeedRpm, read_with_text
 from cardan.cli.shared.tell import tell
@@ -36,47 +35,25 @@ OPTIONS = {
 def torsion_absorber(
     file: DriveFile,
     kind: Annotated[
-        str,
-        typer.Option(
-            "--kind", metavar="KIND", help=_("One of h_infinity, den_hartog, viscous, tuned (one speed), pendulum.")
-        ),
+        str, option("--kind", "KIND", _("One of h_infinity, den_hartog, viscous, tuned (one speed), pendulum."))
     ] = "h_infinity",
     ratio: Annotated[
         float | None,
-        typer.Option(
-            "--ratio",
-            metavar="SHARE",
-            help=_("Inertia over that of the mode at the station; 0.1 where none is given."),
-            show_default=False,
-        ),
+        option("--ratio", "SHARE", _("Inertia over that of the mode at the station; 0.1 where none is given.")),
     ] = None,
-    inertia: Annotated[
-        float | None,
-        typer.Option("--inertia-kg-m2", metavar="INERTIA", help=_("The inertia itself, instead."), show_default=False),
-    ] = None,
+    inertia: Annotated[float | None, option("--inertia-kg-m2", "INERTIA", _("The inertia itself, instead."))] = None,
     at: Annotated[
         str | None,
-        typer.Option(
-            "--at",
-            metavar="STATION",
-            help=_("Name or number of the station; where the mode has its largest amplitude by default."),
-            show_default=False,
+        option(
+            "--at", "STATION", _("Name or number of the station; where the mode has its largest amplitude by default.")
         ),
     ] = None,
-    mode: Annotated[
-        int | None,
-        typer.Option("--mode", metavar="N", help=_("Mode to suppress; the strongest by default."), show_default=False),
-    ] = None,
-    order: Annotated[
-        float | None, typer.Option("--order", metavar="ORDER", help=_("Order that excites it."), show_default=False)
-    ] = None,
+    mode: Annotated[int | None, option("--mode", "N", _("Mode to suppress; the strongest by default."))] = None,
+    order: Annotated[float | None, option("--order", "ORDER", _("Order that excites it."))] = None,
     radius: Annotated[
-        float | None,
-        typer.Option(
-            "--radius-mm", metavar="MM", help=_("Pendulums: distance of the pivots from the axis."), show_default=False
-        ),
+        float | None, option("--radius-mm", "MM", _("Pendulums: distance of the pivots from the axis."))
     ] = None,
-    count: Annotated[int, typer.Option("--count", metavar="N", help=_("Pendulums: how many."))] = 1,
+    count: Annotated[int, option("--count", "N", _("Pendulums: how many."))] = 1,
     speeds: SpeedBand = None,
     element: Element = None,
     speed_rpm: SpeedRpm = None,

@@ -8,12 +8,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, TypeAlias
 
-import typer
-
 from cardan.answers.answer import FILE, Answer, Remark
 from cardan.cli.shared.apply import check_copy
 from cardan.cli.shared.asked import keys_of
 from cardan.cli.shared.changed import is_json
+from cardan.cli.shared.options import option
 from cardan.cli.shared.output import write_text
 from cardan.cli.shared.source import form_of
 from cardan.drive.drive import Drive
@@ -26,31 +25,15 @@ from .torsion_parts import values
 
 SpeedBand: TypeAlias = Annotated[
     str | None,
-    typer.Option(
-        "--speeds",
-        metavar="LOW:HIGH",
-        help=_("Band of input speeds in rpm, instead of the speed_range of the file."),
-        show_default=False,
-    ),
+    option("--speeds", "LOW:HIGH", _("Band of input speeds in rpm, instead of the speed_range of the file.")),
 ]
 Element: TypeAlias = Annotated[
     list[int] | None,
-    typer.Option(
-        "--element",
-        metavar="N",
-        help=_("Judge the torque of this element only, from 1; may be repeated. All by default."),
-        show_default=False,
-    ),
+    option("--element", "N", _("Judge the torque of this element only, from 1; may be repeated. All by default.")),
 ]
 Out: TypeAlias = Annotated[
     Path | None,
-    typer.Option(
-        "--out",
-        "-o",
-        metavar="PATH",
-        help=_("Write the better drive into a copy of FILE, comments kept; may be FILE."),
-        show_default=False,
-    ),
+    option("--out -o", "PATH", _("Write the better drive into a copy of FILE, comments kept; may be FILE.")),
 ]
 
 
@@ -84,11 +67,11 @@ def repeated(single: Mapping[str, Any], many: Mapping[str, Sequence[Any] | None]
     ('--kind', 'tuned', '--element', '1', '--element', '2')
     """
     words: list[str] = []
-    for option, value in single.items():
-        words += [] if value is None else [option, f"{value:g}" if isinstance(value, float) else str(value)]
-    for option, several in many.items():
+    for name, value in single.items():
+        words += [] if value is None else [name, f"{value:g}" if isinstance(value, float) else str(value)]
+    for name, several in many.items():
         for value in several or ():
-            words += [option, str(value)]
+            words += [name, str(value)]
     return tuple(words)
 
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Annotated
 
-import typer
-
 from cardan.cli.shared.asked import TorqueNm, check_options, on_duty
+from cardan.cli.shared.options import option
 from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Force, Plot, SpeedRpm, read_with_text
 from cardan.cli.shared.tell import tell
@@ -31,28 +30,19 @@ def torsion_optimise(
     file: DriveFile,
     free: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
             "--free",
-            metavar="PATH=LOW:HIGH[:STEP]",
-            help=_("Key of the file that may change, as shafts[1].yoke_angle_deg; may be repeated. Yokes by default."),
-            show_default=False,
+            "PATH=LOW:HIGH[:STEP]",
+            _("Key of the file that may change, as shafts[1].yoke_angle_deg; may be repeated. Yokes by default."),
         ),
     ] = None,
     speeds: SpeedBand = None,
     element: Element = None,
     grid: Annotated[
-        int | None,
-        typer.Option(
-            "--grid",
-            metavar="N",
-            help=_("Try every combination of N values of each key instead of evolution."),
-            show_default=False,
-        ),
+        int | None, option("--grid", "N", _("Try every combination of N values of each key instead of evolution."))
     ] = None,
-    rounds: Annotated[
-        int, typer.Option("--rounds", metavar="N", min=1, help=_("Generations of the search at most."))
-    ] = ROUNDS,
-    seed: Annotated[int, typer.Option("--seed", metavar="N", min=0, help=_("Random seed."))] = 0,
+    rounds: Annotated[int, option("--rounds", "N", _("Generations of the search at most."), min=1)] = ROUNDS,
+    seed: Annotated[int, option("--seed", "N", _("Random seed."), min=0)] = 0,
     speed_rpm: SpeedRpm = None,
     torque: TorqueNm = None,
     out: Out = None,

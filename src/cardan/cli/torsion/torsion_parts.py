@@ -5,29 +5,20 @@ from __future__ import annotations
 from typing import Annotated, Any, TypeAlias
 
 import numpy as np
-import typer
 
+from cardan.cli.shared.options import option
 from cardan.errors import refuse
 from cardan.questions.torsion.stability.torsion_stability import PACE
 from cardan.texts import _
 
 Speeds: TypeAlias = Annotated[
     str | None,
-    typer.Option(
-        "--speeds",
-        metavar="LOW:HIGH[:COUNT]",
-        help=_("Input speeds in rpm, from the lowest to the highest, instead of one."),
-        show_default=False,
-    ),
+    option("--speeds", "LOW:HIGH[:COUNT]", _("Input speeds in rpm, from the lowest to the highest, instead of one.")),
 ]
 Pieces: TypeAlias = Annotated[
     int,
-    typer.Option(
-        "--pieces",
-        metavar="N",
-        min=1,
-        max=1000,
-        help=_("Stretches into which the body of a shaft is divided between two stations."),
+    option(
+        "--pieces", "N", _("Stretches into which the body of a shaft is divided between two stations."), min=1, max=1000
     ),
 ]
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from math import isfinite
 from typing import Annotated
 
-import typer
-
 from cardan.cli.shared.asked import TorqueNm, check_options, on_duty
+from cardan.cli.shared.options import flag, option
 from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
@@ -28,24 +27,11 @@ def torsion_simulate(
     file: DriveFile,
     span: Annotated[
         float | None,
-        typer.Option(
-            "--span-s",
-            "--span",
-            metavar="S",
-            help=_("How long; behind the run-up or to the end of the history, else some turns."),
-            show_default=False,
-        ),
+        option("--span-s --span", "S", _("How long; behind the run-up or to the end of the history, else some turns.")),
     ] = None,
-    samples: Annotated[
-        int, typer.Option("--samples", metavar="N", min=2, max=MOST_SAMPLES, help=_("Samples of the curves."))
-    ] = 2001,
+    samples: Annotated[int, option("--samples", "N", _("Samples of the curves."), min=2, max=MOST_SAMPLES)] = 2001,
     settled: Annotated[
-        bool,
-        typer.Option(
-            "--settled",
-            help=_("Start from the steady motion, not from uniform rotation with untwisted shafts."),
-            show_default=False,
-        ),
+        bool, flag("--settled", _("Start from the steady motion, not from uniform rotation with untwisted shafts."))
     ] = False,
     speed_rpm: SpeedRpm = None,
     torque: TorqueNm = None,

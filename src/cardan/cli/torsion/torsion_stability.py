@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-import typer
-
 from cardan.cli.shared.asked import check_options, keys_of, on_duty
+from cardan.cli.shared.options import option
 from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
@@ -27,20 +26,18 @@ def torsion_stability(
     speeds: Speeds = None,
     joint_angles: Annotated[
         str | None,
-        typer.Option(
+        option(
             "--joint-angles",
-            metavar="LOW:HIGH[:COUNT]",
-            help=_("Joint angle of the joint with the largest, in degrees; the others in proportion."),
-            show_default=False,
+            "LOW:HIGH[:COUNT]",
+            _("Joint angle of the joint with the largest, in degrees; the others in proportion."),
         ),
     ] = None,
     over: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
             "--over",
-            metavar="PATH=LOW:HIGH[:COUNT]",
-            help=_("Any key of the file, as shafts[1].damping_Nms_per_rad; may be repeated."),
-            show_default=False,
+            "PATH=LOW:HIGH[:COUNT]",
+            _("Any key of the file, as shafts[1].damping_Nms_per_rad; may be repeated."),
         ),
     ] = None,
     pieces: Pieces = 1,

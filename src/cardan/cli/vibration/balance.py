@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from cardan.cli.shared.asked import check_options, keys_of, on_duty
+from cardan.cli.shared.options import option
 from cardan.cli.shared.source import STDIN, AsCsv, AsJson, DriveFile, MoreRows, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.errors import InputError
@@ -18,13 +17,7 @@ from cardan.texts import _
 def balance(
     file: DriveFile,
     grade: Annotated[
-        str | None,
-        typer.Option(
-            "--grade",
-            metavar="GRADE",
-            help=_("Balance grade, as G16 or G40, instead of the one in the file."),
-            show_default=False,
-        ),
+        str | None, option("--grade", "GRADE", _("Balance grade, as G16 or G40, instead of the one in the file."))
     ] = None,
     speed_rpm: SpeedRpm = None,
     more: MoreRows = None,

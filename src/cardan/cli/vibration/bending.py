@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from cardan.cli.shared.asked import keys_of
+from cardan.cli.shared.options import flag, option
 from cardan.cli.shared.output import check_common
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, read
 from cardan.cli.shared.tell import tell
@@ -18,13 +17,11 @@ from cardan.texts import _
 
 def bending(
     file: DriveFile,
-    modes: Annotated[int, typer.Option("--modes", metavar="N", help=_("How many critical speeds."))] = 3,
+    modes: Annotated[int, option("--modes", "N", _("How many critical speeds."))] = 3,
     over: Annotated[
         bool,
-        typer.Option(
-            "--map",
-            help=_("Critical speeds over the stiffness of a support, or the length of a shaft where all are rigid."),
-            show_default=False,
+        flag(
+            "--map", _("Critical speeds over the stiffness of a support, or the length of a shaft where all are rigid.")
         ),
     ] = False,
     json: AsJson = False,

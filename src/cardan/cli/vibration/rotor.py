@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from cardan.cli.shared.asked import check_options, keys_of
+from cardan.cli.shared.options import flag, option
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, read
 from cardan.cli.shared.tell import tell
@@ -25,39 +24,18 @@ def rotor(
     file: DriveFile,
     shaft: Annotated[
         int | None,
-        typer.Option(
-            "--shaft",
-            metavar="N",
-            help=_("Number of the shaft; the cracked one otherwise, else the one with most unbalance."),
-            show_default=False,
-        ),
+        option("--shaft", "N", _("Number of the shaft; the cracked one otherwise, else the one with most unbalance.")),
     ] = None,
-    damping: Annotated[
-        float, typer.Option("--damping", metavar="ζ", help=_("Damping ratio of the bending of the shaft."))
-    ] = 0.02,
+    damping: Annotated[float, option("--damping", "ζ", _("Damping ratio of the bending of the shaft."))] = 0.02,
     speeds: Speeds = None,
-    run_up: Annotated[
-        bool,
-        typer.Option(
-            "--run-up", help=_("In time, while the speed changes as the run_up of the duty."), show_default=False
-        ),
-    ] = False,
+    run_up: Annotated[bool, flag("--run-up", _("In time, while the speed changes as the run_up of the duty."))] = False,
     joint: Annotated[
-        int | None,
-        typer.Option(
-            "--joint", metavar="N", help=_("In time, both shafts beside this joint, at one speed."), show_default=False
-        ),
+        int | None, option("--joint", "N", _("In time, both shafts beside this joint, at one speed."))
     ] = None,
     speed_rpm: Annotated[
-        float | None,
-        typer.Option(
-            "--speed-rpm",
-            metavar="RPM",
-            help=_("With --joint: the speed, instead of the one in the file."),
-            show_default=False,
-        ),
+        float | None, option("--speed-rpm", "RPM", _("With --joint: the speed, instead of the one in the file."))
     ] = None,
-    turns: Annotated[float, typer.Option("--turns", metavar="N", help=_("With --joint: how long, in turns."))] = 40.0,
+    turns: Annotated[float, option("--turns", "N", _("With --joint: how long, in turns."))] = 40.0,
     json: AsJson = False,
     csv: AsCsv = False,
     plot: Plot = None,
