@@ -269,9 +269,6 @@ def heads(heading: str, names: Sequence[str], *, chips: Sequence[str] = ()) -> t
     """Return the columns that head a table of parts counted from 1: number with name for people, each for programs.
 
     names: their names, empty where they have none; chips: colours before them.
-
-    >>> [list(column.values) for column in heads("joint", ["front", ""])]
-    [['1 front', '2'], [1, 2], ['front', '']]
     """
     numbers = list(range(1, len(names) + 1))
     shown: list[Any] = [f"{number} {name}".strip() for number, name in zip(numbers, names, strict=True)]
@@ -316,14 +313,7 @@ class Checked:
 
 
 def checks(rows: Sequence[Checked], depth: Depth = "full") -> Table:
-    """Return the table of checks; residuals are told to people by their power of ten, to programs in full.
-
-    >>> from .printed import printed
-    >>> from .reader import USUAL
-    >>> held = Checked(what="power", how="in less out", left=3e-14, allowed=1e-9)
-    >>> [cell.text for cell in printed(checks([held]), USUAL).rows[0]]
-    ['power', 'in less out', 'rounding', '10⁻⁹', 'passed']
-    """
+    """Return the table of checks; residuals are told to people by their power of ten, to programs in full."""
     tones: list[Tone] = ["good" if one.passed else "failed" for one in rows]
     words = [_("passed") if one.passed else _("failed") for one in rows]
     return Table(
@@ -348,11 +338,7 @@ def checks(rows: Sequence[Checked], depth: Depth = "full") -> Table:
 
 
 def leftover(residual: float) -> str:
-    """Return a residual for a cell beside what is allowed: below which power of ten it is, or that it is rounding.
-
-    >>> leftover(7e-16), leftover(3.2e-10), leftover(float("nan"))
-    ('rounding', '< 10⁻⁹', '–')
-    """
+    """Return a residual for a cell beside what is allowed: below which power of ten it is, or that it is rounding."""
     if not math.isfinite(residual):
         return "–"
     power = power_of(residual)
@@ -360,11 +346,7 @@ def leftover(residual: float) -> str:
 
 
 def closely(residual: float) -> str:
-    """Return how closely a check holds, for a sentence.
-
-    >>> closely(7e-16), closely(3.2e-10), closely(0.02), closely(float("nan"))
-    ('to rounding', 'to 10⁻⁹', 'to 0.1', 'not at all')
-    """
+    """Return how closely a check holds, for a sentence."""
     if not math.isfinite(residual):
         return _("not at all")
     power = power_of(residual)

@@ -41,11 +41,7 @@ def data(answer: Answer, reader: Reader) -> dict[str, Any]:
 
 
 def tree(facts: Mapping[str, Any], reader: Reader) -> dict[str, Any]:
-    """Return facts with the unit of every quantity behind its key.
-
-    >>> tree({"life": Quantity(3600.0, "duration"), "cycles": {"count": 3}}, Reader())
-    {'life_h': 1.0, 'cycles': {'count': 3}}
-    """
+    """Return facts with the unit of every quantity behind its key."""
     found = {}
     for key, value in facts.items():
         own = isinstance(value, Quantity)
@@ -120,11 +116,7 @@ def _indented(value: Any, margin: str) -> str:
 
 
 def simple(value: Any) -> Any:
-    """Return arrays, tuples and numbers as what JSON knows; what is not a number is null, what is endless "∞".
-
-    >>> simple({"a": (1.0, float("nan"), float("-inf"))})
-    {'a': [1.0, None, '-∞']}
-    """
+    """Return arrays, tuples and numbers as what JSON knows; what is not a number is null, what is endless "∞"."""
     if isinstance(value, dict):
         return {str(key): simple(item) for key, item in value.items()}
     if hasattr(value, "tolist"):

@@ -136,9 +136,5 @@ def number(quantity: Quantity, reader: Reader, *, unit: bool = True) -> Cell:
 
 
 def framed(form: str, before: str, after: str = "") -> str:
-    """Return a number format of spreadsheets with signs around the number.
-
-    >>> framed("0.0", "≤ "), framed("0.0", "(", ")"), framed("", "≤ ")
-    ('"≤ "0.0', '"("0.0")"', '')
-    """
+    """Return a number format of spreadsheets with signs around the number."""
     return "".join((f'"{before}"' if before else "", form, f'"{after}"' if after else "")) if form else ""

@@ -117,11 +117,7 @@ def _over(value: Any, factor: float) -> Any:
 
 @dataclass(frozen=True)
 class Unit:
-    """The unit of a dimension as it stands in keys, for programs that are told it beside a number.
-
-    >>> Unit("torque").told(Reader(units={"torque": "lbft"})), Unit("time", "h").told(Reader())
-    ('lbft', 'h')
-    """
+    """The unit of a dimension as it stands in keys, for programs that are told it beside a number."""
 
     dimension: str
     usual: str = ""
@@ -137,10 +133,6 @@ class Say:
 
     A place takes a quantity (``{force}``; ``{force:bare}`` its number alone, ``{force:unit}`` its unit alone), another
     sentence, a word or a whole number.
-
-    >>> text = say("from {low:bare} to {high}", low=Quantity(1e3, "torque"), high=Quantity(2e3, "torque"))
-    >>> text.told(Reader(units={"torque": "kNm"}, decimal=","))
-    'from 1,000 to 2,000 kN·m'
     """
 
     text: str
@@ -153,13 +145,7 @@ class Say:
 
 @dataclass(frozen=True)
 class Joined:
-    """Several texts in a row.
-
-    >>> Joined(["a", "b", "c"], last=" and ").told(Reader())
-    'a, b and c'
-    >>> Joined([Quantity(1.5), Quantity(2.5)]).told(Reader(decimal=","))
-    '1,500; 2,500'
-    """
+    """Several texts in a row."""
 
     parts: Sequence[Text]  # what is told one after the other; the empty ones are left out
     between: str = ", "  # between, last: what stands between them, and before the last one where that is another word
@@ -190,20 +176,12 @@ def told(text: Text, reader: Reader) -> str:
 
 
 def numbered(number: int, name: str = "") -> str:
-    """Return the number of a part with its name, as a sentence has it.
-
-    >>> numbered(4, "pinion, front"), numbered(2)
-    ('4 (pinion, front)', '2')
-    """
+    """Return the number of a part with its name, as a sentence has it."""
     return f"{number} ({name})" if name else str(number)
 
 
 def listed(numbers: Sequence[int]) -> str:
-    """Return numbers of parts, a run of more than two as a range.
-
-    >>> listed([1, 4]), listed([1, 2, 3])
-    ('1, 4', '1 to 3')
-    """
+    """Return numbers of parts, a run of more than two as a range."""
     if len(numbers) > 2 and numbers[-1] - numbers[0] == len(numbers) - 1:
         return _("{first} to {last}").format(first=numbers[0], last=numbers[-1])
     return ", ".join(str(one) for one in numbers)

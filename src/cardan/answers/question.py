@@ -164,9 +164,5 @@ def absent(*conditions: tuple[bool | str, ...]) -> Lacking:
 
 
 def all_of(paths: Sequence[str]) -> Lacking:
-    """Return paths all of which are missing, each once.
-
-    >>> all_of(["duty.torque", "duty.torque"])
-    (('duty.torque',),)
-    """
+    """Return paths all of which are missing, each once."""
     return tuple((path,) for path in dict.fromkeys(paths))

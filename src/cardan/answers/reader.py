@@ -45,38 +45,22 @@ def fixed(value: float, decimals: int = 2) -> str:
 
 
 def trimmed(text: str) -> str:
-    """Return a number in words without zeros at the end of its decimals; whole numbers keep theirs.
-
-    >>> trimmed("1\u202f500"), trimmed("0.2500"), trimmed("3.000"), trimmed("1.500·10⁻⁹")
-    ('1\u202f500', '0.25', '3', '1.500·10⁻⁹')
-    """
+    """Return a number in words without zeros at the end of its decimals; whole numbers keep theirs."""
     return text.rstrip("0").rstrip(".") if "." in text and "·" not in text else text
 
 
 def raised(number: int) -> str:
-    """Return a whole number in raised digits.
-
-    >>> raised(-12)
-    '⁻¹²'
-    """
+    """Return a whole number in raised digits."""
     return str(number).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
 
 def half_turn(angle: float) -> float:
-    """Return an angle [°] in (-90, 90]: yokes and planes are lines, not arrows.
-
-    >>> half_turn(-90.0), half_turn(178.0)
-    (90.0, -2.0)
-    """
+    """Return an angle [°] in (-90, 90]: yokes and planes are lines, not arrows."""
     return 90.0 - (90.0 - angle) % 180.0
 
 
 def spreadsheet(value: float, digits: int = 4, decimals: int | None = None) -> str:
-    """Return the number format of spreadsheets that shows as many digits as `significant` or `fixed`.
-
-    >>> spreadsheet(0.125603), spreadsheet(123456.0), spreadsheet(1e-9, 2), spreadsheet(0.5, decimals=2)
-    ('0.0000', '#,##0', '0.0E+00', '0.00')
-    """
+    """Return the number format of spreadsheets that shows as many digits as `significant` or `fixed`."""
     if decimals is None:
         size = math.floor(math.log10(abs(value))) if value else 0
         if not -5 <= size < 9:
@@ -180,9 +164,6 @@ def chosen(given: Sequence[str], decimal: str = "") -> Reader:
     """Return the reader that options describe.
 
     given: each ``dimension=unit``, such as ``length=in``; decimal: sign between whole and part.
-
-    >>> chosen(["length=in"], ",").units
-    {'length': 'in'}
     """
     units: dict[str, str] = {}
     problems = []

@@ -87,21 +87,13 @@ class SweepQuestion:
 
 
 def each(stem: str, dimension: str, unit: str, text: str) -> tuple[OutputColumn, ...]:
-    """Return the columns of the first `MODES` of a list.
-
-    >>> [one.name for one in each("critical_speed", "angular_speed", "rpm", "")]
-    ['critical_speed_rpm[0]', 'critical_speed_rpm[1]', 'critical_speed_rpm[2]']
-    """
+    """Return the columns of the first `MODES` of a list."""
     return tuple(
         OutputColumn(name=f"{stem}_{unit}[{k}]", dimension=dimension, unit=unit, text=text) for k in range(MODES)
     )
 
 
 def first(values: Iterable[float]) -> list[float]:
-    """Return the first `MODES` values, nan where there are fewer.
-
-    >>> first([2.0])
-    [2.0, nan, nan]
-    """
+    """Return the first `MODES` values, nan where there are fewer."""
     kept = [float(one) for one in islice(values, MODES)]
     return kept + [math.nan] * (MODES - len(kept))

@@ -89,10 +89,7 @@ FIRST = ("truck-printed-angles", "car-propshaft", "two-piece-rear-drive", "pto-d
 
 
 class Start:
-    """What the user sees before a drive is open.
-
-    session: what the user will work on.
-    """
+    """What the user sees before a drive is open."""
 
     def __init__(self, session: Session) -> None:
         self.session = session
@@ -174,10 +171,7 @@ def kept_choices(cookies: Mapping[str, str]) -> Mapping[str, Any]:
 
 
 def open_example(session: Session, name: str) -> None:
-    """Open a shipped example as a new file.
-
-    Raises InputError: there is no such example.
-    """
+    """Open a shipped example as a new file."""
     session.open(example_text(name), saved=False)
 
 

@@ -26,10 +26,7 @@ GROUPS = 24
 
 
 def answer(work: SweepWork, found: Sweep, plan: Path, *, keeps: bool) -> Answer:
-    """Return what there is to say of a sweep.
-
-    keeps: whether rows are kept.
-    """
+    """Return what there is to say of a sweep."""
     counts = found.reductions.get("points", {})
     answered = int(counts.get("answered", 0))
     failed = "warning" if found.status == "cancelled" else "failed"

@@ -331,12 +331,7 @@ def _collect(problems: list[Problem], into: list[Any], make: Any) -> None:
 
 
 def listed(drive: Drive, path: str, values: Any) -> TableAxis:
-    """Return the axis of a path with a list of values; a path of a list of numbers takes lists of them.
-
-    >>> drive = Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0)])
-    >>> listed(drive, "joints[0].centre_mm", [[0, 1, 2]]).fields[2]
-    'joints[0].centre_mm[2]'
-    """
+    """Return the axis of a path with a list of values; a path of a list of numbers takes lists of them."""
     if hasattr(values, "at"):
         check([Problem(path, _("a distribution says how points are drawn; put it into Drawn(distributions=…)"))])
     given = values.tolist() if hasattr(values, "tolist") else values

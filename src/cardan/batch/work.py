@@ -196,7 +196,6 @@ def chunks_of(work: Work, rows: int | None = None, *, keeps: bool = True) -> Chu
     """Return the chunks of a sweep.
 
     rows: rows of a chunk; measured by `rows_for` by default.
-    keeps: whether rows are kept.
     """
     return Chunks(work.name, work.size, rows if rows is not None else rows_for(work, keeps=keeps))
 

@@ -143,10 +143,7 @@ def _as_filed(flat: Sequence[Mapping[str, Any]]) -> Table:
 
 
 def answer_of_row(known: Catalogue, name: str, row: Row) -> Answer:
-    """Return one row, with its source and how sure it is.
-
-    name: table of the row.
-    """
+    """Return one row, with its source and how sure it is."""
     who = reader()
     flat = row_flat(row, who.units)
     shown = {key: _said(value, who) for key, value in flat.items() if key not in ("source", "note", "confidence")}

@@ -21,16 +21,6 @@ def rows_behind(drive: Drive, known: Catalogue, *paths: str) -> tuple[Row, ...]:
 
     drive: filled in from the catalogue; a figure that differs from that of its size or its grade is its own.
     paths: without units, as ``joints[0].cross.span`` or ``shafts[1].material.yield_strength``.
-
-    >>> from dataclasses import replace
-    >>> from cardan.catalogue import catalogue, completed
-    >>> from cardan.drive.joint_parts import Rating
-    >>> from cardan.drive.joints import Hooke
-    >>> drive = completed(Drive(joints=(Hooke(joint_angle=0.1, size="example-75", rating=Rating(max_speed=400.0)),)))
-    >>> [row.id for row in rows_behind(drive, catalogue(), "joints[0].rating.torque", "joints[0].rating.max_speed")]
-    ['example-75']
-    >>> rows_behind(drive, catalogue(), "joints[0].rating.max_speed")
-    ()
     """
     found: dict[str, Row] = {}
     for path in paths:
@@ -41,12 +31,7 @@ def rows_behind(drive: Drive, known: Catalogue, *paths: str) -> tuple[Row, ...]:
 
 
 def unconfirmed(rows: tuple[Row, ...]) -> tuple[str, ...]:
-    """Return in words the rows that nothing confirms.
-
-    >>> from cardan.catalogue import catalogue
-    >>> unconfirmed((catalogue().rows(JointSize)["example-75"],))
-    ('example-75 (made up for examples)',)
-    """
+    """Return in words the rows that nothing confirms."""
     text = _("{row} ({sure})")
     return tuple(text.format(row=row.id, sure=_(UNSURE[row.confidence])) for row in rows if row.confidence in UNSURE)
 

@@ -35,11 +35,7 @@ UNSURE: Mapping[str, str] = MappingProxyType(
 
 
 def sureness(confidence: str) -> int:
-    """Return the place of a confidence in their order, the least sure first.
-
-    >>> sorted(("recalled", "confirmed", "made_up"), key=sureness)
-    ['made_up', 'recalled', 'confirmed']
-    """
+    """Return the place of a confidence in their order, the least sure first."""
     order = list(UNSURE)
     return order.index(confidence) if confidence in order else len(order)
 
@@ -355,9 +351,6 @@ def row_keys(table: str) -> Iterator[RowKey]:
     """Yield the keys that a row of a table can have, those of inner tables after their own.
 
     table: one of `TABLES`.
-
-    >>> [one.key for one in row_keys("balance_grades")]
-    ['id', 'source', 'confidence', 'note', 'speed_m_s']
     """
     yield from _of_class(TABLES[table], "")
 
@@ -370,12 +363,7 @@ def _of_class(cls: Any, before: str) -> Iterator[RowKey]:
 
 
 def told(row: R) -> R:
-    """Return a row with its sentences in the language spoken here; those of a user's file stay as they are.
-
-    >>> from cardan.catalogue import catalogue
-    >>> told(catalogue().tables["faults"]["F37"]).repair
-    'replace the shaft'
-    """
+    """Return a row with its sentences in the language spoken here; those of a user's file stay as they are."""
     own = {name: getattr(row, name, "") for name in SENTENCES}
     said = {name: _(text) for name, text in own.items() if text}
     return row if all(said[name] == own[name] for name in said) else replace(row, **said)

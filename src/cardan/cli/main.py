@@ -80,10 +80,7 @@ def _run(given: list[str]) -> int:
 
 
 def _asked(given: Sequence[str]) -> tuple[str, list[str]]:
-    """Return the language that ``--lang`` asks for, wherever it stands, empty where it does not; and all else.
-
-    Raises InputError: it is not one that we speak.
-    """
+    """Return the language that ``--lang`` asks for, wherever it stands, empty where it does not; and all else."""
     values, rest = _taken(given, "--lang")
     return ([_known(value) for value in values] or [""])[-1], rest
 

@@ -94,13 +94,7 @@ def pieces(shaft: Shaft, length: float | None) -> tuple[Piece, ...]:
 
 
 def body_material(shaft: Shaft) -> Material:
-    """Return what a uniform body is made of; of a tube of fibre composite its moduli along the axis and in shear.
-
-    >>> from cardan.drive.shaft import Layup, Ply, Shaft
-    >>> layup = Layup(angles=(0.0, 0.0), ply_thickness=1e-3, ply=Ply(along=135e9, across=10e9, shear=5e9))
-    >>> round(body_material(Shaft(number=2, outer=0.09, layup=layup)).youngs / 1e9)
-    135
-    """
+    """Return what a uniform body is made of; of a tube of fibre composite its moduli along the axis and in shear."""
     layup = shaft.layup
     if layup is None:
         return shaft.material or Material()
@@ -110,12 +104,7 @@ def body_material(shaft: Shaft) -> Material:
 
 
 def inner_diameter(shaft: Shaft) -> float:
-    """Return the inner diameter of a uniform body [m].
-
-    >>> from cardan.drive.shaft import Shaft
-    >>> inner_diameter(Shaft(number=2, outer=0.07, wall=0.002))
-    0.066
-    """
+    """Return the inner diameter of a uniform body [m]."""
     if shaft.outer is None or shaft.inner is not None:
         return shaft.inner or 0.0
     if shaft.layup is not None:

@@ -75,16 +75,7 @@ class Condition:
 
 
 def load_cases(duty: Duty) -> tuple[LoadCase, ...]:
-    """Return every way a duty has a drive run: steadily, its load cases or parts of its duty cycle, its measured peak.
-
-    >>> from cardan.drive.duty import Block
-    >>> parts = (Block(torque=900.0, speed=100.0, share=0.2), Block(torque=300.0, speed=200.0, share=0.8))
-    >>> [(one.name, one.share) for one in load_cases(Duty(torque=500.0, speed=150.0, blocks=parts))]
-    [('', 0.0), ('part 1 of the duty cycle', 0.2), ('part 2 of the duty cycle', 0.8)]
-    >>> start = Case(name="start", torque=900.0)
-    >>> [(one.name, one.torque, one.share) for one in load_cases(Duty(torque=500.0, speed=150.0, cases=(start,)))]
-    [('', 500.0, 1.0), ('start', 900.0, 0.0)]
-    """
+    """Return every way a duty has a drive run: steadily, load cases or parts of its duty cycle, its measured peak."""
     history = duty.torque_history
     measured = history is not None and bool(history.torques)
     found = [_of_case(duty, case, f"duty.cases[{k}]") for k, case in enumerate(duty.cases)]
@@ -150,25 +141,15 @@ def _of_case(duty: Duty, case: Case, path: str) -> LoadCase:
 def conditions(drive: Drive) -> tuple[Condition, ...]:
     """Return every condition of a drive: as drawn, then in its poses, each load case in each of them.
 
-    drive: with its poses, its movements and its duty.
     Returns: as drawn first. The poses take their shares, and the drive as drawn what they leave; where a pose has no
     share, that of the drive as drawn and of each such pose is not known. A load case bound to a pose has its own share
     there, and the others run in all poses by theirs.
-    Raises InputError: a pose changes what is not there, or makes no drive; the path names the pose.
     """
     return tuple(one for stand in in_poses(drive) for one in _loaded(stand.drive, stand.pose, stand.share))
 
 
 def in_poses(drive: Drive) -> tuple[Condition, ...]:
-    """Return a drive as drawn and in each of its poses, each with the whole duty.
-
-    Raises InputError: a pose changes what is not there, or makes no drive; the path names the pose.
-
-    >>> from .pose import Pose
-    >>> turned = Pose(name="turned", share=0.25, set=(("joints[0].joint_angle_deg", 20.0),))
-    >>> [(one.name, one.share) for one in in_poses(replace(Drive.from_angles([0.1]), poses=(turned,)))]
-    [('', 0.75), ('pose turned', 0.25)]
-    """
+    """Return a drive as drawn and in each of its poses, each with the whole duty."""
     shares = [pose.share for pose in drive.poses]
     left = 1.0 - sum(share for share in shares if share is not None)
     rest = None if None in shares else left if left > ROUNDING else 0.0

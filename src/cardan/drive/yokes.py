@@ -15,13 +15,7 @@ BESIDE = 1.5
 
 
 def yoke_mass(joint: Joint) -> float:
-    """Return the mass of one yoke of a joint [kg]: half of what the joint weighs beside its cross; 0 where not given.
-
-    >>> from cardan.drive.cross import Cross
-    >>> from cardan.drive.joints import Hooke
-    >>> yoke_mass(Hooke(joint_angle=0.1, mass=3.4, cross=Cross(span=0.07, mass=0.6)))
-    1.4
-    """
+    """Return the mass of one yoke of a joint [kg]: half of the joint without its cross; 0 where not given."""
     cross = joint.cross.mass if joint.cross is not None else 0.0
     return 0.0 if joint.mass is None else max(0.5 * (joint.mass - cross), 0.0)
 

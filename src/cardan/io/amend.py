@@ -94,11 +94,7 @@ def parsed(text: str) -> Any:
 
 
 def steps_of(path: str) -> tuple[Step, ...]:
-    """Return the keys and places that a path goes through.
-
-    >>> steps_of("joints[1].cross.span_mm")
-    ('joints', 1, 'cross', 'span_mm')
-    """
+    """Return the keys and places that a path goes through."""
     steps: list[Step] = []
     for word in path.split("."):
         match = _WORD.fullmatch(word)
@@ -237,10 +233,7 @@ def with_joint(text: str, at: int) -> str:
 
 @tables_only("joints")
 def without_joint(text: str, at: int) -> str:
-    """Return a drive file without a joint; the shaft behind it goes with it.
-
-    at: index of the joint.
-    """
+    """Return a drive file without a joint; the shaft behind it goes with it."""
     document = parsed(text)
     joints = _joints(document)
     if not 0 <= at < len(joints):
@@ -258,7 +251,6 @@ def joint_moved(text: str, at: int, to: int) -> str:
 
     Two neighbours change places by everything they are but their centre, bend and plane twist: the line of the drive
     stays, the joints on it change.
-    at, to: index of the joint before and behind.
     """
     document = parsed(text)
     joints = _joints(document)

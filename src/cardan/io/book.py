@@ -48,7 +48,6 @@ def opened(stream: IO[bytes], *, title: str, made: datetime.date | None = None) 
     The same content gives the same bytes: nothing tells who made it on which machine.
     stream: where it goes; title: among its properties.
     made: among its properties; 2000-01-01 when not given.
-    Raises MissingExtraError: what writes workbooks is not installed.
     """
     day = made or datetime.date(2000, 1, 1)
     book = xlsxwriter().Workbook(stream, QUIET)
@@ -118,7 +117,6 @@ def sheet_name(wanted: str, taken: set[str], *, ending: str = "") -> str:
     """Return a name that a sheet may have and no other has, and take it.
 
     taken: names of the other sheets, in small letters; the new one is added.
-    ending: kept when the name has to be cut.
     """
     plain = " ".join(re.sub(r"[\[\]:*?/\\\x00-\x1f]", " ", words(wanted)).split()).strip("' ") or "-"
     count, name = 1, ""

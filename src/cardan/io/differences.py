@@ -35,7 +35,6 @@ def differences(drives: Sequence[Drive]) -> tuple[Difference, ...]:
 
     A key that one drive leaves at its default and another gives as just that is no difference. Where a whole table is
     missing in a drive, only the table is told.
-    drives: at least one.
     """
     if not drives:
         raise refuse("drives", _("at least one is needed"))

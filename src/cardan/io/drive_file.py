@@ -122,7 +122,6 @@ def known_to(drive: Drive, folder: str | Path | Enclosed = ".", catalogues: Sequ
     """Return the catalogue of a drive: the shipped one and the files that its settings name.
 
     folder: where the files are looked for; catalogues: further files, by their own paths.
-    Raises InputError: what is wrong with the files.
     """
     files = [*(folder_of(folder) / name for name in drive.settings.catalogues), *catalogues]
     return with_files(catalogue(), files) if files else catalogue()

@@ -25,7 +25,6 @@ def edit(
     values: path with unit -> value in that unit, as in `fields.paths`. A field given in another unit, or by its
     opposite (``yoke_lead``), is replaced; None takes it out.
     folder: where files that the drive file names are looked for.
-    catalogues: catalogue files beside those that it names.
     Returns: the new text; it loads.
     Raises InputError: the text is no drive file, or a path or value does not fit.
     """

@@ -116,10 +116,7 @@ Design: TypeAlias = Search | SensitivityPlan | Following
 
 
 def design_of(plan: Plan, name: str) -> Design:
-    """Return a design of a plan, ready to run.
-
-    plan: with the table of that name.
-    """
+    """Return a design of a plan, ready to run."""
     table = Table(given=plan.parts[name], path=name)
     make: Callable[[Plan, Table], Design | None] = {"search": _search, "sensitivity": _owing, "boundary": _following}[
         name

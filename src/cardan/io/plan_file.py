@@ -57,11 +57,7 @@ class Plan:
     parts: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def work(self, *, device: Device | None = None) -> SweepWork:
-        """Return the sweep as work for an engine.
-
-        device: in place of that of the plan.
-        Raises InputError: all that is wrong with points, questions, constraints and reductions.
-        """
+        """Return the sweep as work for an engine."""
         return work_of(
             self.drive,
             self.axes,
@@ -78,9 +74,6 @@ def read_plan(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Pla
     """Return the plan that a file describes.
 
     path: a ``.toml`` file, or ``.json`` with the same tables.
-    catalogues: catalogue files beside those that the drive file names.
-    Raises InputError: the file, or the drive file that it names, cannot be read; every problem of the plan at once,
-    with its path.
     """
     where = Path(path)
     text, form = text_of(where)
@@ -98,7 +91,6 @@ def plan_of(
     """Return the plan that a text describes; see `read_plan`.
 
     text: the plan file; folder: where the drive file is looked for; form: ``"toml"`` or ``"json"``.
-    catalogues: catalogue files beside those that the drive file names.
     """
     top = Table(given=parsed(text, form, name))
     if top.whole("format") != FORMAT and isinstance(top.given.get("format"), int):

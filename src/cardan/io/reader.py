@@ -146,12 +146,7 @@ CLOSE = 0.8
 
 
 def meant(cls: type, key: str) -> str:
-    """Return the name of the field that an unknown key most likely meant, or nothing.
-
-    >>> from cardan.drive.joints import Hooke
-    >>> meant(Hooke, "centre"), meant(Hooke, "joint_angle_mm"), meant(Hooke, "colour")
-    ('centre', 'joint_angle', '')
-    """
+    """Return the name of the field that an unknown key most likely meant, or nothing."""
     split = _split(cls, key)
     if split:
         return split[0]
@@ -165,12 +160,7 @@ def meant(cls: type, key: str) -> str:
 
 
 def unknown(cls: type, key: str) -> str:
-    """Return what to say of a key that the table of a class does not know.
-
-    >>> from cardan.drive.joints import Hooke
-    >>> unknown(Hooke, "plane_twist_dg")
-    'unknown key; the nearest known one is plane_twist_deg'
-    """
+    """Return what to say of a key that the table of a class does not know."""
     split = _split(cls, key)
     if split:
         name, word, unit = split
@@ -236,11 +226,7 @@ def _knows(cls: type, key: str) -> bool:
 
 
 def tables() -> tuple[tuple[str, type], ...]:
-    """Return every table of a drive file: how the file names it, and its class.
-
-    >>> [title for title, cls in tables()][:5]
-    ['the head of the file', '[settings]', '[input]', '[output]', "[[joints]] kind = 'hooke'"]
-    """
+    """Return every table of a drive file: how the file names it, and its class."""
     return _all_tables(_("the head of the file"))
 
 

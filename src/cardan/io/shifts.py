@@ -22,20 +22,13 @@ MIN_ROWS = 4
 
 
 def read_shifts(path: Path) -> tuple[tuple[float, ...], tuple[Point, ...]]:
-    """Return times [s] and shifts [m] of a CSV file with the columns time, x, y, z, each with its unit.
-
-    Raises InputError: the file cannot be read, a column is missing, a row is not four finite numbers, times do not
-    rise.
-    """
+    """Return times [s] and shifts [m] of a CSV file with the columns time, x, y, z, each with its unit."""
     rows = read_rows(path, (("time", "time"), *((word, "length") for word in "xyz")), least=MIN_ROWS)
     return tuple(row[0] for row in rows), tuple((x, y, z) for _time, x, y, z in rows)
 
 
 def read_torques(path: Path) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return times [s] and torques [N·m] of a CSV file with the columns time and torque, each with its unit.
-
-    Raises InputError: the file cannot be read, a column is missing, a row is not two finite numbers, times do not rise.
-    """
+    """Return times [s] and torques [N·m] of a CSV file with the columns time and torque, each with its unit."""
     rows = read_rows(path, (("time", "time"), ("torque", "torque")), least=2)
     return tuple(row[0] for row in rows), tuple(row[1] for row in rows)
 
@@ -104,7 +97,6 @@ def read_rows(path: Path, columns: Sequence[tuple[str, str]], *, least: int) -> 
     """Return the rows of a CSV file in SI.
 
     columns: word and dimension of every column wanted, the times first; its title is the word with a unit.
-    least: rows needed.
     """
     try:
         with path.open("rb") as stream:

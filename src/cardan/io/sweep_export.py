@@ -35,9 +35,6 @@ def export(results: Results, path: str | Path, *, rows: Rows | None = None, wher
     path: its suffix says how: one of `SUFFIXES`.
     rows, mapping of str to array (n,): what was chosen from the table; the whole of it by default, streamed and never
     held.
-    where: condition in SQL, without chosen rows.
-    Returns: rows written.
-    Raises MissingExtraError: what writes workbooks is not installed.
     What has no answer is an empty cell, in Parquet null. The provenance stands in the metadata of Parquet under
     ``cardan`` and on a sheet of its own; CSV has no room for it.
     """

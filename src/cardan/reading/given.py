@@ -222,11 +222,7 @@ def _dimension(key: str) -> str | None:
 
 
 def without_unit(key: str, dimension: str | None) -> str:
-    """Return a key without its unit: the one it ends in, else one amid it.
-
-    >>> without_unit("alpha_deg", "angle"), without_unit("delta_min", None), without_unit("tol_mm_a1", "length")
-    ('alpha', 'delta_min', 'tol_a1')
-    """
+    """Return a key without its unit: the one it ends in, else one amid it."""
     unit = unit_of(key, dimension)
     return f"{key}_".replace(f"_{unit}_", "_").removesuffix("_") if unit else key
 

@@ -24,7 +24,6 @@ def allowed(key: Key, unit: str = "", *, mirrored: bool = False) -> str:
     """Return the allowed range of a key in words.
 
     unit: unit of the words; the preferred one when empty.
-    mirrored: the range of the key with the opposite sign.
     """
     low, above, high, below = key.low, key.above, key.high, key.below
     if mirrored:
@@ -56,13 +55,7 @@ def out_of_range(given: str, key: Key, value: float, unit: str = "", *, mirrored
 
 
 def range_code(key: Key, value: float) -> str:
-    """Return the word of `cardan.errors.CODES` for a number in SI that is not `in_range`.
-
-    >>> range_code(Key("", "length", above=0.0), 0.0), range_code(Key("", "torque", low=0.0), -1.0)
-    ('not_positive', 'negative')
-    >>> range_code(Key("", "angle", low=0.0, below=1.57), -0.1), range_code(Key(""), math.nan)
-    ('out_of_range', 'not_finite')
-    """
+    """Return the word of `cardan.errors.CODES` for a number in SI that is not `in_range`."""
     if not math.isfinite(value):
         return "not_finite"
     if key.above == 0.0 and value <= 0.0:

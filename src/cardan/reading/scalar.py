@@ -34,10 +34,6 @@ def scalar(kind: Any, value: Any, key: Key, factor: float = 1.0, unit: str = "")
     kind: one of `SCALARS`; value: as it stands in the file; key: what it means and may be.
     factor: to SI; below 0 where the key has the opposite sign.
     unit: in which the range is told; the preferred one when empty.
-
-    >>> length = Key("", "length", above=0.0)
-    >>> scalar(float, 20, length, 1e-3), scalar(float, "x", length)
-    (0.02, Wrong(message="must be a number, not 'x'", code=''))
     """
     number = isinstance(value, int | float) and not isinstance(value, bool)
     fits, wanted = {
@@ -72,11 +68,7 @@ def in_si(value: float, factor: float) -> float:
 
 
 def unknown_key(key: str, known: Iterable[str]) -> str:
-    """Return what to say of a key that a table does not know.
-
-    >>> unknown_key("speeed_rpm", ["speed_rpm", "torque_Nm"])
-    'unknown key; the nearest known one is speed_rpm'
-    """
+    """Return what to say of a key that a table does not know."""
     every = list(known)
     near = nearest(key, every)
     if near:
@@ -91,11 +83,7 @@ def nearest_of(word: Any, known: Iterable[str]) -> str:
 
 
 def as_given(value: Any) -> str:
-    """Return a value as the user wrote it, shortened.
-
-    >>> as_given("x"), as_given(True), as_given({})
-    ("'x'", 'true', 'a table')
-    """
+    """Return a value as the user wrote it, shortened."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, Mapping):

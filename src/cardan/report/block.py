@@ -125,10 +125,7 @@ MOST = 1000.0
 
 
 def page(answer: Answer, reader: Reader, depth: Depth = "full") -> Page:
-    """Return an answer as a page: its figures, its tables, what to mind.
-
-    reader: units and decimal sign.
-    """
+    """Return an answer as a page: its figures, its tables, what to mind."""
     return Page(
         name=answer.name,
         title=answer.title,
@@ -186,9 +183,5 @@ def row(key: KeyFigure, reader: Reader) -> list[Cell]:
 
 
 def capital(text: str) -> str:
-    """Return a sentence that begins with a capital letter.
-
-    >>> capital("joint 2 fails first.")
-    'Joint 2 fails first.'
-    """
+    """Return a sentence that begins with a capital letter."""
     return text[:1].upper() + text[1:]

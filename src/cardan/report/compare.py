@@ -85,10 +85,7 @@ class Variant:
 
 
 def compared(variants: Sequence[Variant], progress: Progress | None = None) -> Page:
-    """Return several drives side by side.
-
-    variants: at least one.
-    """
+    """Return several drives side by side."""
     names = [one.name for one in variants]
     if not variants or len(set(names)) < len(names):
         raise refuse("variants", _("at least one is needed, each with a name of its own"))
@@ -111,10 +108,7 @@ def compared(variants: Sequence[Variant], progress: Progress | None = None) -> P
 
 
 def differences_table(names: Sequence[str], drives: Sequence[Drive]) -> Table:
-    """Return the keys that do not say the same in all drives, a column for each drive.
-
-    drives: as many.
-    """
+    """Return the keys that do not say the same in all drives, a column for each drive."""
     found = differences(drives)
     rows = [[words(one.path), *(words(value or "–") for value in one.values), words(one.doc)] for one in found]
     columns = (

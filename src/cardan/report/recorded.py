@@ -74,7 +74,6 @@ def recorded(
 
     path: the file; it is read as data.
     drive: the drive in order; said: what the file does not tell.
-    Raises InputError: the file is none that can be read.
     """
     told = progress or (lambda _share: None)
     found = _placed(

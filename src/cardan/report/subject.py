@@ -156,10 +156,7 @@ class Subject:
         return not self.even and self.rounding(self.fluctuation)
 
     def rounding(self, share: float) -> bool:
-        """Tell whether a fluctuation is no more than rounding, see `cardan.questions.motion.equivalence.is_rounding`.
-
-        share: speed fluctuation of this drive at some setting of its yokes.
-        """
+        """Tell whether a fluctuation is no more than rounding, see `is_rounding`."""
         return is_rounding(self.drive, share, self.closing.length)
 
     @property

@@ -114,10 +114,7 @@ def _effect(one: Remedy) -> str:
 
 
 def sentence(shown: Sequence[Light]) -> str:
-    """Return in a sentence how verdicts came out.
-
-    shown: all of a drive.
-    """
+    """Return in a sentence how verdicts came out."""
     return capital(told(said([verdict for one in shown for verdict in one.verdicts]), reader()))
 
 

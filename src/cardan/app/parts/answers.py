@@ -130,7 +130,6 @@ class Sheet:
     """One answer.
 
     name: which of `cardan.register.QUESTIONS`; jobs: where it is made if it takes long.
-    export: takes a figure or the page along.
     """
 
     def __init__(self, name: str, session: Session, jobs: Jobs, export: Export | None) -> None:

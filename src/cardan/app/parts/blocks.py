@@ -31,11 +31,7 @@ BUTTONS = "(event) => { const one = event.target.closest('[data-do]'); if (one) 
 
 
 def words_html(block: Words) -> str:
-    """Return a paragraph; with a tone a remark with its sign.
-
-    >>> words_html(Words(text="a < b"))
-    '<p>a &lt; b</p>'
-    """
+    """Return a paragraph; with a tone a remark with its sign."""
     title = f"<h4>{escape(block.title)}</h4>" if block.title else ""
     if block.tone == "plain":
         return f"{title}<p>{escape(block.text)}</p>"
@@ -176,7 +172,6 @@ class PageView:
     """A page of the report in the app; another state of it takes its place without a flicker.
 
     export: takes a figure or the page along; no buttons for it when not given.
-    pressed: called with the name of a button of a table.
     """
 
     def __init__(self, export: Export | None = None, pressed: Callable[[str], object] = lambda name: None) -> None:
@@ -267,10 +262,6 @@ def changed(before: Mapping[str, Any], after: Mapping[str, Any]) -> dict[str, An
     before, after: as `cardan.figures.render_plotly.described` gives them.
     Returns: ``heights``: place of a curve -> its values as base 64 of their bytes, where nothing but these differs in
     the data; else ``data``. ``layout`` where that differs.
-
-    >>> line = {"mode": "lines", "x": [0, 1], "y": [2, 3]}
-    >>> changed({"data": [line], "layout": {}}, {"data": [line | {"y": [2, 4]}], "layout": {}})
-    {'heights': {0: 'AAAAAAAAAEAAAAAAAAAQQA=='}}
     """
     change: dict[str, Any] = {} if before["layout"] == after["layout"] else {"layout": after["layout"]}
     old, new = before["data"], after["data"]

@@ -57,10 +57,7 @@ QUIET = 0.4
 
 
 class Source:
-    """The text of the file, with what is wrong with it below.
-
-    session: whose file it shows and changes.
-    """
+    """The text of the file, with what is wrong with it below."""
 
     def __init__(self, session: Session) -> None:
         self.session = session
@@ -139,10 +136,7 @@ class DragViews(Element, component="drag.js"):
 
 
 class Centres:
-    """The geometry as a table, and the views to drag it in.
-
-    session: whose drive it shows and changes.
-    """
+    """The geometry as a table, and the views to drag it in."""
 
     def __init__(self, session: Session) -> None:
         self.session = session

@@ -27,10 +27,7 @@ NEW: dict[str, Mapping[str, Any]] = {
 
 
 class Form:
-    """The file as a form.
-
-    session: whose file it shows and changes.
-    """
+    """The file as a form."""
 
     def __init__(self, session: Session) -> None:
         self.session = session
@@ -315,10 +312,7 @@ class Triple:
 
 
 class KeyField:
-    """A key: its name, what stands there, its unit, what is wrong with it.
-
-    removable: show what takes the key out of the file.
-    """
+    """A key: its name, what stands there, its unit, what is wrong with it."""
 
     def __init__(self, session: Session, entry: Entry, *, removable: bool = True) -> None:
         self.session = session

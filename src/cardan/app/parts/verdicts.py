@@ -175,10 +175,7 @@ def field_of(light: Light) -> str:
 
 
 def lights_html(lights: Sequence[Light], opened: set[str]) -> str:
-    """Return the list of verdicts, rules of thumb under a heading of their own.
-
-    opened: names of those that show more.
-    """
+    """Return the list of verdicts, rules of thumb under a heading of their own."""
     parts = [_light(one, one.name in opened) for one in lights if not one.advice]
     advice = [_light(one, one.name in opened) for one in lights if one.advice]
     if advice:

@@ -54,7 +54,6 @@ class Timer:
 
     seconds: until it calls, and from call to call.
     what: what it calls; it may be awaited.
-    once: whether it calls a single time.
     Unlike NiceGUI's timer it is no element: the browser hears nothing of it.
     """
 
@@ -113,8 +112,6 @@ def sending(
 ) -> None:
     """Ask for a file from the user's disk.
 
-    mark, upload: what tests call the dialog, and the field within it.
-    taken: takes the file in, and returns what is done with it once the dialog is closed.
     suffixes: ends of names that are offered; most: bytes that a file may have.
     """
     larger = _("The file is larger than {size} MB.").format(size=most // 10**6)
@@ -158,7 +155,6 @@ def drop_down(title: str, mark: str, *, icon: str = "", look: str = "", closes: 
     """Return a button with a menu below it; what is built within stands in the menu.
 
     icon: name of the icon before the title, none if empty; look: more of the button's properties.
-    closes: whether a click in the menu closes it.
     """
     button = ui.element("q-btn-dropdown").props("flat dense no-caps color=primary").props(look)
     button.props["label"] = title

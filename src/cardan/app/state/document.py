@@ -81,17 +81,11 @@ class Workspace:
         return tuple(path.name for path in found[:MAX_LISTED])
 
     def read(self, name: str) -> str:
-        """Return the text of a file.
-
-        Raises InputError: there is none of that name in the folder, or it is no text.
-        """
+        """Return the text of a file."""
         return text_of(self.place(name))[0]
 
     def write(self, name: str, text: str) -> str:
-        """Write a file and return its name, with .toml at its end.
-
-        Raises InputError: the name is none, leads out of the folder, or the file cannot be written.
-        """
+        """Write a file and return its name, with .toml at its end."""
         full = name if name.endswith(".toml") or not name else f"{name}.toml"
         write_text(self.place(full), text)
         return full
@@ -134,10 +128,7 @@ def read(text: str, folder: Enclosed) -> Document:
 
 
 def changed(document: Document, change: Callable[[str], str], folder: Enclosed) -> Document:
-    """Return the document after a change of its text; a change that cannot be made leaves it and tells why.
-
-    Raises InputError: the change cannot be made.
-    """
+    """Return the document after a change of its text; a change that cannot be made leaves it and tells why."""
     return read(change(document.text), folder)
 
 

@@ -116,7 +116,6 @@ def parts(tree: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 def section(tree: Mapping[str, Any], path: str, title: str = "") -> Section:
     """Return a table of the file with all its keys.
 
-    tree: the file as nested tables.
     path: path of the table, which need not be there yet; ``shafts[1]`` is shaft number 2.
     """
     cls, table, base = _found(tree, path)
@@ -200,11 +199,7 @@ def _number(text: str) -> float | int | str | None:
 
 
 def tables(tree: Mapping[str, Any], name: str) -> Sequence[Mapping[str, Any]]:
-    """Return the tables of a list; empty ones where something else stands.
-
-    >>> tables({"joints": [{"joint_angle_deg": 20}, 5]}, "joints"), tables({"joints": 5}, "joints")
-    ([{'joint_angle_deg': 20}, {}], [])
-    """
+    """Return the tables of a list; empty ones where something else stands."""
     found = tree.get(name, [])
     return [one if isinstance(one, Mapping) else {} for one in found] if isinstance(found, list) else []
 

@@ -46,10 +46,7 @@ class Question:
 
 
 def asked(session: Session, name: str, **choices: Any) -> Question | None:
-    """Return the question about the drive that a user works on; None while there is none.
-
-    **choices: what the user chose beside the drive.
-    """
+    """Return the question about the drive that a user works on; None while there is none."""
     if session.drive is None:
         return None
     return Question(

@@ -63,17 +63,11 @@ class Recordings:
         return tuple(path.name for path in found[:MAX_LISTED])
 
     def open(self, name: str) -> None:
-        """Open a recording of the folder.
-
-        Raises InputError: there is none of that name in the folder.
-        """
+        """Open a recording of the folder."""
         self._open(name, self.workspace.place(name))
 
     def open_example(self, name: str) -> None:
-        """Open a shipped recording.
-
-        Raises InputError: there is none of that name.
-        """
+        """Open a shipped recording."""
         path = example_file(name)
         self._open(path.name, path)
 
@@ -132,9 +126,5 @@ def _nothing() -> None:
 def heard(
     drive: Drive, recording: Recording, known: Catalogue | None, progress: Callable[[float], object] | None = None
 ) -> Recorded:
-    """Return what a recording tells of a drive, in the language spoken.
-
-    drive: the drive in order.
-    Raises InputError: the file is none that can be read.
-    """
+    """Return what a recording tells of a drive, in the language spoken."""
     return recorded(recording.path, drive, recording.said, known=known, progress=progress)

@@ -117,7 +117,6 @@ class Session:
         """Begin with another file; the page is built anew for it.
 
         name: its name in the workspace; empty for a new one.
-        saved: whether the workspace has it so.
         """
         self.history, self.selected, self.name = History(), "", name
         self.end_gesture()
@@ -127,10 +126,7 @@ class Session:
         self.rebuild()
 
     def take(self, name: str, content: bytes) -> None:
-        """Begin with a file that the user sent; it is read as data and written nowhere.
-
-        Raises InputError: it is too large, no text, or no TOML or JSON.
-        """
+        """Begin with a file that the user sent; it is read as data and written nowhere."""
         self.open(sent(name, content, self.workspace.enclosed), saved=False)
 
     def rewrite(self, text: str) -> None:
@@ -170,10 +166,7 @@ class Session:
         self._now(read(text, self.workspace.enclosed))
 
     def save(self, name: str = "") -> None:
-        """Write the file into the workspace.
-
-        Raises InputError: it has no name yet, the name leads out of the workspace, or it cannot be written.
-        """
+        """Write the file into the workspace."""
         self.name = self.workspace.write(name or self.name, self.document.text)
         self._saved = self.document.text
         self.tell("file")

@@ -37,10 +37,7 @@ VERDICTS, REMEDIES = "verdicts", "remedies"
 
 
 def result(question: Question, progress: Progress | None = None) -> Result:
-    """Return the answer to a question, in its language.
-
-    Raises InputError: the files that the drive names cannot be read, or it cannot be judged.
-    """
+    """Return the answer to a question, in its language."""
     with speaking(question.language), reading(question.reader):
         known = known_to(question.drive, Enclosed(question.folder)) if question.drive.settings.catalogues else None
         if question.name in (REPORT, PART, COMPARE):
@@ -66,7 +63,6 @@ REPORT, PART, COMPARE = "report", "part", "compare"
 def asked_for(session: Session, name: str, **choices: Any) -> Question | None:
     """Return the question for a paper about the drive that a user works on; None while there is none.
 
-    session: what the user works on: units and decimal sign are those of its choices.
     name: one of `REPORT`, `PART` and `COMPARE`.
     **choices: of a report its ``form``; of a part the ``thing`` and its ``kind``; of a comparison the ``variants``,
     names and drives.
@@ -87,7 +83,6 @@ def made(question: Question, known: Catalogue | None, progress: Progress | None 
     """Return the paper that a question asks for, in the language spoken.
 
     question: of `asked_for`; known: norms, types and sizes that the drive is judged by.
-    Raises MissingExtraError: what writes it is not installed.
     """
     how = dict(question.choices)
     if question.name == REPORT:

@@ -64,10 +64,7 @@ class Worker:
         self.line.send("stop")
 
     def heard(self, timeout: float) -> Share | Done | Failed | None:
-        """Return what it says within a time; None where it says nothing.
-
-        Raises EOFError, OSError: it is no more.
-        """
+        """Return what it says within a time; None where it says nothing."""
         return self.line.recv() if self.line.poll(timeout) else None
 
     def end(self) -> None:

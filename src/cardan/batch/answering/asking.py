@@ -343,10 +343,7 @@ Each size is compiled once, which takes seconds; a piece of the largest takes ab
 
 
 def jax_numpy() -> tuple[Any, Any]:
-    """Return JAX and its array library, set to 64 bits.
-
-    Raises MissingExtraError: it is not installed.
-    """
+    """Return JAX and its array library, set to 64 bits."""
     jax().config.update("jax_enable_x64", True)
     return jax(), numpy()
 

@@ -97,11 +97,7 @@ class FollowedDrive(Many):
 
 
 def one(drive: Drive) -> Many:
-    """Return a single drive, n = 1.
-
-    >>> one(Drive.from_angles([0.3])).output.joint_angle
-    array([0.3])
-    """
+    """Return a single drive, n = 1."""
     if not unmapped(drive.joints):
         return many(drive, {}, 1)[0]
     given = given_chain(drive)
@@ -124,7 +120,6 @@ def many(
     """Return drives that differ in places and angles, and which of them are drives.
 
     drive: the drive in which values vary; varied, mapping of str to array (count,): path without unit -> values in SI.
-    xp: library that computes.
     Returns Many: where there is no drive, its arrays hold the drive as it is; real, array of bool (count,): whether
     bends are below 90°, points do not coincide and joints turn at their bends.
     """

@@ -23,11 +23,7 @@ def _found(name: str) -> Iterator[SweepQuestion]:
 
 
 def asked(names: Sequence[str]) -> tuple[SweepQuestion, ...]:
-    """Return questions by their names.
-
-    >>> [one.name for one in asked(["speed_fluctuation", "life"])]
-    ['speed_fluctuation', 'life']
-    """
+    """Return questions by their names."""
     found = {name: next(_found(name), None) for name in dict.fromkeys(names)}
     problems = [] if names else [Problem("ask", _("nothing is asked"))]
     for k, name in enumerate(names):

@@ -355,11 +355,7 @@ library = later("distributed", mark("a cluster needs dask.distributed: pip insta
 
 @contextmanager
 def local_cluster(workers: int) -> Iterator[str]:
-    """Start a cluster on this machine that nobody else can reach, and end it afterwards.
-
-    workers: how many processes, one thread each.
-    Yields: address of its scheduler.
-    """
+    """Start a cluster on this machine that nobody else can reach, and end it afterwards."""
     if getattr(multiprocessing.current_process(), "_inheriting", False):
         raise RuntimeError(stillborn(""))  # a script without a guard, which a worker of ours imports as it begins
     with tempfile.TemporaryDirectory(prefix="cardan-") as folder:

@@ -51,7 +51,6 @@ def run(
     progress: called often with the share of rows done; may answer "stop".
     Returns Sweep: the same one, bit for bit, on whatever engine and after however many interruptions, for the same
     chunks.
-    Raises MissingExtraError: a library is not installed.
     Summaries are merged in the order of the chunks, as JSON holds them, whatever order the chunks are ready in.
     """
     keeps = rows == "kept"

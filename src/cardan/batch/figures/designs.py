@@ -33,10 +33,7 @@ def sensitivity_figures(found: Sensitivity) -> tuple[Figure, ...]:
 
 
 def sensitivity_figure(found: Sensitivity, answer: int = 0) -> Figure:
-    """Return the shares of the variance of one answer, the greatest field first, with their ranges.
-
-    found: of one drive.
-    """
+    """Return the shares of the variance of one answer, the greatest field first, with their ranges."""
     order = found.ranked(answer)[:BARS][::-1]  # the greatest stands on top
     at = np.arange(len(order), dtype=float)
     total, first = (np.nan_to_num(one[answer][list(order)]) for one in (found.total, found.first))
@@ -103,10 +100,7 @@ def one_at_a_time_figures(found: OneAtATime) -> tuple[Figure, ...]:
 
 
 def one_at_a_time_figure(found: OneAtATime, answer: int = 0) -> Figure:
-    """Return how far one answer moves when one field at a time goes from end to end, the farthest on top.
-
-    found: of one drive.
-    """
+    """Return how far one answer moves when one field at a time goes from end to end, the farthest on top."""
     column = found.answers[answer]
     low, high, here = found.at_low[answer], found.at_high[answer], float(found.middle[answer])
     size = np.nan_to_num(np.abs(high - low))
@@ -143,10 +137,7 @@ def one_at_a_time_figure(found: OneAtATime, answer: int = 0) -> Figure:
 
 
 def ranks_figure(found: Ranks) -> Figure:
-    """Return how an answer rises and falls with each field, the weightiest on top.
-
-    found: of the table of a sweep.
-    """
+    """Return how an answer rises and falls with each field, the weightiest on top."""
     order = list(range(len(found.fields)))[:BARS][::-1]
     at = np.arange(len(order), dtype=float)
     weight = found.correlation[order]
@@ -177,10 +168,7 @@ def ranks_figure(found: Ranks) -> Figure:
 
 
 def boundary_figure(found: Boundary) -> Figure:
-    """Return the lines at which limits begin to be broken, with the places that were evaluated.
-
-    found: over two fields.
-    """
+    """Return the lines at which limits begin to be broken, with the places that were evaluated."""
     step = max(1, -(-len(found.places) // DOTS))
     places, kept = found.places[::step], found.kept[::step]
     series: list[Series] = [
@@ -220,10 +208,7 @@ def pareto_set_figure(found: ParetoSet) -> Figure:
 
 
 def optimum_figure(found: Optimum) -> Figure:
-    """Return how the best value became better with the points evaluated.
-
-    found: of one search.
-    """
+    """Return how the best value became better with the points evaluated."""
     column = next(one for one in found.answers if one.name == found.goal.name)
     asked, best = found.history.T if len(found.history) else (np.empty(0), np.empty(0))
     x: Array = np.append(np.repeat(asked, 2)[1:], found.evaluations) if len(asked) else asked

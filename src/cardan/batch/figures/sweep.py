@@ -157,7 +157,6 @@ def _named(columns: Sequence[Column], name: str) -> str:
 def pareto_figure(columns: Sequence[Column], goals: Sequence[Goal], front: Rows, others: Rows | None = None) -> Figure:
     """Return points by two goals, those that none beats in ink; a third goal shades them.
 
-    columns: those of the goals at least.
     goals: two or more; the first runs across, the second upwards, the third is the shade.
     front, mapping of str to array (n,): the rows that none beats.
     others, mapping of str to array (m,): other rows, drawn pale.
@@ -237,24 +236,14 @@ LONG = 34
 
 
 def name_of(column: Column) -> str:
-    """Return what a column is called: an answer by its meaning, what stands in the file by its path.
-
-    >>> name_of(Column(name="alpha_eq_deg", unit="deg", role="answer", text="equivalent angle"))
-    'equivalent angle'
-    >>> name_of(Column(name="joints[1].centre_mm[2]", unit="mm", role="point", text="joint centre"))
-    'joints[1].centre_mm[2]'
-    """
+    """Return what a column is called: an answer by its meaning, what stands in the file by its path."""
     if column.role == "answer" and column.text and "[" not in column.name:
         return shortened(_(column.text))
     return shortened(column.name)
 
 
 def shortened(text: str, most: int = LONG) -> str:
-    """Return a text that is not too long: of words the first, of a path the last.
-
-    >>> shortened("shafts[1].spline.mean_diameter_mm", 20), shortened("speed_fluctuation of the output", 20)
-    ('…ne.mean_diameter_mm', 'speed_fluctuation o…')
-    """
+    """Return a text that is not too long: of words the first, of a path the last."""
     if len(text) <= most:
         return text
     return text[: most - 1].rstrip() + "…" if " " in text else "…" + text[1 - most :]
@@ -266,21 +255,13 @@ def unit_of(column: Column) -> str:
 
 
 def title_of(column: Column) -> str:
-    """Return what a column is called, with its unit where the name has none: paths have theirs.
-
-    >>> title_of(Column(name="alpha_eq_deg", unit="deg", role="answer", text="equivalent angle"))
-    'equivalent angle [°]'
-    """
+    """Return what a column is called, with its unit where the name has none: paths have theirs."""
     unit = unit_of(column) if column.role == "answer" else ""
     return f"{name_of(column)} [{unit}]" if unit else name_of(column)
 
 
 def amount(column: Column, value: Any, digits: int = 3) -> str:
-    """Return a value with its unit.
-
-    >>> amount(Column(name="alpha_eq_deg", unit="deg", role="answer", text=""), 1.25)
-    '1.25°'
-    """
+    """Return a value with its unit."""
     if isinstance(value, str) or value is None:
         return value or "–"
     unit = unit_of(column)
@@ -324,11 +305,7 @@ def ends(values: Array) -> tuple[str, str]:
 
 
 def counted(count: int) -> str:
-    """Return a number of points with thin grouping.
-
-    >>> counted(100000)
-    '100\u202f000'
-    """
+    """Return a number of points with thin grouping."""
     return thousands(count)
 
 
@@ -351,7 +328,6 @@ def heat_figure(
 ) -> Figure:
     """Return a column over two fields as a map, the darker the greater.
 
-    across, up, value: what runs to the right and upwards, and what is shown.
     x, y (m,), (k,): middles of the columns and rows of the map, rising, or words; values (k, m): nan leaves a hole.
     how: what was made of points that share a cell: a word for the sentence below.
     lines, sequence of array (p, 2): lines over the map: boundaries.

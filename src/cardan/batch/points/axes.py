@@ -356,11 +356,7 @@ def _holds(value: object) -> bool:
 
 
 def column(values: Sequence[Value]) -> Array:
-    """Return values of one field as an array: numbers as floats, words and flags as they are.
-
-    >>> column((1, 2.5)), column((True, False))
-    (array([1. , 2.5]), array([ True, False]))
-    """
+    """Return values of one field as an array: numbers as floats, words and flags as they are."""
     kinds = {bool if isinstance(one, bool) else str if isinstance(one, str) else float for one in values}
     if kinds == {float}:
         return np.asarray(values, dtype=float)

@@ -196,14 +196,7 @@ DISTRIBUTIONS: dict[str, type[Any]] = {one.kind: one for one in (Uniform, Normal
 
 
 def correlated(paths: Sequence[str], correlations: Sequence[tuple[str, str, float]]) -> Array | None:
-    """Return the factor L of the correlation matrix L Lᵀ of normal scores, array (k, k); None where all is independent.
-
-    correlations: two of the paths and their correlation.
-
-    >>> correlated(("a", "b"), (("a", "b", 0.6),))
-    array([[1. , 0. ],
-           [0.6, 0.8]])
-    """
+    """Return the factor L of the correlation matrix L Lᵀ of normal scores, array (k, k); None where independent."""
     if not correlations:
         return None
     problems = []

@@ -95,11 +95,7 @@ class VaryingField:
 
 
 def spots_of(drive: Drive, paths: Iterable[str]) -> tuple[VaryingField, ...]:
-    """Return where paths lead in a drive.
-
-    >>> spots_of(Drive.from_angles([0.1, 0.2]), ["joints[1].joint_angle_deg"])[0].unit
-    'deg'
-    """
+    """Return where paths lead in a drive."""
     problems: list[Problem] = []
     spots: list[VaryingField] = []
     for path in paths:
@@ -121,11 +117,7 @@ def spots_of(drive: Drive, paths: Iterable[str]) -> tuple[VaryingField, ...]:
 
 
 def spread_out(path: str, values: Sequence[Any]) -> tuple[tuple[str, ...], list[tuple[Any, ...]]]:
-    """Return the paths of the single numbers of a path with lists of them, and their values row by row.
-
-    >>> spread_out("joints[0].centre_mm", [[0, 1, 2], [3, 4, 5]])[0][2]
-    'joints[0].centre_mm[2]'
-    """
+    """Return the paths of the single numbers of a path with lists of them, and their values row by row."""
     if not any(isinstance(one, list | tuple) for one in values):
         return (path,), [(one,) for one in values]
     sizes = {len(one) if isinstance(one, list | tuple) else 0 for one in values}
@@ -135,11 +127,7 @@ def spread_out(path: str, values: Sequence[Any]) -> tuple[tuple[str, ...], list[
 
 
 def present(drive: Drive, path: str) -> float | None:
-    """Return the number at a path of a drive, in the path's unit; None where there is none.
-
-    >>> present(Drive.from_angles([0.0, 0.2]), "joints[0].joint_angle_deg")
-    0.0
-    """
+    """Return the number at a path of a drive, in the path's unit; None where there is none."""
     value = read(drive, path)
     return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
 
@@ -159,11 +147,7 @@ class Maker:
         return shortened(self.drive, self.known) if named else self.drive
 
     def drive_at(self, values: Mapping[str, Any]) -> Drive:
-        """Return the drive of one point.
-
-        values: path -> value in its unit.
-        Raises InputError: everything that makes the drive impossible.
-        """
+        """Return the drive of one point."""
         given = {one.path: one.plain(values[one.path]) for one in self.spots}
         made = with_values(self._bare, given)
         return made if self._bare is self.drive else completed(made, self.known)

@@ -39,11 +39,6 @@ def quantity(column: Field, value: float, digits: int = 4) -> Quantity:
     """Return a value of a column, told in the unit of the column unless the reader chose another.
 
     value: in its unit; digits: significant digits.
-
-    >>> from cardan.answers.reader import Reader
-    >>> joint_angle = Field(name="greatest_joint_angle_deg", unit="deg", role="answer", text="")
-    >>> quantity(joint_angle, 12.0).told(Reader())
-    '12.00°'
     """
     dimension = dimension_of(column.unit)
     size = factor(dimension, column.unit) if dimension else 1.0

@@ -193,7 +193,6 @@ def answered(
     """Return answers at points, or None where the work was stopped.
 
     points (N, d): in the units of the fields; names: columns wanted beside the status.
-    begin, end: share of the whole work that is done before and after.
     """
     count = len(points)
     kept: dict[str, list[Array]] = {name: [np.empty(0)] for name in (*names, STATUS)}

@@ -341,11 +341,7 @@ _QUOTED = r"'(?:[^']|'')*'|\"(?:[^\"]|\"\")*\""
 
 
 def quoted(name: str) -> str:
-    """Return a name as SQL takes it whatever signs it has.
-
-    >>> quoted("joints[1].centre_mm[2]")
-    '"joints[1].centre_mm[2]"'
-    """
+    """Return a name as SQL takes it whatever signs it has."""
     return '"' + name.replace('"', '""') + '"'
 
 

@@ -49,10 +49,7 @@ class Folder:
         return self.path / f"{chunk.name}{SUFFIX}"
 
     def put(self, chunk: Chunk, rows: Rows | None, states: Sequence[State]) -> None:
-        """Write a chunk.
-
-        Raises OSError: it cannot be written.
-        """
+        """Write a chunk."""
         write_chunk(self.file(chunk), chunk, self.label, rows, states)
 
     def states(self, chunk: Chunk) -> list[State]:
@@ -89,10 +86,7 @@ def opened(
     """Open the folder of a sweep and keep others from it; what is there and whole is known afterwards.
 
     path: the folder; it is made where it is missing.
-    keeps: whether rows are kept.
     cut: gives the rows of a chunk; asked only where nothing was begun before.
-    heard: called for every file that is looked through.
-    Raises MissingExtraError: the library for the files is not installed.
     """
     library()
     path = path.resolve()
@@ -112,10 +106,7 @@ def opened(
 
 
 def read_json(path: Path) -> dict[str, Any]:
-    """Return what a JSON file holds.
-
-    Raises OSError, ValueError: it cannot be read, or is none.
-    """
+    """Return what a JSON file holds."""
     content = json.loads(path.read_text(encoding="utf-8"))
     if not isinstance(content, dict):
         raise ValueError(path)
@@ -123,10 +114,7 @@ def read_json(path: Path) -> dict[str, Any]:
 
 
 def write_json(path: Path, content: Mapping[str, Any]) -> None:
-    """Write a JSON file as a whole or not at all.
-
-    Raises OSError: it cannot be written.
-    """
+    """Write a JSON file as a whole or not at all."""
     text = json.dumps(content, ensure_ascii=False, indent=1, default=_plain)
     put(path, lambda stream: stream.write(text.encode() + b"\n"))
 
@@ -320,8 +308,6 @@ def write_chunk(path: Path, chunk: Chunk, label: Label, rows: Rows | None, state
 
     path: the file; one that is there is replaced.
     rows, dict of str to array (n,),: rows of the chunk; none where the sweep keeps none.
-    states: one for each reduction, as JSON can hold it.
-    Raises OSError: the file cannot be written; nothing of it is left.
     """
     about, told = label.about(chunk), json.dumps(list(states)).encode()
     table = _table(label, rows if rows is not None else {column.name: np.empty(0) for column in label.columns})
@@ -341,10 +327,7 @@ def write_chunk(path: Path, chunk: Chunk, label: Label, rows: Rows | None, state
 
 
 def put(path: Path, write: Callable[[IO[bytes]], object]) -> None:
-    """Write a file as a whole or not at all, and have the disk keep it before it gets its name.
-
-    Raises OSError: it cannot be written.
-    """
+    """Write a file as a whole or not at all, and have the disk keep it before it gets its name."""
     temporary = path.with_name(f".{path.name}.{secrets.token_hex(8)}{PART}")
     try:
         with open(temporary, "xb") as stream:

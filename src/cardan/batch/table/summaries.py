@@ -47,11 +47,7 @@ def extreme_empty(count: int) -> State:
 
 
 def extreme_add(state: State, values: Array, rows: Array, groups: Groups, *, largest: bool) -> State:
-    """Return the state with further numbers, each from its row; of equal ones the lowest row counts.
-
-    >>> extreme_add(extreme_empty(1), np.asarray([1.0, 3.0, 3.0]), np.asarray([7, 8, 9]), None, largest=True)
-    {'best': [3.0], 'row': [8]}
-    """
+    """Return the state with further numbers, each from its row; of equal ones the lowest row counts."""
     count = len(state["best"])
     found = extreme_empty(count)
     if groups is None and values.size:
@@ -130,11 +126,7 @@ def count_empty(count: int) -> State:
 
 
 def count_add(state: State, chosen: Array, groups: Groups) -> State:
-    """Return the state with further rows, those chosen among them.
-
-    >>> count_add(count_empty(1), np.asarray([True, False, True]), None)
-    {'n': [2], 'of': [3]}
-    """
+    """Return the state with further rows, those chosen among them."""
     count = len(state["n"])
     if groups is None:
         return count_merge(state, {"n": [int(np.count_nonzero(chosen))], "of": [int(chosen.size)]})

@@ -145,9 +145,7 @@ class Ranks:
 def ranks_of(results: Results, answer: str, *, fields: Sequence[str] = (), where: str = "") -> Ranks:
     """Return the rank correlations of an answer with fields.
 
-    answer: a column of numbers.
     fields: others; all points that are numbers by default.
-    where: condition in SQL.
     Of all rows with an answer, or of `DRAWN` drawn from them.
     """
     column = results.column(answer)

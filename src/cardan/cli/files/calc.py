@@ -59,11 +59,7 @@ def calc(
 
 
 def inputs(file: Path | None, values: Sequence[str]) -> dict[str, Any]:
-    """Return the inputs of a file and those of the command line, which win.
-
-    >>> inputs(None, ["alpha_deg=20", "beta_deg=[1, 2]", "method=exact"])
-    {'alpha_deg': 20, 'beta_deg': [1, 2], 'method': 'exact'}
-    """
+    """Return the inputs of a file and those of the command line, which win."""
     found = {} if file is None else _file(file)
     own: dict[str, Any] = {}
     problems = []

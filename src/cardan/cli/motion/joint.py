@@ -75,13 +75,7 @@ class Asked:
 
 
 def asked(words: Sequence[str]) -> list[Asked]:
-    """Return the joints that words name, each kind followed by its keys.
-
-    >>> [one.label for one in asked(["rzeppa", "hooke"])]
-    ['rzeppa', 'hooke']
-    >>> asked(["clemens", "driving.radius_mm=75"])[0].keys
-    {'driving': {'radius_mm': 75}}
-    """
+    """Return the joints that words name, each kind followed by its keys."""
     found: list[tuple[str, dict[str, Any], list[str]]] = []
     problems = []
     for word in words:

@@ -86,11 +86,7 @@ def phasing(
 
 
 def held_yokes(fix: Sequence[str]) -> dict[int, float]:
-    """Return shaft number -> yoke angle to hold [rad] of ``2=90``.
-
-    >>> held_yokes(["2=180"])
-    {2: 3.141592653589793}
-    """
+    """Return shaft number -> yoke angle to hold [rad] of ``2=90``."""
     found: dict[int, float] = {}
     problems = []
     for text in fix:

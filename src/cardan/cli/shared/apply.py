@@ -22,7 +22,6 @@ def written(
 ) -> tuple[YokeSetting, dict[str, Any]]:
     """Write a setting into a file and return it with what changed there, by paths with units.
 
-    drive: the drive as it stands in the file.
     label: which setting to write; the first suggested one by default.
     out: where to write it, TOML or JSON; also: what else changes in the file, by paths with units.
     """

@@ -116,11 +116,7 @@ def _hinted(problem: Problem) -> str:
 
 
 def key_of(field: str) -> str:
-    """Return the key of a field in a file.
-
-    >>> key_of("joints[0].cross.span"), key_of("supports"), key_of("stations[0].to_next.stiffness")
-    ('joints[0].cross.span_mm', 'supports', 'stations[0].to_next.stiffness_Nm_per_rad')
-    """
+    """Return the key of a field in a file."""
     unit = SUFFIX.get(field.rpartition(".")[2])
     if field.endswith(".stiffness") and not field.startswith("supports"):
         unit = "Nm_per_rad"  # a shaft or a station twists

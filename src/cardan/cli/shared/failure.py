@@ -236,11 +236,7 @@ ERRORS = (
 
 
 def reworded(text: str) -> str:
-    """Return a sentence of typer in the language spoken here, as it is where it is not known.
-
-    >>> reworded("No such option: --bogus")
-    'No such option: --bogus'
-    """
+    """Return a sentence of typer in the language spoken here, as it is where it is not known."""
     if language() == "en":
         return text
     for sentence in ERRORS:

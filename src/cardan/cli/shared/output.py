@@ -47,10 +47,7 @@ def check_figure_target(path: Path) -> None:
 
 
 def check_target(path: Path, option: str) -> None:
-    """Refuse a file that cannot be written, in words, before any work is done.
-
-    option: what the user gave it as.
-    """
+    """Refuse a file that cannot be written, in words, before any work is done."""
     folder = path.parent
     if path.is_dir():
         raise refuse(option, _("{path} is a folder").format(path=path))

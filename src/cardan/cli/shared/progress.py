@@ -24,7 +24,6 @@ PATIENCE = 2.0
 def watching(what: str, *, count: int = 0) -> Iterator[Callable[[float], None]]:
     """Give the function that long work tells its share done; until it does, the bar only shows that work goes on.
 
-    what: what is being done, beside the bar.
     count: points of the whole work, where points a second and the time left are to be told.
     """
     if not sys.stderr.isatty():
@@ -90,9 +89,6 @@ def pace(done: float, left: float, seconds: float, count: int) -> str:
     """Return how fast work goes and how long it will last, empty as long as nothing is known.
 
     done, left: share done in these seconds, and share still to be done; count: points of the whole work.
-
-    >>> pace(0.25, 0.75, 10.0, 1_000_000)
-    '25\u202f000 points/s, 0:30 left'
     """
     if not count or done <= 0.0 or seconds <= 0.0:
         return ""
@@ -107,7 +103,6 @@ def keeping(what: str, *, count: int = 0) -> Iterator[Callable[[float], object]]
     """Give the function that long work tells its share done; ctrl-C makes it answer "stop", so that its part is kept.
 
     A second ctrl-C ends the command at once. The function has an attribute ``stopped``.
-    what: what is being done, beside the bar.
     count: points of the whole work, where points a second and the time left are to be told.
     """
 

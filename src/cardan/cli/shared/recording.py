@@ -79,11 +79,7 @@ OPTIONS = {
 
 
 def recorded(path: Path, how: Reading, progress: Callable[[float], object] | None = None) -> Signal:
-    """Return the recording in a file.
-
-    Raises InputError: a title is none.
-    Raises RefusedError: everything that is wrong with the file, with its name.
-    """
+    """Return the recording in a file."""
     titles = _pairs(how.titles, "--title")
     with about(str(path)):
         try:
@@ -107,10 +103,7 @@ def read_both(
     catalogues: tuple[Path, ...] = (),
     progress: Callable[[float], object] | None = None,
 ) -> tuple[Signal, Drive]:
-    """Return a recording and its drive.
-
-    Raises RefusedError, InputError: everything that is wrong with one of the files, or with both.
-    """
+    """Return a recording and its drive."""
     try:
         signal = recorded(path, how, progress)
     except RefusedError as first:

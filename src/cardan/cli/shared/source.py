@@ -39,10 +39,7 @@ STDIN = Path("-")
 
 
 def read(path: Path, catalogues: Sequence[Path] = ()) -> Drive:
-    """Return the drive of a file, or of standard input when the path is ``-``; with rows of further catalogues.
-
-    Raises RefusedError: everything that is wrong with the file, with its name.
-    """
+    """Return the drive of a file, or of standard input when the path is ``-``; with rows of further catalogues."""
     if path == STDIN:
         return read_with_text(path, catalogues)[0]
     with about(str(path)):
@@ -84,11 +81,7 @@ PLAIN = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
 
 
 def value_of(text: str) -> Any:
-    """Return a value: JSON, any usual number, or else the word as it stands.
-
-    >>> value_of("[1, 2]"), value_of("true"), value_of(".35"), value_of("+3."), value_of("exact")
-    ([1, 2], True, 0.35, 3.0, 'exact')
-    """
+    """Return a value: JSON, any usual number, or else the word as it stands."""
     try:
         return json.loads(text)
     except ValueError:

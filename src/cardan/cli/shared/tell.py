@@ -91,10 +91,8 @@ def tell(
 ) -> int:
     """Tell an answer the way the user asked for and return its exit code.
 
-    file: the file that was asked about.
     drive: what it describes; a drive that has other conditions is asked in these too.
     whole: the same with all its load cases, where the answer is of one of them.
-    alone: whether a user asked for one condition, of which alone it is told.
     name: what to call what was asked about, instead of the drive or its file; json, csv: ``--json`` and ``--csv``.
     plot: ``--plot``; drawn first, so that nothing is printed when it cannot be.
     """

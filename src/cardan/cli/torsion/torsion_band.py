@@ -38,11 +38,7 @@ Out: TypeAlias = Annotated[
 
 
 def band_of(text: str | None) -> tuple[float, float] | None:
-    """Return a band of speeds [rad/s] of LOW:HIGH in rpm.
-
-    >>> [round(one, 3) for one in band_of("300:600")]
-    [31.416, 62.832]
-    """
+    """Return a band of speeds [rad/s] of LOW:HIGH in rpm."""
     if text is None:
         return None
     if text.count(":") != 1:
@@ -61,11 +57,7 @@ def elements_of(numbers: Sequence[int] | None) -> list[int] | None:
 
 
 def repeated(single: Mapping[str, Any], many: Mapping[str, Sequence[Any] | None]) -> tuple[str, ...]:
-    """Return options as they were given, to be typed again.
-
-    >>> repeated({"--kind": "tuned", "--mode": None}, {"--element": [1, 2]})
-    ('--kind', 'tuned', '--element', '1', '--element', '2')
-    """
+    """Return options as they were given, to be typed again."""
     words: list[str] = []
     for name, value in single.items():
         words += [] if value is None else [name, f"{value:g}" if isinstance(value, float) else str(value)]

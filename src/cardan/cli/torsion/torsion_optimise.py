@@ -73,11 +73,7 @@ def torsion_optimise(
 
 
 def ranges_of(texts: Sequence[str]) -> dict[str, tuple[float, ...]] | None:
-    """Return path -> range of PATH=LOW:HIGH[:STEP], None where nothing is given.
-
-    >>> ranges_of(["shafts[1].yoke_angle_deg=-90:90:22.5"])
-    {'shafts[1].yoke_angle_deg': (-90.0, 90.0, 22.5)}
-    """
+    """Return path -> range of PATH=LOW:HIGH[:STEP], None where nothing is given."""
     found: dict[str, tuple[float, ...]] = {}
     problems = []
     for text in texts:

@@ -33,9 +33,6 @@ def values(text: str, option: str, *, count: int = COUNT, low: float | None = No
     """Return the values of LOW:HIGH[:COUNT].
 
     count: how many, where the text does not say; low: the values are above this.
-
-    >>> values("100:200:3", "--speeds").tolist()
-    [100.0, 150.0, 200.0]
     """
     parts = text.split(":")
     try:

@@ -50,12 +50,7 @@ def key_of(bare: str) -> str:
 
 
 def in_a_joint(drive: Described, key: str, inner: str = "") -> tuple[str, ...]:
-    """Return the path of a key in the first joint that can have it; none where no joint of the drive can.
-
-    >>> from cardan.drive.drive import Drive
-    >>> in_a_joint(Drive.from_angles([0.3]), "friction"), in_a_joint(Drive.from_angles([0.3]), "cross", ".span")
-    (('joints[0].friction',), ('joints[0].cross.span',))
-    """
+    """Return the path of a key in the first joint that can have it; none where no joint of the drive can."""
     able = (k for k, joint in enumerate(drive.joints) if key in fields_of(type(joint)))
     return tuple(f"joints[{k}].{key}{inner}" for k in islice(able, 1))
 
@@ -91,11 +86,7 @@ def tree_of(thing: Any) -> dict[str, Any]:
 
 
 def written(value: float, dimension: str) -> tuple[str, float]:
-    """Return unit and number that stand for a value in SI exactly, the shortest in the preferred unit if there is one.
-
-    >>> written(0.3490658503988659, "angle")
-    ('deg', 20.0)
-    """
+    """Return unit and number that stand for a value in SI exactly, the shortest in the preferred unit if any.."""
     for unit, factor in DIMENSIONS[dimension].items():
         number = exact_in_unit(value, factor)
         if number is not None:

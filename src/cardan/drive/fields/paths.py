@@ -157,10 +157,7 @@ def _as_given(field: str, given: Mapping[str, str]) -> str:
 
 
 def pose_drives(drive: D) -> tuple[D, ...]:
-    """Return the drive in each of its poses, without poses of its own.
-
-    Raises InputError: a pose changes what is not there, or makes no drive; the path names the pose.
-    """
+    """Return the drive in each of its poses, without poses of its own."""
     bare = replace(drive, poses=())
     return tuple(with_values(bare, dict(pose.set)) for pose in drive.poses)
 
@@ -169,7 +166,6 @@ def pose_problems(drive: Described, *, whole: bool) -> Iterator[Problem]:
     """Yield what is wrong with the poses of a drive.
 
     drive: the drive; it need not be checked yet.
-    whole: whether it is free of other problems, so that its poses can be judged as drives too.
     """
     bare = copy(drive)
     object.__setattr__(bare, "poses", ())
@@ -277,21 +273,12 @@ AXES = re.compile(r"\[([012])\]$")
 
 
 def with_key(path: str) -> str:
-    """Return what stands at a path in words, with the key that is typed for it.
-
-    path: without unit.
-
-    >>> with_key("shafts[1].outer")
-    'shaft 2: outer diameter (shafts[1].outer_mm)'
-    """
+    """Return what stands at a path in words, with the key that is typed for it."""
     return f"{in_words(path)} ({key_of(path)})"
 
 
 def in_words(path: str) -> str:
-    """Return what stands at a path of the drive file, in words, with parts counted as people count them.
-
-    path: without unit.
-    """
+    """Return what stands at a path of the drive file, in words, with parts counted as people count them."""
     owners = {
         "joints": _("joint {number}"),
         "shafts": _("shaft {number}"),

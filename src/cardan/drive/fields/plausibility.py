@@ -58,10 +58,7 @@ class Doubt:
 
 
 def doubts(drive: Described) -> Iterator[Doubt]:
-    """Yield what a drive gives that is hardly meant; nothing is changed for it.
-
-    drive: as its file has it.
-    """
+    """Yield what a drive gives that is hardly meant; nothing is changed for it."""
     for path, value, dimension in _numbers(drive, ""):
         yield from _magnitude(path, value, dimension)
     yield from _distances(drive)

@@ -318,11 +318,6 @@ def course(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circ
     joint_angle (...) [rad]: bend α of the shafts in [0, π/2); first, second: profiles of shaft 1 and shaft 2.
     Returns deviation, ratio, slope (...) [rad, 1, 1/rad]: φ2 - φ1, dφ2/dφ1 and d²φ2/dφ1²; the last by a central
     difference of the exact ratio.
-
-    >>> one = Circle(axial=0.06, radial=0.01, radius=0.075)
-    >>> other = Circle(axial=0.062, radial=0.011, radius=0.074)
-    >>> print([f"{part:.6f}" for part in course(math.radians(130.0), math.radians(30.0), one, other)])
-    ['0.014375', '0.994057', '-0.028502']
     """
     phi, alpha, one, two = _arrays(angle, joint_angle, first, second)
     place = _place(phi, alpha, one, two)

@@ -246,11 +246,7 @@ def _passed_on(
 
 
 def wrapped(angle: ArrayLike) -> Array:
-    """Return an angle within half a turn, in (-π, π].
-
-    >>> print(f"{wrapped(3.5 * math.pi) / math.pi:.1f}")
-    -0.5
-    """
+    """Return an angle within half a turn, in (-π, π]."""
     (phi,) = floats(angle)
     xp = namespace(phi)
     return xp.atan2(xp.sin(phi), xp.cos(phi))

@@ -78,10 +78,6 @@ def tilt(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
 
     joint_angle (...) [rad]: α in [0, π/2), angle between the shafts; first, second (...) [m]: OA, OB > 0.
     Returns (...) [rad]: η = arctan[(OB - OA)/(OB + OA) tan(α/2)], by the law of tangents; exactly 0 for equal lengths.
-
-    >>> from cardan.units import deg
-    >>> print(tilt(30 * deg, 0.020, [0.020, 0.021]) / deg)
-    [0.         0.37444242]
     """
     alpha, one, two = floats(joint_angle, first, second)
     xp = namespace(alpha, one, two)

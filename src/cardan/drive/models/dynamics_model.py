@@ -112,12 +112,6 @@ def place_of(whole: Train) -> Geometry:
     """Return where the shafts of a train lie, with the planes from which its angles count.
 
     whole (...): one drive or many.
-
-    A straight joint has a plane where the drive is given by angles; its points say nothing of it:
-
-    >>> straight = train(Drive.from_angles([0.0, 0.5], plane_twists=[0.7]))
-    >>> place_of(straight).normal[0], geometry_from_points(straight.points).normal[0].round(3) + 0.0
-    (array([0., 1., 0.]), array([0.   , 0.765, 0.644]))
     """
     found = geometry_from_points(whole.points)
     return found if whole.normal is None else replace(found, normal=whole.normal)
@@ -183,11 +177,7 @@ def train(drive: Drive, *, kinds: bool = False) -> Train:
 
 
 def lengths_off(errors: Sequence[Error | None]) -> Array:
-    """Return the errors of length of each joint, array (n, 5) [m].
-
-    >>> lengths_off([Error(s1=1e-5), None])[:, 0]
-    array([1.e-05, 0.e+00])
-    """
+    """Return the errors of length of each joint, array (n, 5) [m]."""
     given = [one or Error() for one in errors]
     return np.asarray([[one.s1, one.a1, one.a2, one.a3, one.a4] for one in given])
 

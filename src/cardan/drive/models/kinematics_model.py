@@ -69,10 +69,7 @@ def chain(drive: Drive) -> Chain:
 
 
 def turning_chain(drive: Drive) -> Chain:
-    """Return the Hooke joints that turn like the joints of a drive, those of other kinds among them.
-
-    Raises InputError: the motion of a joint is no Möbius map, or it does not turn at its bend.
-    """
+    """Return the Hooke joints that turn like the joints of a drive, those of other kinds among them."""
     return turning(given_chain(drive), drive.joints)
 
 
@@ -95,10 +92,7 @@ def turning(whole: Chain, joints: Sequence[Joint], *, near: bool = False) -> Cha
 
 
 def nearly_turning_chain(drive: Drive, question: str) -> Chain:
-    """Return the Hooke joints that turn like the joints of a drive, but for angles that nobody can measure.
-
-    question: what is asked, in words.
-    """
+    """Return the Hooke joints that turn like the joints of a drive, but for angles that nobody can measure."""
     given = given_chain(drive)
     left = [
         left_over(joint, joint_angle)
@@ -109,15 +103,7 @@ def nearly_turning_chain(drive: Drive, question: str) -> Chain:
 
 
 def as_hooke(drive: Drive) -> Drive:
-    """Return a drive of Hooke joints that turns like a drive, itself where it has no other joints.
-
-    Raises InputError: the motion of a joint is no Möbius map, or it does not turn at its bend.
-
-    >>> from cardan.drive.joints import ConstantVelocity, Hooke
-    >>> pair = Drive(joints=(Hooke(joint_angle=0.3), ConstantVelocity(joint_angle=0.4)))
-    >>> [joint.joint_angle for joint in as_hooke(pair).joints]
-    [0.3, 0.0]
-    """
+    """Return a drive of Hooke joints that turns like a drive, itself where it has no other joints."""
     if not mixed(drive.joints):
         return drive
     whole = turning_chain(drive)
@@ -172,12 +158,7 @@ class Laws:
 
 
 def mixed(joints: Sequence[Joint]) -> bool:
-    """Tell whether any joint is of another kind than Hooke's.
-
-    >>> from cardan.drive.joints import Hooke
-    >>> mixed([Hooke(joint_angle=0.1)])
-    False
-    """
+    """Tell whether any joint is of another kind than Hooke's."""
     return any(not joint.single_cross for joint in joints)
 
 
@@ -206,9 +187,6 @@ def refuse_kinds(drive: Drive, question: str, key: str = "cross") -> None:
     """Refuse a drive with joints that do not answer a question.
 
     question: what was asked, in words; key: the same as a key of `cardan.drive.joints.joint.REFUSALS`.
-
-    >>> from cardan.drive.drive import Drive
-    >>> refuse_kinds(Drive.from_angles([0.1]), "losses", "losses")
     """
     check(refused_kinds(drive.joints, question, key))
 
@@ -238,10 +216,8 @@ def alike(
     """Return bends, plane twists and start of the Hooke joints that turn like joints of other kinds.
 
     joints: all with a Möbius map; joint_angle (..., n) [rad]: α_i; plane_twist (..., n-1) [rad]: β_2 … β_n.
-    near: take a joint without a Möbius map by the nearest one.
     Returns joint_angle, plane_twist (..., n), (..., n-1) [rad]: of the Hooke joints, with the same yoke angles; start
     (...) [rad]: what to add to the start phase.
-    Raises InputError: a joint has no Möbius map, or does not turn at its bend.
     The driving yoke of the Hooke joint stands λ ahead of the driving mark, and so does the driven one, which stands a
     quarter turn ahead of its own: β_i becomes β_i + (π/2 - q_{i-1}) + λ_{i-1} - λ_i, q = π/2 for a cross, else 0.
     """

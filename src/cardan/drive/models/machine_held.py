@@ -28,7 +28,6 @@ def machines_of(drive: Drive) -> tuple[int, ...]:
 def machine_held(drive: Drive) -> Drive:
     """Return a drive with supports whose end shafts without any are held by their machines, at the joint.
 
-    drive: without supports it stays as it is.
     Returns Drive: a machine holds its shaft sideways and against tilting; lengthwise too where no other axial support
     holds the part of the drive up to the next sliding spline.
     """

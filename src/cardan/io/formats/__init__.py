@@ -16,10 +16,7 @@ FORMATS = {module.suffix: module for module in (csv, json, xlsx)}
 
 
 def write(result: Any, path: Path) -> None:
-    """Write a result to a file in the format of its suffix.
-
-    Raises MissingExtraError: what writes such files is not installed.
-    """
+    """Write a result to a file in the format of its suffix."""
     module = FORMATS.get(path.suffix.lower())
     if module is None:
         known = ", ".join(FORMATS)

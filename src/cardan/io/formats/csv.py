@@ -18,10 +18,7 @@ suffix = ".csv"
 
 
 def content(result: Any) -> bytes:
-    """Return a result as the bytes of a CSV file.
-
-    Raises InputError: the result is no table.
-    """
+    """Return a result as the bytes of a CSV file."""
     return table(columns_of(result)).encode()
 
 

@@ -33,9 +33,6 @@ def plain(value: Any) -> Any:
     """Return a result as dicts, lists, numbers and words: arrays as lists, complex as [re, im], not finite as null.
 
     Properties that need what the result does not have, such as a speed, are left out.
-
-    >>> plain({"a": np.asarray([1.0, np.nan]), "b": 1 + 2j})
-    {'a': [1.0, None], 'b': [1.0, 2.0]}
     """
     if is_dataclass(value) and not isinstance(value, type):
         return tree_of(value) if isinstance(value, Drive) else dict(_named(value))

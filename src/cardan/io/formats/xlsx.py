@@ -19,19 +19,12 @@ WIDEST = 30
 
 
 def content(result: Any) -> bytes:
-    """Return a result as the bytes of a workbook.
-
-    Raises InputError: the result is no table, or a sheet has not enough rows for it.
-    Raises MissingExtraError: what writes workbooks is not installed.
-    """
+    """Return a result as the bytes of a workbook."""
     return table(columns_of(result), type(result).__name__)
 
 
 def table(columns: Mapping[str, Sequence[Any]], name: str = "table") -> bytes:
-    """Return columns as the bytes of a workbook of one sheet, numbers in full precision.
-
-    columns: heading with its unit -> values, as many in each.
-    """
+    """Return columns as the bytes of a workbook of one sheet, numbers in full precision."""
     count = max(map(len, columns.values()), default=0)
     if count >= MOST_ROWS:
         text = _("has {rows} rows; a sheet holds {limit}: save it as .csv")

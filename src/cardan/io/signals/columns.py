@@ -116,11 +116,7 @@ TIMES = {"sec": "s", "second": "s", "seconds": "s", "msec": "ms", "milliseconds"
 
 
 def underlined(title: str) -> str:
-    """Return a title whose unit stands in brackets as words with lines between them; any other as it is.
-
-    >>> underlined("Acceleration front [m/s²]"), underlined("Time (sec)"), underlined("velocity_shafts[1]")
-    ('Acceleration_front_m_s2', 'Time_s', 'velocity_shafts[1]')
-    """
+    """Return a title whose unit stands in brackets as words with lines between them; any other as it is."""
     found = BRACKETED.fullmatch(title)
     if found is None or (found["square"] or "").strip().isdecimal():
         return title
@@ -136,11 +132,7 @@ def underlined(title: str) -> str:
 
 
 def suffix_of(printed: str) -> str:
-    """Return the suffix of a unit as another program writes it, "" where it is not known.
-
-    >>> suffix_of("m/s²"), suffix_of("N·m"), suffix_of("[RPM]"), suffix_of("furlong")
-    ('m_s2', 'Nm', 'rpm', '')
-    """
+    """Return the suffix of a unit as another program writes it, "" where it is not known."""
     plain = printed.strip().strip("[]()").strip()
     plain = plain.replace("²", "2").replace("^", "").replace("**", "").replace("µ", "u").replace("μ", "u")
     plain = re.sub(r"[·*\s]", "", plain.replace("/", "_").replace("⁻¹", "-1").replace("⁻2", "-2"))
@@ -154,12 +146,6 @@ def meaning(title: str) -> Meaning:
 
     title: words with lines between them: a quantity, a name, a place ``supports[1]``, a direction; the unit at its end.
     Or words with blanks and the unit in brackets.
-
-    >>> found = meaning("acceleration_supports[1]_z_mm_s2")
-    >>> found.quantity, found.unit, found.place, found.direction
-    ('acceleration', 'mm_s2', 'supports[1]', 'z')
-    >>> meaning("speed_rpm").quantity, meaning("tacho").quantity, meaning("front_g").name
-    ('angular_speed', 'pulses', 'front')
     """
     words = [one for one in underlined(title.strip()).split("_") if one]
     lower = [one.lower() for one in words]
@@ -213,11 +199,7 @@ def _time(title: str, words: list[str]) -> Meaning:
 
 
 def title_of(name: str, quantity: str, place: str, direction: str) -> str:
-    """Return the title under which a channel is written, with its SI unit.
-
-    >>> title_of("front", "acceleration", "supports[1]", "z"), title_of("tacho", "pulses", "", "")
-    ('acceleration_front_supports[1]_z_m_s2', 'tacho')
-    """
+    """Return the title under which a channel is written, with its SI unit."""
     words = [one for one in (place, direction) if one]
     given = "" if name == "_".join(words) or name in (quantity, "") else name
     angle_error = "" if quantity == "pulses" and WORDS.get(given.lower()) == ("pulses",) else quantity

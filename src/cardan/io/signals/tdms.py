@@ -25,10 +25,7 @@ MAX_BYTES = 400_000_000
 
 
 def read(path: Path, asked: Asked) -> Raw:
-    """Return the channels of a TDMS file, of all its groups.
-
-    Raises MissingExtraError: what reads such files is not installed.
-    """
+    """Return the channels of a TDMS file, of all its groups."""
     name = path.name
     log().log_manager.set_level(logging.ERROR)  # what it warns of is asked for below
     try:
@@ -66,10 +63,7 @@ def read(path: Path, asked: Asked) -> Raw:
 
 
 def content_of(signal: Signal) -> bytes:
-    """Return a recording as the bytes of a TDMS file, in SI, each channel with its own rate.
-
-    Raises MissingExtraError: what writes such files is not installed.
-    """
+    """Return a recording as the bytes of a TDMS file, in SI, each channel with its own rate."""
     stream = io.BytesIO()
     with nptdms().TdmsWriter(stream) as writer:
         writer.write_segment(

@@ -39,10 +39,7 @@ DIRECTION_OF = {1: "x", 2: "y", 3: "z", 4: "torsion", 5: "torsion", 6: "torsion"
 
 
 def read(path: Path, asked: Asked) -> Raw:
-    """Return the channels of a universal file.
-
-    Raises MissingExtraError: what reads such files is not installed.
-    """
+    """Return the channels of a universal file."""
     name = path.name
     marks = len(re.findall(rb"^ *-1 *\r?$", content(path, name, MAX_BYTES), re.MULTILINE))
     with warnings.catch_warnings():
@@ -95,10 +92,7 @@ def _column(one: dict[str, Any], k: int, cautions: list[str]) -> Column:
 
 
 def content_of(signal: Signal) -> bytes:
-    """Return a recording as the bytes of a universal file, a data set 58 for each channel, in SI.
-
-    Raises MissingExtraError: what writes such files is not installed.
-    """
+    """Return a recording as the bytes of a universal file, a data set 58 for each channel, in SI."""
     titles = [title_of(one.name, one.quantity, one.place, one.direction) for one in signal.channels]
     text = _("is longer than the {most} letters of a line of a universal file")
     check(Problem(one, text.format(most=MOST_LETTERS), "out_of_range") for one in titles if len(one) > MOST_LETTERS)

@@ -77,7 +77,6 @@ class DriveModel:
 def plant(drive: Drive) -> DriveModel:
     """Return the figures of a drive that decide how its faults show.
 
-    drive: the more it says of bodies, balance and duty, the less is assumed.
     Each figure is that of the program's own analysis: `bending_speeds`, `balance`, `equivalent_joint`. What the drive
     does not say is assumed and listed: the answer is then about the shape of a vibration rather than its size.
     """

@@ -86,11 +86,7 @@ def answer_of_list() -> Answer:
 
 
 def fault_words(fault: str) -> str:
-    """Return what a fault is, in words.
-
-    >>> fault_words("unbalance"), fault_words("healthy")
-    ('unbalance of a shaft', 'nothing wrong')
-    """
+    """Return what a fault is, in words."""
     own = {"unbalance": _("unbalance of a shaft"), "lost_weight": _("balance weight lost")}
     if fault in own:
         return own[fault]
@@ -99,10 +95,7 @@ def fault_words(fault: str) -> str:
 
 
 def grows(power: float, *, amplified: bool) -> str:
-    """Return how an order follows the speed, in words.
-
-    amplified: whether a bending mode amplifies it.
-    """
+    """Return how an order follows the speed, in words."""
     plain = {0.0: _("stays the same"), 1.0: _("in proportion"), 2.0: _("square")}
     said = plain.get(power, _("power {power:g}").format(power=power))
     return _("{said}, amplified near the critical speed").format(said=said) if amplified else said

@@ -112,7 +112,6 @@ def features(
     """Return what a recording of a drive shows, in figures.
 
     signal: with one channel of vibration at least; better with a tacho, two torques and a run-up.
-    drive: the drive in order: levels are measured by what it should show.
     speed_range [rad/s]: between which the shaft turned, for a recording without a tacho; the duty of the drive
     otherwise.
     progress: told the share done; when it answers "stop" channels not yet looked at are left out, and a caution says

@@ -347,7 +347,6 @@ def fitted(value: Array, cause: list[str], features: tuple[str, ...], *, pull: f
     """Return the model that fits recordings of known causes best.
 
     value (r, f): features; nan where not known.
-    features: names of the features.
     pull: pull of the weights to 0: half of it times the sum of their squares goes on top of the surprise.
     Least of −Σ log p + ½ pull Σ w² over the weights w but those of 1 (maximum a posteriori), by L-BFGS; convex, so that
     the answer does not depend on a start.

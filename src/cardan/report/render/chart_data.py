@@ -174,13 +174,7 @@ class ChartData:
 
 
 def digits(values: Sequence[Any]) -> str:
-    """Return the number format of a column: as many digits as its largest number has, none that are always nought.
-
-    values: all finite.
-
-    >>> digits([0.0, 90.0]), digits([0.998765432, 1.0]), digits([2e-9, 1.5e-9])
-    ('0', '0.00000', '0.0E+00')
-    """
+    """Return the number format of a column: as many digits as its largest number has, none that are always nought."""
     sizes = np.abs(np.asarray(values, dtype=float))
     top = float(np.max(sizes, initial=0.0))
     if not top:

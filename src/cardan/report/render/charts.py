@@ -373,11 +373,7 @@ def _step(axis: Axis) -> float:
 
 
 def reach(axis: Axis) -> tuple[float, float]:
-    """Return the range of an axis, from a value where a tick can stand: a chart counts them from there.
-
-    >>> reach(Axis(low=-0.3, high=4.3, ticks=(0.0, 2.0, 4.0))), reach(Axis(low=4e-5, high=0.03, log=True))
-    ((-2.0, 4.3), (1e-05, 0.1))
-    """
+    """Return the range of an axis, from a value where a tick can stand: a chart counts them from there."""
     if axis.log:
         return 10.0 ** math.floor(math.log10(axis.low) + 1e-9), 10.0 ** math.ceil(math.log10(axis.high) - 1e-9)
     step = _step(axis)
@@ -414,13 +410,7 @@ def spread(panel: Panel, *, upright: bool) -> tuple[float, float]:
 
 
 def snug(axis: Axis, drawn: tuple[float, float]) -> Axis:
-    """Return an axis without the margins beyond its ticks where nothing is drawn: a chart would begin a tick lower.
-
-    drawn: the range of what is drawn along it.
-
-    >>> reach(snug(Axis(low=-0.3, high=4.3, ticks=(0.0, 2.0, 4.0)), (0.0, 4.2)))
-    (0.0, 4.3)
-    """
+    """Return an axis without the margins beyond its ticks where nothing is drawn: a chart would begin a tick lower."""
     way = _step(axis)
     if axis.log or not way:
         return axis
@@ -430,11 +420,7 @@ def snug(axis: Axis, drawn: tuple[float, float]) -> Axis:
 
 
 def plain(text: str) -> str:
-    """Return words for a place of a chart that takes formulas too, so that they are none.
-
-    >>> plain("=A1"), plain("Sheet!A1"), plain("runs")
-    ('\u200b=A1', 'Sheet！A1', 'runs')
-    """
+    """Return words for a place of a chart that takes formulas too, so that they are none."""
     text = words(text)
     text = text.replace("!", "！") if re.match(r"^=?[^!]+!\$?[A-Z]+\$?\d+", text) else text
     return f"\u200b{text}" if text.startswith("=") else text

@@ -52,10 +52,7 @@ class Exported:
 
 
 def kinds(thing: Thing) -> tuple[str, ...]:
-    """Return the kinds of file that a thing can be exported as.
-
-    thing: a whole report, a page of it, a table or a figure.
-    """
+    """Return the kinds of file that a thing can be exported as."""
     if isinstance(thing, Content):
         return ("html", "pdf", "xlsx", "json")
     if isinstance(thing, Figure):
@@ -105,8 +102,6 @@ def export(thing: Thing, path: Path | str, *, title: str = "") -> Path:
     """Write a page, a table, a figure or a whole report into a file, whole or not at all.
 
     path: its ending says how, see `exported`; title: name of the drive, above a page.
-    Raises InputError: there is no such kind of it, or the file cannot be written.
-    Raises MissingExtraError: what writes it is not installed.
     """
     place = Path(path)
     write_bytes(place, exported(thing, place.suffix.lower().lstrip("."), title=title).content)
@@ -177,11 +172,7 @@ def content_data(content: Content) -> dict[str, Any]:
 
 
 def page_data(page: Page) -> dict[str, Any]:
-    """Return a page as dicts, lists, numbers and words.
-
-    >>> page_data(Page(name="motion", title="Motion", answer="It turns evenly.", blocks=[]))
-    {'name': 'motion', 'title': 'Motion', 'answer': 'It turns evenly.', 'blocks': []}
-    """
+    """Return a page as dicts, lists, numbers and words."""
     return {
         "name": page.name,
         "title": page.title,

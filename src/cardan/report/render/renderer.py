@@ -41,7 +41,6 @@ def renderer_for(path: Path, *, interactive: bool = False, field: str = "path") 
     """Return what writes a report into a file, before any work is done.
 
     interactive: with figures to point at, zoom and turn; field: what the user gave the path as.
-    Raises MissingExtraError: what writes it is not installed.
 
     >>> renderer_for(Path("report.odt"))
     Traceback (most recent call last):
@@ -59,10 +58,7 @@ def renderer_for(path: Path, *, interactive: bool = False, field: str = "path") 
 
 
 def form_of(path: Path, field: str = "path") -> Renderer:
-    """Return the form of a report that a file has by its ending.
-
-    field: what the user gave it as.
-    """
+    """Return the form of a report that a file has by its ending."""
     renderer = RENDERERS.get(path.suffix.lower())
     if renderer is None:
         text = _("{path} should end in one of {known}").format(path=path, known=", ".join(RENDERERS))

@@ -124,10 +124,7 @@ class Paper:
             self.space()
 
     def line(self, text: str, **how: Any) -> None:
-        """Write words across the page, as many lines high as they need.
-
-        **how: properties of their format.
-        """
+        """Write words across the page, as many lines high as they need."""
         form = self._looks(text_wrap=True, **how)
         high = self._high_of(text, self._letters, float(how.get("font_size", 11)))
         self._sheet.merge_range(self.row, 0, self.row, self._span - 1, "", form)
@@ -135,10 +132,7 @@ class Paper:
         self._next(high)
 
     def entry(self, title: str, text: str, sheet: str) -> None:
-        """Write a line of contents: the title leads to a sheet, words lie beside it.
-
-        sheet: name of the sheet.
-        """
+        """Write a line of contents: the title leads to a sheet, words lie beside it."""
         leads_to(self._sheet, self.row, 0, title, sheet, self._looks(color="accent", underline=1, text_wrap=True))
         form = self._looks(text_wrap=True, indent=1)
         if self._span > 2:
@@ -366,11 +360,7 @@ WIDTHS: dict[str, float] = {
 
 
 def breadth(text: str) -> float:
-    """Return how many digits are as wide as a text.
-
-    >>> breadth("100"), breadth("mm") > 3.0 > breadth("illi")
-    (3.0, True)
-    """
+    """Return how many digits are as wide as a text."""
     return sum(WIDTHS.get(letter, BROADEST) for letter in text) / DIGIT
 
 
@@ -378,9 +368,6 @@ def lines(text: str, digits: float) -> int:
     """Return how many lines words take in a column as wide as so many digits.
 
     text: the words, which break at blanks; digits: width of the column.
-
-    >>> lines("greatest acceleration [rad/s²]", 12.0), lines("", 12.0), lines("x" * 25, 12.0)
-    (3, 1, 2)
     """
     room = max(digits, 1.0) / SPARE
     count = 0

@@ -191,9 +191,5 @@ def course(angle: Array, tau: Array, places: int) -> tuple[Array, Array, Array]:
 
 
 def places(links: int) -> int:
-    """Return how many different places links at equal angles take within half a turn: two opposite ones take one.
-
-    >>> places(6), places(3)
-    (3, 3)
-    """
+    """Return how many different places links at equal angles take within half a turn: two opposite ones take one."""
     return links // 2 if links % 2 == 0 else links

@@ -52,21 +52,13 @@ DIMENSIONS = {
 
 
 def unit_of(quantity: str) -> tuple[str, str, float]:
-    """Return dimension, usual unit and its size in SI of what a channel measures.
-
-    >>> unit_of("velocity"), unit_of("pulses")
-    (('speed', 'mm_s', 0.001), ('', '', 1.0))
-    """
+    """Return dimension, usual unit and its size in SI of what a channel measures."""
     dimension, unit = DIMENSIONS[quantity]
     return dimension, unit, unit_factor(dimension, unit) if dimension else 1.0
 
 
 def quantity_word(quantity: str) -> str:
-    """Return the name of a quantity in the language spoken here.
-
-    >>> quantity_word("angular_speed")
-    'speed'
-    """
+    """Return the name of a quantity in the language spoken here."""
     words = {
         "acceleration": _("acceleration"),
         "velocity": _("velocity"),
@@ -80,13 +72,7 @@ def quantity_word(quantity: str) -> str:
 
 
 def trusted(sentence: Text, confidence: float) -> Text:
-    """Return a sentence with how little the picture can be relied on, as it is where it can.
-
-    >>> from cardan.answers.quantity import told
-    >>> from cardan.answers.reader import USUAL
-    >>> told(trusted("Order 2 is the highest.", 0.9), USUAL), told(trusted("Order 2 is the highest.", 0.25), USUAL)
-    ('Order 2 is the highest.', 'Order 2 is the highest. The confidence is only 25 %.')
-    """
+    """Return a sentence with how little the picture can be relied on, as it is where it can."""
     if confidence >= BELIEVED:
         return sentence
     text = _("{sentence} The confidence is only {share}.")
@@ -94,11 +80,7 @@ def trusted(sentence: Text, confidence: float) -> Text:
 
 
 def order_text(order: float) -> str:
-    """Return an order as people say it: whole where it is whole but for what a spectrum blurs.
-
-    >>> order_text(2.004), order_text(0.47)
-    ('2', '0.47')
-    """
+    """Return an order as people say it: whole where it is whole but for what a spectrum blurs."""
     return f"{round(order)}" if round(order) and abs(order - round(order)) < WHOLE else f"{order:.2f}"
 
 
@@ -118,10 +100,7 @@ def tracks_figures(found: TrackedOrders) -> tuple[Figure, ...]:
 
 
 def spectrum_figure(found: OrderSpectrum) -> Figure:
-    """Return the amplitudes over the orders, the highest named, with the level of the noise.
-
-    found: of one channel.
-    """
+    """Return the amplitudes over the orders, the highest named, with the level of the noise."""
     dimension, unit, size = unit_of(found.quantity)
     level, floor = found.amplitude / size, found.floor / size
     peaks = found.peaks(count=NAMED)
@@ -253,10 +232,7 @@ def _crossing(critical: float, low: float, high: float, last: float) -> list[Ser
 
 
 def tracks_figure(found: TrackedOrders) -> Figure:
-    """Return amplitude and phase of some orders over the speed.
-
-    found: of one channel.
-    """
+    """Return amplitude and phase of some orders over the speed."""
     dimension, unit, size = unit_of(found.quantity)
     run = _longest_run(found.speed)
     if run is None:
@@ -358,10 +334,7 @@ def expected_figures(found: Expected) -> tuple[Figure, ...]:
 
 
 def expected_figure(found: Expected) -> Figure:
-    """Return the orders of a fault over the speed at the torque of the duty, at the sensor where they are largest.
-
-    found: of a drive and a fault.
-    """
+    """Return the orders of a fault over the speed at the torque of the duty, at the sensor where they are largest."""
     speed = np.linspace(*found.speed, POINTS)
     rows = []
     ways = (
@@ -404,7 +377,6 @@ def largest_order(found: Expected) -> tuple[float, str, float] | None:
     """Return the order across the shaft that is largest at top speed, its sensor and its amplitude [m/s²].
 
     None where there is none across it.
-    found: of a drive and a fault.
     """
     radial = [one for one in found.orders if one.direction == "radial"]
     if not radial:

@@ -102,13 +102,6 @@ def verdict(findings: Sequence[Finding]) -> Text:
     """Return in one sentence what a recording comes to, never surer than it is.
 
     findings: by falling score.
-
-    >>> from cardan.answers.quantity import told
-    >>> from cardan.answers.reader import USUAL
-    >>> one = Finding(cause="F01", fault="unbalance", score=0.81, confidence=0.9)
-    >>> other = Finding(cause="F02", fault="tube bent", score=0.1, confidence=0.9)
-    >>> told(verdict([one, other]), USUAL)
-    'Likely: unbalance (81 %).'
     """
     first, second = findings[0], findings[1]
     share, other = (Quantity(one.score, "share", decimals=0) for one in (first, second))
@@ -154,10 +147,7 @@ def torsional_figures(found: TorsionalVibration) -> tuple[Figure, ...]:
 
 
 def rotation_figure(found: Rotation) -> Figure:
-    """Return the speed over time, each value the mean of a turn.
-
-    found: of one shaft.
-    """
+    """Return the speed over time, each value the mean of a turn."""
     count = int(min(max(found.turns, 2.0), POINTS))
     angle = np.linspace(float(found.angle[0]), float(found.angle[-1]), count + 1)
     time = found.time_at(angle)
@@ -187,10 +177,7 @@ def rotation_figure(found: Rotation) -> Figure:
 
 
 def orbit_figure(found: Orbit) -> Figure:
-    """Return the orbit as measured, and the ellipse of each order.
-
-    found: of two sensors.
-    """
+    """Return the orbit as measured, and the ellipse of each order."""
     dimension, unit, size = unit_of(found.quantity)
     wide = max(float(np.max(np.abs(found.x))), float(np.max(np.abs(found.y))), 1e-300) / size
     reach = 1.1 * wide
@@ -252,10 +239,7 @@ def _orbit_sentence(found: Orbit) -> Text:
 
 
 def torsional_figure(found: TorsionalVibration) -> Figure:
-    """Return the twist over some turns, and its orders.
-
-    found: of one wheel.
-    """
+    """Return the twist over some turns, and its orders."""
     shown = int(TURNS * found.teeth)
     angle = (found.angle[:shown] - found.angle[0]) / (2.0 * math.pi)
     twist = found.twist[:shown] / deg

@@ -222,11 +222,6 @@ class Watch:
 
     progress: who is told; he may answer "stop".
     parts: how many parts there are, taken for equal; stopped: whether the answer was "stop" once.
-
-    >>> told = []
-    >>> watch = Watch(told.append, 4)
-    >>> watch(0.5), watch.next(), watch(0.5), told
-    (None, None, None, [0.125, 0.25, 0.375])
     """
 
     def __init__(self, progress: Progress | None, parts: int) -> None:
