@@ -124,27 +124,11 @@ class DoubleCardan(Joint):
 def lag(joint_angle: ArrayLike, share: ArrayLike) -> Array:
     """Return by how much a ball on one shaft misses half the joint angle, Δ = (α23 - α12)/2.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        Whole bend α in [0, π/2).
-    share : array (...)
-        Centring ratio λ in (0, 1): distance of the ball from the first centre over that of the two centres.
-
-    Returns
-    -------
-    array (...) [rad]
-
-    Notes
-    -----
+    joint_angle (...) [rad]: whole bend α in [0, π/2).
+    share (...): centring ratio λ in (0, 1): distance of the ball from the first centre over that of the two centres.
+    Returns (...) [rad].
     Δ = arcsin(λ sin α) - α/2 from the triangle O1 O O3, written without a difference of near numbers:
     sin Δ = sin(α/2) (4λ² cos²(α/2) - 1)/(2λ cos²(α/2) + √(1 - λ² sin² α)). Exact where Book (12) is not.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> lag([10 * deg, 50 * deg], 0.5) / deg
-    array([-0.01907468, -2.47898788])
     """
     alpha, ratio = floats(joint_angle, share)
     xp = namespace(alpha, ratio)
@@ -157,27 +141,10 @@ def lag(joint_angle: ArrayLike, share: ArrayLike) -> Array:
 def lag_book(joint_angle: ArrayLike, share: ArrayLike) -> Array:
     """Return the book's approximation of `lag`, for comparison.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        Whole bend α in [0, π/2).
-    share : array (...)
-        Centring ratio λ in (0, 1).
-
-    Returns
-    -------
-    array (...) [rad]
-
-    Notes
-    -----
+    joint_angle (...) [rad]: whole bend α in [0, π/2); share (...): centring ratio λ in (0, 1).
+    Returns (...) [rad].
     Book (12), which takes Δ for small, with its fraction turned over so that it never reads 0/0:
     t (2λ² (1 + cos α) - 1)/(1 + 2λ √(1 - λ² sin² α)), t = tan(α/2). Off by 0.0015° at 50° and λ = 1/2.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> lag_book([10 * deg, 50 * deg], 0.5) / deg
-    array([-0.01907468, -2.48053593])
     """
     alpha, ratio = floats(joint_angle, share)
     xp = namespace(alpha, ratio)
@@ -189,28 +156,9 @@ def lag_book(joint_angle: ArrayLike, share: ArrayLike) -> Array:
 def split(joint_angle: ArrayLike, share: ArrayLike) -> tuple[Array, Array]:
     """Return the joint angles of the first and the second joint where a ball on one shaft centres them.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        Whole bend α in [0, π/2).
-    share : array (...)
-        Centring ratio λ in (0, 1).
-
-    Returns
-    -------
-    first, second : arrays (...) [rad]
-        α12 and α23.
-
-    Notes
-    -----
+    joint_angle (...) [rad]: whole bend α in [0, π/2); share (...): centring ratio λ in (0, 1).
+    Returns first, second (...) [rad]: α12 and α23.
     sin α23 = λ sin α, α12 = α - α23: the sines of the triangle, exact; Book (9).
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> first, second = split(30 * deg, 0.5)
-    >>> print(f"{first:.8f} {second:.8f}")
-    0.27091852 0.25268026
     """
     (alpha,) = floats(joint_angle)
     missed = lag(alpha, share)
@@ -233,24 +181,8 @@ def slide(joint_angle: ArrayLike, share: ArrayLike) -> Array:
 def even_share(joint_angle: ArrayLike) -> Array:
     """Return the centring ratio that halves one joint angle exactly.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        Whole bend α in [0, π/2).
-
-    Returns
-    -------
-    array (...)
-
-    Notes
-    -----
+    joint_angle (...) [rad]: whole bend α in [0, π/2).
     λ = 1/(2 cos(α/2)), the closed form of what Book p. 55 leaves as an equation.
-
-    Examples
-    --------
-    >>> import math
-    >>> print(f"{even_share(math.pi / 6):.6f}")
-    0.517638
     """
     (alpha,) = floats(joint_angle)
     return 0.5 / namespace(alpha).cos(0.5 * alpha)
@@ -295,27 +227,10 @@ def gain(first: ArrayLike, second: ArrayLike, *, crossed: bool = False) -> Array
 def unevenness(first: ArrayLike, second: ArrayLike, *, crossed: bool = False) -> Array:
     """Return κ - 1/κ of `gain`, whose size is the speed fluctuation δ.
 
-    Parameters
-    ----------
-    first, second : arrays (...) [rad]
-        Bends α12 and α23, each in [0, π/2).
-    crossed : bool
-        Whether the inner yokes stand at right angles.
-
-    Returns
-    -------
-    array (...)
-
-    Notes
-    -----
+    first, second (...) [rad]: bends α12 and α23, each in [0, π/2).
+    crossed: whether the inner yokes stand at right angles.
     sin(α12 + α23) sin(α12 - α23)/(cos α12 cos α23), crossed (1 - c²)/c with c = cos α12 cos α23, both without a
     difference of near numbers. With α12, α23 = α/2 ∓ Δ its size is about 4 |Δ| tan(α/2).
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> print(f"{unevenness(15 * deg, 14 * deg):.9f}")
-    0.009027732
     """
     one, other = floats(first, second)
     xp = namespace(one, other)

@@ -190,28 +190,11 @@ def demands(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
 def deviation(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
     """Return how far the output runs ahead where equal elastic pairs share the torque: the mean of `demands`.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        Input angle φ1.
-    joint_angle : array (...) [rad]
-        Bend α in [0, π/2).
-    pairs : int
-        Pairs of opposite contacts N; one is a Hooke joint.
-
-    Returns
-    -------
-    array (...) [rad]
-
-    Notes
-    -----
+    angle (...) [rad]: input angle φ1; joint_angle (...) [rad]: bend α in [0, π/2).
+    pairs: pairs of opposite contacts N; one is a Hooke joint.
+    Returns (...) [rad].
     -arg(1 - τ^N w^N)/N with τ = tan²(α/2), w = e^(2iφ1): of the series Σ τ^k sin(2kφ)/k of the Hooke joint, the mean
     over N places keeps the orders k = N, 2N ... alone; at most arcsin(τ^N)/N.
-
-    Examples
-    --------
-    >>> print(f"{deviation(math.pi / 8, math.radians(10.0), 2):.2e}")
-    2.93e-05
     """
     phi, alpha = floats(angle, joint_angle)
     return shared_turn.course(phi, _tau(alpha), pairs)[0]
@@ -233,27 +216,11 @@ def _tau(joint_angle: Array) -> Array:
 def play(joint_angle: ArrayLike, pairs: int) -> Array:
     """Return the play that a rigid half joint needs between its pairs to turn at a bend.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        Bend α in [0, π/2).
-    pairs : int
-        Pairs of opposite contacts N.
-
-    Returns
-    -------
-    array (...) [rad]
-        Greatest difference of two of `demands` over a turn; for more than two pairs a bound that many pairs come to.
-
-    Notes
-    -----
+    joint_angle (...) [rad]: bend α in [0, π/2); pairs: pairs of opposite contacts N.
+    Returns (...) [rad]: greatest difference of two of `demands` over a turn; for more than two pairs a bound that many
+    pairs come to.
     Two pairs differ most at 45°, by 2 arctan τ = arctan(½ sin α tan α); any number at most by twice the greatest lead,
     2 arcsin τ, τ = tan²(α/2).
-
-    Examples
-    --------
-    >>> print(f"{play(math.radians(5.0), 2):.6f}")
-    0.003813
     """
     (alpha,) = floats(joint_angle)
     xp = namespace(alpha)

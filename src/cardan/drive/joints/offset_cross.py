@@ -118,33 +118,13 @@ def _across(angle: Array, joint_angle: Array) -> tuple[Array, Array]:
 def tilt(angle: ArrayLike, joint_angle: ArrayLike, offset: ArrayLike, reach: ArrayLike, side: ArrayLike = 1.0) -> Array:
     """Return the angle ε of the output shaft with OS, about pin 2.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        Input angle φ1.
-    joint_angle : array (...) [rad]
-        Bend α in [0, π/2).
-    offset : array (...) [m]
-        Distance e of the cross axes, not negative.
-    reach : array (...) [m]
-        Distance L of the support from pin 1, above e.
-    side : array (...)
-        +1 where pin 2 lies toward the support, -1 where it lies away from it.
-
-    Returns
-    -------
-    array (...) [rad]
-
-    Notes
-    -----
+    angle (...) [rad]: input angle φ1; joint_angle (...) [rad]: bend α in [0, π/2).
+    offset (...) [m]: distance e of the cross axes, not negative.
+    reach (...) [m]: distance L of the support from pin 1, above e.
+    side (...): +1 where pin 2 lies toward the support, -1 where it lies away from it.
+    Returns (...) [rad].
     tan ε = e sin α |cos φ1|/(L - σ e √(1 - sin² α cos² φ1)), spec: joint with crossed axes; from the point
     Q = O + σ e c, c the common perpendicular of the pins, of which OS has √(1 - sin² α cos² φ1).
-
-    Examples
-    --------
-    >>> import math
-    >>> print(f"{tilt(0.0, math.radians(25), 0.02, 0.5):.9f}")
-    0.017538820
     """
     phi, alpha, e, far, sign = floats(angle, joint_angle, offset, reach, side)
     across, along = _across(phi, alpha)
@@ -173,29 +153,11 @@ def wobble(joint_angle: ArrayLike, offset: ArrayLike, reach: ArrayLike) -> Array
 def shaking_force(joint_angle: ArrayLike, offset: ArrayLike, mass: ArrayLike, speed: ArrayLike) -> Array:
     """Return the inertia force of a mass that runs with Q, at twice the speed of the shaft.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        Bend α.
-    offset : array (...) [m]
-        Distance e of the cross axes.
-    mass : array (...) [kg]
-        Mass at the joint.
-    speed : array (...) [rad/s]
-        Input speed ω.
-
-    Returns
-    -------
-    array (...) [N]
-
-    Notes
-    -----
+    joint_angle (...) [rad]: bend α; offset (...) [m]: distance e of the cross axes; mass (...) [kg]: mass at the
+    joint.
+    speed (...) [rad/s]: input speed ω.
+    Returns (...) [N].
     m (e sin α/2) (2ω)², to first order in e/L.
-
-    Examples
-    --------
-    >>> print(f"{shaking_force(0.4, 0.02, 1.5, 100.0):.1f}")
-    233.7
     """
     alpha, e, m, omega = floats(joint_angle, offset, mass, speed)
     return 0.5 * m * e * namespace(alpha, e).sin(alpha) * (2.0 * omega) ** 2

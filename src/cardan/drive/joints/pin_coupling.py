@@ -156,35 +156,15 @@ def pin_contact(
 ) -> PinContact:
     """Return where two straight pins touch, exactly.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        Input angle φ1, from the inner side of the bend.
-    joint_angle : array (...) [rad]
-        Bend α of the shafts in [0, π/2).
-    distance1, distance2 : arrays (...) [m]
-        Distances a and b from O at which the pins start on their axes.
-    slant1, slant2 : arrays (...) [rad]
-        Angles θ1 and θ2 of the pins with their axes, toward O, in (0, π/2).
-
-    Returns
-    -------
-    PinContact
-        arrays (...).
-
-    Notes
-    -----
+    angle (...) [rad]: input angle φ1, from the inner side of the bend.
+    joint_angle (...) [rad]: bend α of the shafts in [0, π/2).
+    distance1, distance2 (...) [m]: distances a and b from O at which the pins start on their axes.
+    slant1, slant2 (...) [rad]: angles θ1 and θ2 of the pins with their axes, toward O, in (0, π/2).
+    Returns: arrays (...).
     Completes Book (3)-(7), whose z is unknown: the contact A = a e1 + x d1 lies on the cone of pin 2,
     (v·e2)² = cos² θ2 |v|² with v = A - b e2, a quadratic in x; of its positive roots with v·e2 < 0 the one with x/a
     nearest to y/b. Then φ2 = atan2(A·n, A·p2). Pins meet while F = (a e1 - b e2)·(d1 × d2) = 0; the derivatives of F
     by φ1 and φ2 give ratio and slope. With N = d1 × d2 the force is |N|/|(e1 × A)·N| for unit torque.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> found = pin_contact(100 * deg, 30 * deg, 0.05, 0.052, 40 * deg, 42 * deg)
-    >>> print(f"{found.deviation:.9f} {found.ratio:.9f} {found.first:.9f}")
-    0.030906552 0.982785566 0.071884882
     """
     phi, alpha, a, b, one, two = floats(angle, joint_angle, distance1, distance2, slant1, slant2)
     xp = namespace(phi, alpha, a, b, one, two)

@@ -105,24 +105,10 @@ def _projection(joint_angle: Array, b: Array, c: Array) -> Array:
 def cage_tilt(joint_angle: ArrayLike, b: ArrayLike, c: ArrayLike) -> Array:
     """Return the angle of the cage's normal from the axis of A.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α_12 in [0, π/2), angle between the shafts.
-    b, c : arrays (...)
-        b/a and c/a, positive.
-
-    Returns
-    -------
-    array (...) [rad]
-        α_2; nan where the lever does not reach, c sin α_12 ≥ a + b.
-
-    Notes
-    -----
+    joint_angle (...) [rad]: α_12 in [0, π/2), angle between the shafts; b, c (...): b/a and c/a, positive.
+    Returns (...) [rad]: α_2; nan where the lever does not reach, c sin α_12 ≥ a + b.
     tan α_2 = a c sin α_12/[c(a + b) cos α_12 + b √((a + b)² - c² sin²α_12)], Book (13).
 
-    Examples
-    --------
     >>> from cardan.units import deg
     >>> print(cage_tilt(20 * deg, 0.35, 0.7) / deg)
     10.03450243
@@ -136,29 +122,12 @@ def cage_tilt(joint_angle: ArrayLike, b: ArrayLike, c: ArrayLike) -> Array:
 def plane_error(joint_angle: ArrayLike, b: ArrayLike, c: ArrayLike) -> Array:
     """Return by how much the cage misses the bisecting plane, α_2 - α_12/2.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α_12 in [0, π/2).
-    b, c : arrays (...)
-        b/a and c/a, positive.
-
-    Returns
-    -------
-    array (...) [rad]
-        The tilt η of `laws.tilted_plane`, shaft 1 being that of A; nan where the lever does not reach.
-
-    Notes
-    -----
+    joint_angle (...) [rad]: α_12 in [0, π/2); b, c (...): b/a and c/a, positive.
+    Returns (...) [rad]: the tilt η of `laws.tilted_plane`, shaft 1 being that of A; nan where the lever does not
+    reach.
     The tangent of the difference, its numerator reduced: sin(α/2) {c - b (c cos α + √((1 + b)² - c² sin²α))}, and the
     braces as (1 - b) c - b (1 + b) + b c [2 sin²(α/2) + c sin²α/(1 + b + √…)], so that digits are lost to the
     error itself only.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> print(plane_error([5 * deg, 35 * deg], 0.35, 0.72) / deg)
-    [-0.00525327  0.83640544]
     """
     alpha, near, far = floats(joint_angle, b, c)
     xp = namespace(alpha, near, far)
@@ -173,28 +142,10 @@ def plane_error(joint_angle: ArrayLike, b: ArrayLike, c: ArrayLike) -> Array:
 def even_length(joint_angle: ArrayLike, b: ArrayLike) -> Array:
     """Return c/a with which the cage bisects the angle of the shafts exactly, at one bend.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α_12 in [0, π/2).
-    b : array (...)
-        b/a.
-
-    Returns
-    -------
-    array (...)
-        nan where there is none: b cos α_12 ≥ a.
-
-    Notes
-    -----
+    joint_angle (...) [rad]: α_12 in [0, π/2); b (...): b/a.
+    Returns (...): nan where there is none: b cos α_12 ≥ a.
     (b/a)(1 + b/a)/√(1 + (b/a)² - 2 (b/a) cos α), the root of Book (15), (16). These are squared: where b cos α > a
     their root belongs to a lever that has A beyond the joint.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> print(even_length([0.0, 5 * deg, 35 * deg], 0.35))
-    [0.72692308 0.72464236 0.63764452]
     """
     alpha, near = floats(joint_angle, b)
     xp = namespace(alpha, near)

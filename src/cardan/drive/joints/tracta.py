@@ -119,24 +119,9 @@ def deviation(angle: ArrayLike, joint_angle: ArrayLike, first: ArrayLike, second
 
 
 def speed_fluctuation(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
-    """Return δ = \\|κ - 1/κ\\|, κ = cos α_2/cos α_1: largest less smallest speed ratio.
+    """Return δ = |κ - 1/κ|, κ = cos α_2/cos α_1: largest less smallest speed ratio.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    first, second : arrays (...) [m]
-        OA, OB > 0.
-
-    Returns
-    -------
-    array (...)
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> print(speed_fluctuation(30 * deg, 0.020, 0.021))
-    0.00700458
+    joint_angle (...) [rad]: α in [0, π/2); first, second (...) [m]: OA, OB > 0.
     """
     alpha, one, two = floats(joint_angle, first, second)
     return tilted_plane.speed_fluctuation(alpha, tilt(alpha, one, two))

@@ -117,23 +117,8 @@ def _spider(track: float, joint_angle: float) -> Surface:
 def orbit_radius(joint_angle: ArrayLike, radius: ArrayLike) -> Array:
     """Return the radius of the circle that the centre of the spider runs round three times a turn.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    radius : array (...) [m]
-        R, distance of the tracks from the axis of the housing.
-
-    Returns
-    -------
-    array (...) [m]
-        R_B = R (1/cos α - 1)/2, without a difference of near numbers.
-
-    Examples
-    --------
-    >>> from cardan.units import deg, mm
-    >>> print(orbit_radius(20 * deg, 20 * mm) / mm)
-    0.64177772
+    joint_angle (...) [rad]: α in [0, π/2); radius (...) [m]: R, distance of the tracks from the axis of the housing.
+    Returns (...) [m]: R_B = R (1/cos α - 1)/2, without a difference of near numbers.
     """
     alpha, size = floats(joint_angle, radius)
     xp = namespace(alpha, size)

@@ -25,23 +25,10 @@ def _corners(joint_angle: Array, tilt: Array) -> tuple[Array, Array]:
 def tau(joint_angle: ArrayLike, tilt: ArrayLike) -> Array:
     """Return τ = -tan(α/2) tan η: tan²(α_eq/2) of the Hooke joint that turns alike, with a sign.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α in [0, π/2), angle between the shafts.
-    tilt : array (...) [rad]
-        η: the normal of the plane stands at α/2 + η to shaft 1.
-
-    Returns
-    -------
-    array (...)
-        Positive where the driven shaft runs ahead first; nan where the plane holds a shaft, α/2 + \\|η\\| ≥ 90°.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> print(tau(40 * deg, 0.5 * deg))
-    -0.00317632
+    joint_angle (...) [rad]: α in [0, π/2), angle between the shafts.
+    tilt (...) [rad]: η: the normal of the plane stands at α/2 + η to shaft 1.
+    Returns (...): positive where the driven shaft runs ahead first; nan where the plane holds a shaft, α/2 + |η| ≥
+    90°.
     """
     alpha, eta = floats(joint_angle, tilt)
     xp = namespace(alpha, eta)
@@ -80,26 +67,12 @@ def deviation(angle: ArrayLike, joint_angle: ArrayLike, tilt: ArrayLike) -> Arra
 
 
 def speed_fluctuation(joint_angle: ArrayLike, tilt: ArrayLike) -> Array:
-    """Return δ = \\|κ - 1/κ\\| of one ball: largest less smallest speed ratio.
+    """Return δ = |κ - 1/κ| of one ball: largest less smallest speed ratio.
 
-    Parameters
-    ----------
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    tilt : array (...) [rad]
-        η.
+    joint_angle (...) [rad]: α in [0, π/2); tilt (...) [rad]: η.
+    Returns (...): about 4 η tan(α/2); nan where the plane holds a shaft.
+    sin α |sin 2η|/(cos(α/2 + η) cos(α/2 - η)), without a difference of near numbers.
 
-    Returns
-    -------
-    array (...)
-        About 4 η tan(α/2); nan where the plane holds a shaft.
-
-    Notes
-    -----
-    sin α \\|sin 2η\\|/(cos(α/2 + η) cos(α/2 - η)), without a difference of near numbers.
-
-    Examples
-    --------
     >>> from cardan.units import deg
     >>> print(speed_fluctuation(40 * deg, 0.5 * deg))
     0.01270540
@@ -122,32 +95,10 @@ class BallDemands:
 def ball_demands(angle: ArrayLike, joint_angle: ArrayLike, tilt: ArrayLike, count: int = 6) -> BallDemands:
     """Return what balls at equal angles in a plane that misses the bisecting one ask of shaft 2.
 
-    Parameters
-    ----------
-    angle : array (...) [rad]
-        φ_1 of the first ball, from the plane of the shafts.
-    joint_angle : array (...) [rad]
-        α in [0, π/2).
-    tilt : array (...) [rad]
-        η.
-    count : int
-        N balls.
-
-    Returns
-    -------
-    BallDemands
-
-    Notes
-    -----
+    angle (...) [rad]: φ_1 of the first ball, from the plane of the shafts; joint_angle (...) [rad]: α in [0, π/2).
+    tilt (...) [rad]: η; count: n balls.
     A ball asks for Σ_k (τ^k/k) sin 2kφ; of the mean over N balls only the orders that N divides are left:
     (1/m) arctan(τ^m sin 2mφ/(1 - τ^m cos 2mφ)), m = N/2 for even N, N for odd N. Six balls leave τ³/3 of order 6.
-
-    Examples
-    --------
-    >>> from cardan.units import deg
-    >>> found = ball_demands(20 * deg, 30 * deg, 0.2 * deg)
-    >>> print(f"{found.mean:.6e} {found.spread:.6e} {found.largest:.6e}")
-    -2.362077e-10 1.521747e-03 9.209634e-04
     """
     phi, alpha, eta = floats(angle, joint_angle, tilt)
     xp = namespace(phi, alpha, eta)
