@@ -17,7 +17,7 @@ from cardan.drive.fields.parts import known_lengths
 from cardan.drive.joints import ConstantVelocity
 from cardan.drive.joints.common.site import length_text
 from cardan.drive.models.geometry import Geometry, geometry, geometry_from_points
-from cardan.drive.models.kinematics_model import Chain, given_chain
+from cardan.drive.models.kinematics_model import given_chain
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.shapes import ACROSS, bearing, bracket, disc, flange, floor_frame, ring, rubber, washer
 from cardan.drive.station import Station
@@ -92,11 +92,8 @@ def standing(drive: Drive, drawn: Geometry, place: Geometry, angle: Array) -> Ar
         axis = place.axis[0]
         start = frames.unit(start - (start @ axis) * axis)
         phase = frames.angle_about(axis, np.cross(place.normal[0], axis), start)
-        train = Chain(
-            joint_angle=place.joint_angle,
-            plane_twist=place.plane_twist,
-            yoke_angle=train.yoke_angle,
-            start_phase=np.asarray(phase),
+        train = replace(
+            train, joint_angle=place.joint_angle, plane_twist=place.plane_twist, start_phase=np.asarray(phase)
         )
     with np.errstate(invalid="ignore", divide="ignore"):
         found = arms(place, train, angle, drive.joints)
@@ -177,16 +174,8 @@ def _shaft(build: Build, k: int) -> None:
         track = build.twin(build.ends[1] if k == 1 else build.starts[k])
         build.free[k] = track
         path = "input" if k == 1 else "output"
-        build.add(
-            "flange",
-            k,
-            path,
-            text,
-            track,
-            placed(flange(radius, sense), None, (end - 0.05 * sense * radius, 0, 0)),
-            role=role,
-            shade=0.2,
-        )
+        shape = placed(flange(radius, sense), None, (end - 0.05 * sense * radius, 0, 0))
+        build.add("flange", k, path, text, track, shape, role=role, shade=0.2)
 
 
 def _axial_at(build: Build, k: int, place: float) -> bool:
@@ -250,7 +239,6 @@ def _station(build: Build, number: int) -> None:
     k = one.shaft
     low, high = extent(build, k)
     shaft_radius, most = build.body_radius(k), 5.5 * build.sizes.usual
-    thick = 0.0
     if one.position is not None:
         place = one.position
     elif _at_free_end(build, one, k):
@@ -263,11 +251,9 @@ def _station(build: Build, number: int) -> None:
     radius = max(min(radius, most), 1.7 * shaft_radius)
     thick = min(0.3 * radius, 0.9 * build.sizes.usual)
     name = one.name or _("station {number}").format(number=number + 1)
-    text = (
-        name
-        if one.inertia == 0.0
-        else _("{name}: {inertia} kg m², as a disc of steel").format(name=name, inertia=f"{one.inertia:.4g}")
-    )
+    text = name
+    if one.inertia != 0.0:
+        text = _("{name}: {inertia} kg m², as a disc of steel").format(name=name, inertia=f"{one.inertia:.4g}")
     track = build.twin(build.ends[1] if k == 1 else build.starts[k])
     build.stations[number] = track
     path, role = f"stations[{number}]", f"shaft {k}"
@@ -277,33 +263,17 @@ def _station(build: Build, number: int) -> None:
         side = -1.0 if k == 1 else 1.0
         at = (place - 0.72 * side * thick, 0.0, 0.0)
         springy = one.absorber.stiffness > 0.0
-        layer = ring(0.52 * radius, 0.66 * radius, 0.5 * thick)
-        said = _("absorber on {name}") if springy else _("damper on {name}")
-        build.add(
-            "absorber",
-            k,
-            f"{path}.absorber",
-            said.format(name=name),
-            track,
-            placed(layer, None, at),
-            role="ink",
-            metal=False,
-        )
-        outer = ring(0.66 * radius, 0.86 * radius, 0.52 * thick)
-        build.add(
-            "absorber", k, f"{path}.absorber", said.format(name=name), track, placed(outer, None, at), role="cross"
-        )
+        said = (_("absorber on {name}") if springy else _("damper on {name}")).format(name=name)
+        layer, outer = ring(0.52 * radius, 0.66 * radius, 0.5 * thick), ring(0.66 * radius, 0.86 * radius, 0.52 * thick)
+        for shape, role, metal in ((layer, "ink", False), (outer, "cross", True)):
+            build.add("absorber", k, f"{path}.absorber", said, track, placed(shape, None, at), role=role, metal=metal)
     if one.pendulum is not None:
-        heads = []
-        count = one.pendulum.count
         far = min(one.pendulum.radius, 0.8 * radius)
-        weight = ring(0.0 + 1e-4 * radius, 0.16 * radius, 1.5 * thick, 18)
-        for j in range(count):
-            turn = 2.0 * np.pi * j / count
-            heads.append(placed(weight, None, (place, far * np.cos(turn), far * np.sin(turn))))
-        build.add(
-            "absorber", k, f"{path}.pendulum", _("pendulums on {name}").format(name=name), track, *heads, role="cross"
-        )
+        weight = ring(1e-4 * radius, 0.16 * radius, 1.5 * thick, 18)
+        places = [2.0 * np.pi * j / one.pendulum.count for j in range(one.pendulum.count)]
+        heads = [placed(weight, None, (place, far * np.cos(turn), far * np.sin(turn))) for turn in places]
+        said = _("pendulums on {name}").format(name=name)
+        build.add("absorber", k, f"{path}.pendulum", said, track, *heads, role="cross")
 
 
 # Tubes, stubs, slip splines, flanges and what else a shaft carries between its yokes.

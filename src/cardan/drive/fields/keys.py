@@ -86,7 +86,7 @@ def tree_of(thing: Any) -> dict[str, Any]:
 
 
 def written(value: float, dimension: str) -> tuple[str, float]:
-    """Return unit and number that stand for a value in SI exactly, the shortest in the preferred unit if any.."""
+    """Return unit and number that stand for a value in SI exactly, the shortest in the preferred unit if any."""
     for unit, factor in DIMENSIONS[dimension].items():
         number = exact_in_unit(value, factor)
         if number is not None:
