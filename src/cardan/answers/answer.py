@@ -48,40 +48,21 @@ Value: TypeAlias = float | int | str | bool | Text | Cell | None
 
 @dataclass(frozen=True, kw_only=True)
 class Column:
-    """A column of a table: its name for programs, its heading for people, its values in SI.
+    """A column of a table: its name for programs, its heading for people, its values in SI."""
 
-    Attributes
-    ----------
-    key : str
-        Name in JSON and CSV, without unit: ``joint_angle``; a column without a name is for people alone.
-    heading : Text
-        What stands above it, in the language spoken where it was made; a quantity where it is the place on an axis.
-    values : sequence of Value, or array
-        From the top; numbers in SI.
-    dimension, unit : str
-        As of `Quantity`.
-    digits, decimals, most, trim
-        As of `Quantity`.
-    left : bool
-        Align to the left: words. Columns of words are so by themselves.
-    wrap : bool
-        The last column may be prose, broken into lines.
-    depth : str
-        How deep it goes.
-    """
-
-    key: str
+    key: str  # name in JSON and CSV, without unit: ``joint_angle``; a column without a name is for people alone
+    # what stands above it, in the language spoken where it was made; a quantity where it is the place on an axis
     heading: Text = ""
-    values: Any
-    dimension: str = ""
+    values: Any  # from the top; numbers in SI
+    dimension: str = ""  # dimension, unit: as of `Quantity`
     unit: str = ""
-    digits: int = 4
+    digits: int = 4  # digits, decimals, most, trim: as of `Quantity`
     decimals: int | None = None
     most: float = float("inf")
     trim: bool = False
-    left: bool = False
-    wrap: bool = False
-    depth: Depth = "brief"
+    left: bool = False  # align to the left: words. Columns of words are so by themselves.
+    wrap: bool = False  # the last column may be prose, broken into lines
+    depth: Depth = "brief"  # how deep it goes
 
     @property
     def listed(self) -> Sequence[Any]:
@@ -110,36 +91,16 @@ class Column:
 
 @dataclass(frozen=True, kw_only=True)
 class Table:
-    """Quantities side by side.
+    """Quantities side by side."""
 
-    Attributes
-    ----------
-    name : str
-        For programs; a table without a name stands in no JSON.
-    title : str
-        Heading.
-    columns : sequence of Column
-        All of one length.
-    note : Text
-        What stands below it.
-    depth : str
-        How deep it goes.
-    fixed : int
-        So many first columns are repeated where the table is parted.
-    tones : sequence of str
-        How good each row is; its first cell has that colour.
-    records : bool
-        In JSON a list of rows; otherwise one of columns.
-    """
-
-    name: str = ""
-    title: str = ""
-    columns: Sequence[Column]
-    note: Text = ""
-    depth: Depth = "brief"
-    fixed: int = 1
-    tones: Sequence[Tone] = ()
-    records: bool = False
+    name: str = ""  # for programs; a table without a name stands in no JSON
+    title: str = ""  # heading
+    columns: Sequence[Column]  # all of one length
+    note: Text = ""  # what stands below it
+    depth: Depth = "brief"  # how deep it goes
+    fixed: int = 1  # so many first columns are repeated where the table is parted
+    tones: Sequence[Tone] = ()  # how good each row is; its first cell has that colour
+    records: bool = False  # in JSON a list of rows; otherwise one of columns
 
     def __post_init__(self) -> None:
         lengths = {len(column.values) for column in self.columns}
@@ -162,42 +123,20 @@ class Remark:
 
 @dataclass(frozen=True, kw_only=True)
 class KeyFigure:
-    """A figure by which drives are judged and compared.
+    """A figure by which drives are judged and compared."""
 
-    Attributes
-    ----------
-    name : str
-        For programs and for comparing.
-    title : Text
-        What it is: the same for every drive.
-    value : Quantity
-        What it comes to.
-    place : Text
-        Where, when or in which condition it is so.
-    limit : Quantity, optional
-        What it is allowed.
-    beyond : Quantity, optional
-        The other end of a band that it must leave: no more than the limit, or at least this.
-    better : str
-        ``"less"`` where the value must not exceed the limit, ``"more"`` where it must not fall below; else empty.
-    verdict : str
-        How good that is, in a word.
-    tone : str
-        How good that is.
-    used : float, optional
-        Share of the limit that is used, where it is not the quotient of value and limit.
-    """
-
-    name: str
-    title: Text
-    value: Quantity
-    place: Text = ""
-    limit: Quantity | None = None
+    name: str  # for programs and for comparing
+    title: Text  # what it is: the same for every drive
+    value: Quantity  # what it comes to
+    place: Text = ""  # where, when or in which condition it is so
+    limit: Quantity | None = None  # what it is allowed
+    # the other end of a band that it must leave: no more than the limit, or at least this
     beyond: Quantity | None = None
+    # ``"less"`` where the value must not exceed the limit, ``"more"`` where it must not fall below; else empty
     better: Literal["more", "less", ""] = "less"
-    verdict: str = ""
-    tone: Tone = "plain"
-    used: float | None = None
+    verdict: str = ""  # how good that is, in a word
+    tone: Tone = "plain"  # how good that is
+    used: float | None = None  # share of the limit that is used, where it is not the quotient of value and limit
 
     @property
     def called(self) -> Text:
@@ -224,45 +163,23 @@ class Listing:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Answer:
-    """Everything that is said of one question, whoever shows it.
+    """Everything that is said of one question, whoever shows it."""
 
-    Attributes
-    ----------
-    name : str
-        Of the question.
-    title : str
-        Heading of its page.
-    sentence : Text
-        What it comes to.
-    tone : str
-        How good that is.
-    tables, remarks, listings : sequences
-        Below each other.
-    keys : sequence of KeyFigure
-        What of it stands on the first page.
-    figures : callable
-        Makes its figures when they are asked for.
-    facts : mapping
-        What else a program is told: a tree of mappings, lists, quantities, words and numbers without a unit. A quantity
-        gets the unit of the reader behind its key.
-    full : callable, optional
-        Makes the table of everything, for CSV and, under its name, for JSON; or the same piece by piece, for CSV alone.
-    code : int
-        Exit code of the command: 1 where a limit is broken.
-    """
-
-    name: str
-    title: str
-    sentence: Text
-    tone: Tone = "plain"
-    tables: Sequence[Table] = ()
+    name: str  # of the question
+    title: str  # heading of its page
+    sentence: Text  # what it comes to
+    tone: Tone = "plain"  # how good that is
+    tables: Sequence[Table] = ()  # tables, remarks, listings: below each other
     remarks: Sequence[Remark] = ()
     listings: Sequence[Listing] = ()
-    keys: Sequence[KeyFigure] = ()
-    figures: Callable[[], Sequence[Any]] = tuple
+    keys: Sequence[KeyFigure] = ()  # what of it stands on the first page
+    figures: Callable[[], Sequence[Any]] = tuple  # makes its figures when they are asked for
+    # what else a program is told: a tree of mappings, lists, quantities, words and numbers without a unit. A quantity
+    # gets the unit of the reader behind its key.
     facts: Mapping[str, Any] = field(default_factory=dict)
+    # makes the table of everything, for CSV and, under its name, for JSON; or the same piece by piece, for CSV alone
     full: Callable[[], Table | Iterable[Table]] | None = None
-    code: int = 0
+    code: int = 0  # exit code of the command: 1 where a limit is broken
 
 
 def heads(heading: str, names: Sequence[str], *, chips: Sequence[str] = ()) -> tuple[Column, ...]:

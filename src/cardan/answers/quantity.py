@@ -42,25 +42,6 @@ class Shown:
 class Quantity:
     """A number in SI, or an array of them for a program, with its dimension and with how exactly it is told.
 
-    Attributes
-    ----------
-    value : float or array
-        In SI.
-    dimension : str
-        A key of `cardan.units.DIMENSIONS`; empty for counts and ratios.
-    digits : int
-        Significant digits.
-    decimals : int, optional
-        Decimals in the usual unit, instead of significant digits.
-    unit : str
-        The usual unit of this quantity, where it is not the first of its dimension.
-    most : float
-        What is beyond this is told as "> most"; in SI.
-    trim : bool
-        Without zeros at the end of the decimals: for what was given, as in a file.
-
-    Examples
-    --------
     >>> Quantity(0.0125, "length").told(Reader())
     '12.50 mm'
     >>> Quantity(0.0254, "length").told(Reader(units={"length": "in"}, decimal=","))
@@ -71,13 +52,13 @@ class Quantity:
     '> 1\u202f000'
     """
 
-    value: Any
-    dimension: str = ""
-    digits: int = 4
-    decimals: int | None = None
-    unit: str = ""
-    most: float = math.inf
-    trim: bool = False
+    value: Any  # in SI
+    dimension: str = ""  # a key of `cardan.units.DIMENSIONS`; empty for counts and ratios
+    digits: int = 4  # significant digits
+    decimals: int | None = None  # decimals in the usual unit, instead of significant digits
+    unit: str = ""  # the usual unit of this quantity, where it is not the first of its dimension
+    most: float = math.inf  # what is beyond this is told as "> most"; in SI
+    trim: bool = False  # without zeros at the end of the decimals: for what was given, as in a file
 
     def shown(self, reader: Reader) -> Shown:
         """Return number and unit as a reader sees them."""

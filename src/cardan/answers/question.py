@@ -44,59 +44,28 @@ Lacking: TypeAlias = tuple[tuple[str, ...], ...]
 
 @dataclass(frozen=True, kw_only=True)
 class Question:
-    """An entry of the register: light, so that help costs nothing; its module is imported when it is asked.
+    """An entry of the register: light, so that help costs nothing; its module is imported when it is asked."""
 
-    Attributes
-    ----------
-    name : str
-        Of command, page, tab and module: ``life``.
-    module : str
-        Where it is answered: ``cardan.questions.life.answer``.
-    title : str
-        Heading of its page, marked for translation.
-    group : str
-        Heading of the tab it stands on, marked for translation.
-    help : str
-        What it answers, marked for translation.
-    gathers : str
-        How it gathers over conditions.
-    gathered : tuple of str
-        Of what it gathers by itself; over all else that a drive has `cardan.questions.gathering` asks it.
-    without : mapping of str to str
-        What its answer does not depend on: why, in a sentence marked for translation.
-    quick : bool
-        Whether its answer is there at once; the others are worth a process of their own.
-    report : bool
-        Whether the report has a page of it.
-    apart : bool
-        Whether that page has a place of its own there; the others follow in the order of the register.
-    takes : tuple of str
-        What ``ask`` takes beside the drive, of ``known`` (a catalogue), ``progress`` and what a user may choose.
-    command : str
-        Command that asks it, its words parted by blanks; the name of the question by default.
-    examples : tuple of str
-        Lines below the help of the command.
-    aliases : tuple of str
-        Other names of the command, which no help lists.
-    panel : str
-        Heading of the command in the help of a group of commands, marked for translation; `group` by default.
-    """
-
-    name: str
-    module: str
-    title: str
-    group: str
-    help: str = ""
-    gathers: Gathering = "each"
+    name: str  # of command, page, tab and module: ``life``
+    module: str  # where it is answered: ``cardan.questions.life.answer``
+    title: str  # heading of its page, marked for translation
+    group: str  # heading of the tab it stands on, marked for translation
+    help: str = ""  # what it answers, marked for translation
+    gathers: Gathering = "each"  # how it gathers over conditions
+    # of what it gathers by itself; over all else that a drive has `cardan.questions.gathering` asks it
     gathered: tuple[Aspect, ...] = ()
+    # what its answer does not depend on: why, in a sentence marked for translation
     without: Mapping[Aspect, str] = field(default_factory=dict, compare=False)
-    quick: bool = True
-    report: bool = True
+    quick: bool = True  # whether its answer is there at once; the others are worth a process of their own
+    report: bool = True  # whether the report has a page of it
+    # whether that page has a place of its own there; the others follow in the order of the register
     apart: bool = False
+    # what ``ask`` takes beside the drive, of ``known`` (a catalogue), ``progress`` and what a user may choose
     takes: tuple[str, ...] = ()
-    command: str = ""
-    examples: tuple[str, ...] = ()
-    aliases: tuple[str, ...] = ()
+    command: str = ""  # command that asks it, its words parted by blanks; the name of the question by default
+    examples: tuple[str, ...] = ()  # lines below the help of the command
+    aliases: tuple[str, ...] = ()  # other names of the command, which no help lists
+    # heading of the command in the help of a group of commands, marked for translation; `group` by default
     panel: str = ""
 
     @property

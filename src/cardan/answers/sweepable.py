@@ -16,24 +16,12 @@ MODES = 3
 
 @dataclass(frozen=True, kw_only=True)
 class OutputColumn:
-    """One number of an answer.
+    """One number of an answer."""
 
-    Attributes
-    ----------
-    name : str
-        Its column in the table, with its unit at the end.
-    dimension : str
-        Key of `cardan.units.DIMENSIONS`; empty for a plain number.
-    unit : str
-        Unit of the column.
-    text : str
-        What it is, to be translated where it is shown.
-    """
-
-    name: str
-    dimension: str = ""
-    unit: str = ""
-    text: str
+    name: str  # its column in the table, with its unit at the end
+    dimension: str = ""  # key of `cardan.units.DIMENSIONS`; empty for a plain number
+    unit: str = ""  # unit of the column
+    text: str  # what it is, to be translated where it is shown
 
     @property
     def factor(self) -> float:
@@ -43,37 +31,21 @@ class OutputColumn:
 
 @dataclass(frozen=True, kw_only=True)
 class SweepQuestion:
-    """Something that a sweep may ask of a drive.
+    """Something that a sweep may ask of a drive."""
 
-    Attributes
-    ----------
-    name : str
-        Its name in a plan.
-    doc : str
-        One sentence on what it answers, to be translated where it is shown.
-    told : tuple of OutputColumn, or function
-        The numbers of the answer; of the drive in which fields vary where they depend on it.
-    of_one : function or None
-        Drive -> the numbers in SI; an `InputError` where it has none.
-    of_many : function or None
-        `cardan.questions.motion.columns.Motions` -> the numbers in SI, one array (n,) each: of what motion alone
-        decides, asked of all drives at once.
-    of_result : function or None
-        What the question itself asks of a drive -> the numbers in SI. One of the three is given.
-    needs_speed : bool
-        Whether a drive without a speed has no answer.
-    needs_centres : bool
-        Whether only a drive given by joint centres has an answer.
-    """
-
-    name: str
-    doc: str
+    name: str  # its name in a plan
+    doc: str  # one sentence on what it answers, to be translated where it is shown
+    # the numbers of the answer; of the drive in which fields vary where they depend on it
     told: Sequence[OutputColumn] | Callable[[Any], Sequence[OutputColumn]]
+    # drive -> the numbers in SI; an `InputError` where it has none
     of_one: Callable[[Any], Sequence[float]] | None = None
+    # `cardan.questions.motion.columns.Motions` -> the numbers in SI, one array (n,) each: of what motion alone decides,
+    # asked of all drives at once
     of_many: Callable[[Any], Sequence[Any]] | None = None
+    # what the question itself asks of a drive -> the numbers in SI. One of the three is given.
     of_result: Callable[[Any], Sequence[float]] | None = None
-    needs_speed: bool = False
-    needs_centres: bool = False
+    needs_speed: bool = False  # whether a drive without a speed has no answer
+    needs_centres: bool = False  # whether only a drive given by joint centres has an answer
 
     def columns(self, drive: Any) -> tuple[OutputColumn, ...]:
         """Return the numbers of the answer.

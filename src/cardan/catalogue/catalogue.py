@@ -43,15 +43,9 @@ FILES = ("materials", "joint_types", "example_sizes", "joint_sizes", "norms", "f
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Catalogue:
-    """Rows by table and id; its methods tell them in the language spoken here.
+    """Rows by table and id; its methods tell them in the language spoken here."""
 
-    Attributes
-    ----------
-    tables : mapping
-        Name of the table -> id -> row, as its file has it.
-    """
-
-    tables: Mapping[str, Mapping[str, Row]]
+    tables: Mapping[str, Mapping[str, Row]]  # name of the table -> id -> row, as its file has it
 
     def rows(self, cls: type[R]) -> Mapping[str, R]:
         """Return the rows of the first table of a class, by id."""
@@ -168,16 +162,8 @@ def catalogue() -> Catalogue:
 def with_files(base: Catalogue, paths: Iterable[str | Path]) -> Catalogue:
     """Return a catalogue with the rows of a user's files added; a row of theirs replaces a shipped one of its id.
 
-    Parameters
-    ----------
-    base : Catalogue
-    paths : iterable of path
-        TOML files with the tables of the catalogue.
-
-    Raises
-    ------
-    InputError
-        A file cannot be read, or holds what is no row; every problem at once.
+    paths: TOML files with the tables of the catalogue.
+    Raises InputError: a file cannot be read, or holds what is no row; every problem at once.
     """
     tables = {name: dict(rows) for name, rows in base.tables.items()}
     problems: list[Problem] = []
@@ -201,20 +187,9 @@ def with_files(base: Catalogue, paths: Iterable[str | Path]) -> Catalogue:
 def material(name: str, *, known: Catalogue | None = None) -> Material:
     """Return the material of a grade.
 
-    Parameters
-    ----------
-    name : str
-        Id of the grade, or its name in another standard.
-    known : Catalogue, optional
-        The shipped one when not given.
+    name: id of the grade, or its name in another standard; known: the shipped one when not given.
+    Raises InputError: no grade has the name.
 
-    Raises
-    ------
-    InputError
-        No grade has the name.
-
-    Examples
-    --------
     >>> material("C45").yield_strength
     355000000.0
     """

@@ -21,19 +21,9 @@ SIZED = ("mass", "cross", "needles", "yoke", "rating")
 def completed(drive: Drive, known: Catalogue | None = None) -> Drive:
     """Return a drive whose grades and sizes carry the figures of the catalogue; what the drive gives itself stays.
 
-    Parameters
-    ----------
-    drive : Drive
-    known : Catalogue, optional
-        The shipped one when not given.
+    known: the shipped one when not given.
+    Raises InputError: grades, sizes and types that the catalogue does not have, all at once, each with the nearest.
 
-    Raises
-    ------
-    InputError
-        Grades, sizes and types that the catalogue does not have, all at once, each with the nearest.
-
-    Examples
-    --------
     >>> from cardan.drive.shaft import Shaft
     >>> tube = Shaft(number=2, outer=0.06, wall=0.002, length=1.0, material=Material(grade="C22"))
     >>> completed(replace(Drive.from_angles([0.1, 0.1]), shafts=(tube,))).shafts[1].material.yield_strength
@@ -50,16 +40,8 @@ def completed(drive: Drive, known: Catalogue | None = None) -> Drive:
 def filled(drive: Drive, known: Catalogue | None = None) -> Drive:
     """Return a drive completed; one that names catalogue files stays as these filled it when it was loaded.
 
-    Parameters
-    ----------
-    drive : Drive
-    known : Catalogue, optional
-        The shipped one when not given.
-
-    Raises
-    ------
-    InputError
-        Names that the catalogue does not have, in a drive that names no files of its own.
+    known: the shipped one when not given.
+    Raises InputError: names that the catalogue does not have, in a drive that names no files of its own.
     """
     try:
         return completed(drive, known)
@@ -72,11 +54,7 @@ def filled(drive: Drive, known: Catalogue | None = None) -> Drive:
 def shortened(drive: Drive, known: Catalogue | None = None) -> Drive:
     """Return a drive without the figures that its grades and sizes stand for: what its file says.
 
-    Parameters
-    ----------
-    drive : Drive
-    known : Catalogue, optional
-        The shipped one when not given.
+    known: the shipped one when not given.
     """
     rows = known or catalogue()
     bare: Drive = _ungraded(drive, rows)

@@ -28,23 +28,12 @@ def fork(
 ) -> Surface:
     """Return a yoke: its ears across y, its hub along x away from the joint centre.
 
-    Parameters
-    ----------
-    radius : float [m]
-        From the joint centre to the middle of an ear.
-    ear, lug, bore : float [m]
-        Thickness, outer radius and radius of the bore of an ear; no bore where 0.
-    cavity : float [m]
-        From the joint centre to the bottom between the ears.
-    reach : float [m]
-        From the joint centre to the end of the hub.
-    body : float [m]
-        Radius of the shaft there.
-    tip : float [m]
-        Where ears without a bore begin, from the joint centre toward the hub.
+    radius [m]: from the joint centre to the middle of an ear.
+    ear, lug, bore [m]: thickness, outer radius and radius of the bore of an ear; no bore where 0.
+    cavity [m]: from the joint centre to the bottom between the ears.
+    reach [m]: from the joint centre to the end of the hub; body [m]: radius of the shaft there.
+    tip [m]: where ears without a bore begin, from the joint centre toward the hub.
 
-    Examples
-    --------
     >>> from cardan.maths.kernel.meshes import volume
     >>> volume(fork(0.05, 0.02, 0.02, 0.014, 0.045, 0.09, 0.05)) > 0.0
     True
@@ -134,12 +123,8 @@ def _bow(inner: float, outer: float, root: float, cavity: float, base: float, fo
 def cross_body(radius: float, ear: float, journal: float, offset: float = 0.0) -> Surface:
     """Return a cross: its driving journals along x, the driven ones along y.
 
-    Parameters
-    ----------
-    radius, ear, journal : float [m]
-        Half the span, length and diameter of the journals.
-    offset : float [m]
-        How far the driven journals stand off the driving ones, along z.
+    radius, ear, journal [m]: half the span, length and diameter of the journals.
+    offset [m]: how far the driven journals stand off the driving ones, along z.
     """
     one = _arm(radius, ear, journal)
     other = placed(_arm(radius, ear, journal), Y_FIRST, (0.0, 0.0, offset))
@@ -265,16 +250,9 @@ def rubber(radius: float, *, wide: bool) -> Surface:
 def bracket(radius: float, *, soft: bool, wide: bool, axial: bool) -> Surface:
     """Return the housing of a bearing and its foot: x along the shaft, z away from the floor.
 
-    Parameters
-    ----------
-    radius : float [m]
-        Of the shaft in the bearing.
-    soft : bool
-        Whether rubber lies between.
-    wide : bool
-        Whether the bearing holds the slope too.
-    axial : bool
-        Whether it holds the shaft lengthwise: the housing has a collar on either side.
+    radius [m]: of the shaft in the bearing; soft: whether rubber lies between.
+    wide: whether the bearing holds the slope too.
+    axial: whether it holds the shaft lengthwise: the housing has a collar on either side.
     """
     inner = (2.28 if soft else 1.72) * radius
     outer = 1.17 * inner
@@ -306,12 +284,7 @@ def bracket(radius: float, *, soft: bool, wide: bool, axial: bool) -> Surface:
 def floor_frame(axis: Array, gravity: Array) -> Array:
     """Return the directions of a bracket: along the shaft, across, away from the floor; array (3, 3).
 
-    Parameters
-    ----------
-    axis : array (3,)
-        Direction of the shaft.
-    gravity : array (3,)
-        Where things fall; downwards where it is zero.
+    axis (3,): direction of the shaft; gravity (3,): where things fall; downwards where it is zero.
     """
     down = gravity if float(np.linalg.norm(gravity)) > 1e-9 else np.asarray([0.0, 0.0, -1.0])
     up = -down + float(down @ axis) * axis

@@ -83,30 +83,10 @@ def loads(
 ) -> Drive:
     """Return the drive a text describes.
 
-    Parameters
-    ----------
-    text : str
-        The drive file.
-    folder : str, Path or Enclosed
-        Where files that it names are looked for.
-    form : str
-        ``"toml"`` or ``"json"``.
-    name : str
-        What messages call the text.
-    catalogues : sequence of str or Path
-        Catalogue files beside those that the text names.
+    text: the drive file; folder: where files that it names are looked for; form: ``"toml"`` or ``"json"``.
+    name: what messages call the text; catalogues: catalogue files beside those that the text names.
+    Raises InputError: every problem of the text at once.
 
-    Returns
-    -------
-    Drive
-
-    Raises
-    ------
-    InputError
-        Every problem of the text at once.
-
-    Examples
-    --------
     >>> from cardan.io import loads
     >>> loads('format = 1' + chr(10) + '[[joints]]' + chr(10) + 'joint_angle_deg = 20').joints[0].joint_angle
     0.3490658503988659
@@ -137,11 +117,7 @@ def describes_mechanism(tree: Mapping[str, Any]) -> bool:
 def dumps(thing: Drive | Mechanism, *, form: str = "toml") -> str:
     """Return the text of a drive file, or of a mechanism file; reading it gives an equal one.
 
-    Parameters
-    ----------
-    thing : Drive or Mechanism
-    form : str
-        ``"toml"`` or ``"json"``.
+    form: ``"toml"`` or ``"json"``.
     """
     tree = tree_of(shortened(thing) if isinstance(thing, Drive) else thing)
     return json.dumps(tree, ensure_ascii=False, indent=2) + "\n" if form == "json" else toml_text(tree)
@@ -278,22 +254,9 @@ def load_mechanism(path: str | Path) -> Mechanism:
 def loads_mechanism(text: str, *, form: str = "toml", name: str = "file") -> Mechanism:
     """Return the mechanism a text describes.
 
-    Parameters
-    ----------
-    text : str
-        The mechanism file.
-    form : str
-        ``"toml"`` or ``"json"``.
-    name : str
-        What messages call the text.
+    text: the mechanism file; form: ``"toml"`` or ``"json"``; name: what messages call the text.
+    Raises InputError: every problem of the text at once.
 
-    Raises
-    ------
-    InputError
-        Every problem of the text at once.
-
-    Examples
-    --------
     >>> from cardan.io import dumps
     >>> from cardan.mechanism.mechanism import Pair
     >>> hinge = Pair(id="hinge", type="R", links=("wall", "door"), point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0))

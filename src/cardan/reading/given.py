@@ -25,41 +25,21 @@ BY_UNIT = "by unit"
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Given:
-    """One input of a calculation.
+    """One input of a calculation."""
 
-    Attributes
-    ----------
-    key : str
-        As in the reference cases, unit included; any other unit of its dimension is read as well.
-    meaning : Key
-        Sentence, dimension and allowed range in SI.
-    kind : "numbers", "whole", "table", "word", "flag", "rows" or "record"
-        Numbers in ``axes``; whole numbers in ``axes``; a table from whole numbers to numbers; one of the key's choices,
-        or a list of them where ``axes`` is (1,); true or false; a list of tables with the keys of ``columns``, or
-        one such table.
-    axes : tuple of int
-        How deep the lists may be nested; 0 is a bare number.
-    width : int or None
-        Length of the innermost lists, where it is fixed.
-    default : object
-        Value in SI where the input is not given; `REQUIRED` where it must be.
-    columns : tuple of Given
-        Keys of each table of rows.
-    kinds : mapping
-        Word under ``kind`` -> further keys of a table of rows of that kind; empty where all tables are alike.
-    entries : bool
-        Whether what is wrong with one number of a list is told under its own place: ``key[2]``.
-    """
-
-    key: str
-    meaning: Key
+    key: str  # as in the reference cases, unit included; any other unit of its dimension is read as well
+    meaning: Key  # sentence, dimension and allowed range in SI
+    # numbers in ``axes``; whole numbers in ``axes``; a table from whole numbers to numbers; one of the key's choices,
+    # or a list of them where ``axes`` is (1,); true or false; a list of tables with the keys of ``columns``, or one
+    # such table
     kind: Kind = "numbers"
-    axes: tuple[int, ...] = (0,)
-    width: int | None = None
-    default: Any = REQUIRED
-    columns: tuple[Given, ...] = ()
+    axes: tuple[int, ...] = (0,)  # how deep the lists may be nested; 0 is a bare number
+    width: int | None = None  # length of the innermost lists, where it is fixed
+    default: Any = REQUIRED  # value in SI where the input is not given; `REQUIRED` where it must be
+    columns: tuple[Given, ...] = ()  # keys of each table of rows
+    # word under ``kind`` -> further keys of a table of rows of that kind; empty where all tables are alike
     kinds: Mapping[str, tuple[Given, ...]] = field(default_factory=dict, hash=False)
-    entries: bool = False
+    entries: bool = False  # whether what is wrong with one number of a list is told under its own place: ``key[2]``
 
     @property
     def name(self) -> str:
@@ -105,27 +85,13 @@ class Given:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Gives:
-    """One output of a calculation.
+    """One output of a calculation."""
 
-    Attributes
-    ----------
-    key : str
-        As in the reference cases, unit included.
-    doc : str
-        What it means.
-    dimension : str or None
-        A key of `cardan.units.DIMENSIONS`.
-    unit : str
-        Unit the value is given in; "" without a dimension.
-    of : str
-        Name of the value in what the formula found, where it has names.
-    """
-
-    key: str
-    doc: str
-    dimension: str | None = None
-    unit: str = ""
-    of: str = ""
+    key: str  # as in the reference cases, unit included
+    doc: str  # what it means
+    dimension: str | None = None  # a key of `cardan.units.DIMENSIONS`
+    unit: str = ""  # unit the value is given in; "" without a dimension
+    of: str = ""  # name of the value in what the formula found, where it has names
 
     @property
     def factor(self) -> float:

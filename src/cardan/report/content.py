@@ -82,18 +82,10 @@ def content(
 ) -> Content:
     """Return what the report of a drive says.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive.
-    duty : Duty or None
-        What it does; None takes the drive's own duty.
-    source_text : str, optional
-        Text of the drive file, shown in full at the end.
-    progress : function, optional
-        Called with the share done; answering "stop" leaves out what is still to be calculated.
-    known : Catalogue, optional
-        Norms, types and sizes that it is judged by; the shipped ones when not given.
+    drive: the drive; duty: what it does; None takes the drive's own duty.
+    source_text: text of the drive file, shown in full at the end.
+    progress: called with the share done; answering "stop" leaves out what is still to be calculated.
+    known: norms, types and sizes that it is judged by; the shipped ones when not given.
     """
     on = replace(asked(drive, duty, progress), known=known)
     pages: list[Page] = [description(on), *moved(on.drive), phased(on), *_articulated(on), *loaded(on)]

@@ -30,19 +30,11 @@ from .questions import asked
 
 @dataclass(frozen=True, kw_only=True)
 class Formula:
-    """Functions of the fields, each an answer; where one is not finite there is none.
+    """Functions of the fields, each an answer; where one is not finite there is none."""
 
-    Attributes
-    ----------
-    points, answers : tuple of Column
-        Fields and answers.
-    functions : tuple of callable
-        One for each answer; takes an array (n,) for each field and returns one.
-    """
-
-    points: tuple[Column, ...]
+    points: tuple[Column, ...]  # points, answers: fields and answers
     answers: tuple[Column, ...]
-    functions: tuple[Callable[..., Any], ...]
+    functions: tuple[Callable[..., Any], ...]  # one for each answer; takes an array (n,) for each field and returns one
 
     @classmethod
     def of(cls, fields: Sequence[str], answers: Mapping[str, Callable[..., Any]]) -> Formula:

@@ -92,25 +92,11 @@ def _held(owner: Any, field: Field) -> Any:
 def with_values(drive: D, values: Mapping[str, Any]) -> D:
     """Return the drive with other values, each given by its path in the path's unit.
 
-    Parameters
-    ----------
-    drive : Drive
-        The drive to start from.
-    values : mapping of str to value
-        Path -> number, list of numbers, flag or word; None where a key is to be left out.
+    drive: the drive to start from.
+    values: path -> number, list of numbers, flag or word; None where a key is to be left out.
+    Returns: checked as a whole, after all changes.
+    Raises InputError: every path that leads nowhere and every value that does not fit.
 
-    Returns
-    -------
-    Drive
-        Checked as a whole, after all changes.
-
-    Raises
-    ------
-    InputError
-        Every path that leads nowhere and every value that does not fit.
-
-    Examples
-    --------
     >>> from cardan.drive.drive import Drive
     >>> drive = Drive.from_angles([0.1, 0.2])
     >>> with_values(drive, {"shafts[1].yoke_angle_deg": 90}).shafts[1].yoke_angle

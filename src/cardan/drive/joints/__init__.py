@@ -23,10 +23,7 @@ DEFAULT = Hooke.kind
 def register(*kinds: type[Joint]) -> None:
     """Make kinds of joints known to files, commands and pages by the value of their key ``kind``.
 
-    Parameters
-    ----------
-    *kinds : type of Joint
-        Classes; one of a name that is there takes its place.
+    *kinds: classes; one of a name that is there takes its place.
     """
     JOINTS.update({kind.kind: kind for kind in kinds})
 

@@ -141,21 +141,11 @@ STEP = 2e-5
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Circle:
-    """A circular profile in the meridian plane of its shaft.
+    """A circular profile in the meridian plane of its shaft."""
 
-    Attributes
-    ----------
-    axial : array (...) [m]
-        Height h0 of its centre along the shaft from O.
-    radial : array (...) [m]
-        Distance r0 of its centre from the axis.
-    radius : array (...) [m]
-        Radius R.
-    """
-
-    axial: ArrayLike
-    radial: ArrayLike
-    radius: ArrayLike
+    axial: ArrayLike  # (...) [m]: height h0 of its centre along the shaft from O
+    radial: ArrayLike  # (...) [m]: distance r0 of its centre from the axis
+    radius: ArrayLike  # (...) [m]: radius R
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -23,24 +23,12 @@ ORDERS, TORQUE, SIGN = 2, 1, 3
 
 @dataclass(frozen=True, kw_only=True)
 class Signs:
-    """What is known of a vibration or a complaint; nothing has to be.
+    """What is known of a vibration or a complaint; nothing has to be."""
 
-    Attributes
-    ----------
-    orders : tuple of float
-        Measured orders, in multiples of the speed of the shaft.
-    torque_sensitive : bool, optional
-        Whether it changes with the torque.
-    symptom : str, optional
-        One of `symptoms`.
-    flags : frozenset of str
-        Of `cardan.catalogue.rows.FLAGS`: the circumstances that hold.
-    """
-
-    orders: tuple[float, ...] = ()
-    torque_sensitive: bool | None = None
-    symptom: str | None = None
-    flags: frozenset[str] = frozenset()
+    orders: tuple[float, ...] = ()  # measured orders, in multiples of the speed of the shaft
+    torque_sensitive: bool | None = None  # whether it changes with the torque
+    symptom: str | None = None  # one of `symptoms`
+    flags: frozenset[str] = frozenset()  # of `cardan.catalogue.rows.FLAGS`: the circumstances that hold
 
     def __post_init__(self) -> None:
         check(self._problems())
@@ -58,21 +46,11 @@ class Signs:
 
 @dataclass(frozen=True, kw_only=True)
 class Cause:
-    """A fault and how well the signs fit it.
+    """A fault and how well the signs fit it."""
 
-    Attributes
-    ----------
-    fault : Fault
-        Row of the catalogue, with how to make sure and what to do.
-    score : float
-        Sum of the points; larger is likelier. Scores rank, they are no probabilities.
-    orders : tuple of float
-        The measured orders that it explains.
-    """
-
-    fault: Fault
-    score: float
-    orders: tuple[float, ...]
+    fault: Fault  # row of the catalogue, with how to make sure and what to do
+    score: float  # sum of the points; larger is likelier. Scores rank, they are no probabilities.
+    orders: tuple[float, ...]  # the measured orders that it explains
 
 
 def symptoms(known: Catalogue | None = None) -> tuple[str, ...]:
@@ -87,31 +65,14 @@ def symptoms(known: Catalogue | None = None) -> tuple[str, ...]:
 def likely_causes(signs: Signs, *, known: Catalogue | None = None) -> tuple[Cause, ...]:
     """Return every fault of the catalogue with its score, the likeliest first.
 
-    Parameters
-    ----------
-    signs : Signs
-    known : Catalogue, optional
-        The shipped one when not given.
-
-    Returns
-    -------
-    tuple of Cause
-        By falling score; equal ones by their ids.
-
-    Raises
-    ------
-    InputError
-        No fault has the symptom.
-
-    Notes
-    -----
+    known: the shipped one when not given.
+    Returns: by falling score; equal ones by their ids.
+    Raises InputError: no fault has the symptom.
     score = 2 h/n + s_T + Σ s_f + s_S: h of the n measured orders lie within 0.05 of one of the fault's orders; s_T = 1
     where both say the same of the torque, −1 where they differ, 0 where either says nothing; s_f = 3 for each
     circumstance of the fault that holds, −1 for one that does not; s_S = 3 where the fault has the symptom. The faults
     are those of the table `faults`, each with its source; the points are a rule of this program.
 
-    Examples
-    --------
     >>> first = likely_causes(Signs(orders=(2.0,), torque_sensitive=True))[0]
     >>> first.fault.id, first.score
     ('F10', 3.0)

@@ -67,25 +67,13 @@ def kinds(thing: Thing) -> tuple[str, ...]:
 def exported(thing: Thing, kind: str, *, title: str = "") -> Exported:
     """Return a page, a table, a figure or a whole report as a file.
 
-    Parameters
-    ----------
-    thing : Content, Page, Table or Figure
-        What to export.
-    kind : str
-        One of `kinds`: CSV and JSON hold numbers in full precision; a CSV begins with the mark of UTF-8, which
-        spreadsheets look for, and has the tables of a page below each other, each under its title.
-    title : str
-        Name of the drive, above a page and in the name of the file.
+    thing: what to export.
+    kind: one of `kinds`: CSV and JSON hold numbers in full precision; a CSV begins with the mark of UTF-8, which
+    spreadsheets look for, and has the tables of a page below each other, each under its title.
+    title: name of the drive, above a page and in the name of the file.
+    Raises InputError: there is no such kind of it.
+    Raises MissingExtraError: what writes it is not installed.
 
-    Raises
-    ------
-    InputError
-        There is no such kind of it.
-    MissingExtraError
-        What writes it is not installed.
-
-    Examples
-    --------
     >>> from cardan.report.block import Column, number
     >>> table = Table(title="Strokes", columns=[Column(heading="stroke", unit="mm")], rows=[[number("1.23", 1.2345)]])
     >>> made = exported(table, "csv", title="hitch")

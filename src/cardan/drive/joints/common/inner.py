@@ -61,28 +61,14 @@ ARM = 0.1
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class InnerPair:
-    """A pair inside a joint.
+    """A pair inside a joint."""
 
-    Attributes
-    ----------
-    name : str
-        What it is called, marked for translation, with the place {number} for the number of its joint.
-    type : str
-        Kind of pair, a name of `cardan.mechanism.mechanism.PAIRS`.
-    links : (str, str)
-        `DRIVING`, `DRIVEN` or the name of an inner link, like ``name``.
-    point : array (3,) [m]
-    axis : array (3,)
-    second : array (3,) or None
-        Second axis, of kinds that have two.
-    """
-
-    name: str
-    type: str
-    links: tuple[str, str]
-    point: Array
-    axis: Array
-    second: Array | None = None
+    name: str  # what it is called, marked for translation, with the place {number} for the number of its joint
+    type: str  # kind of pair, a name of `cardan.mechanism.mechanism.PAIRS`
+    links: tuple[str, str]  # `DRIVING`, `DRIVEN` or the name of an inner link, like ``name``
+    point: Array  # (3,) [m]
+    axis: Array  # (3,)
+    second: Array | None = None  # (3,): second axis, of kinds that have two
 
 
 def bending(stance: Stance) -> Iterator[InnerPair]:
@@ -118,13 +104,8 @@ def touching(stance: Stance) -> Iterator[InnerPair]:
 def crossed(stance: Stance, *, slides: bool | str = False, offset: float = 0.0) -> Iterator[InnerPair]:
     """Yield both pins of a cross.
 
-    Parameters
-    ----------
-    stance : Stance
-    slides : bool or str
-        Which of its journals slide in their bearings: all, none, or "driving" or "driven".
-    offset : float [m]
-        Distance of both pins, along their common perpendicular.
+    slides: which of its journals slide in their bearings: all, none, or "driving" or "driven".
+    offset [m]: distance of both pins, along their common perpendicular.
     """
     link = mark("cross {number}")
     aside = frames.cross(stance.driving, stance.driven)

@@ -217,13 +217,8 @@ def yokes_and_cross(site: Site, *, offset: float = 0.0, text: Text = "") -> None
 def bell_and_balls(site: Site, *, count: int = BALLS, groove: float | None = None) -> None:
     """Add bell, inner race, cage and balls, which run in the bisecting plane.
 
-    Parameters
-    ----------
-    site : Site
-    count : int
-        Number of balls.
-    groove : float [m], optional
-        Radius of the middle line of their grooves; in proportion to the joint when not given.
+    count: number of balls.
+    groove: radius of the middle line of their grooves; in proportion to the joint when not given.
     """
     groove = groove or 0.82 * site.size.radius
     outside, inside = site.sides if site.first else site.sides[::-1]

@@ -158,14 +158,8 @@ def map_figure(
 ) -> Figure:
     """Return a map over order and speed as a waterfall, a line for each speed, with what crosses it.
 
-    Parameters
-    ----------
-    found : OrderMap
-        Of one channel.
-    critical_speeds : sequence of float [rad/s]
-        Natural frequencies: order times speed reaches them along a curve.
-    orders : mapping of float to str, or sequence of float
-        Orders marked, with their names.
+    found: of one channel; critical_speeds [rad/s]: natural frequencies: order times speed reaches them along a curve.
+    orders: orders marked, with their names.
     """
     size = unit_of(found.quantity)[2]
     speed, rows = _by_speed(found)
