@@ -148,12 +148,8 @@ class Spectrum:
         if len(self.frequency) < 2:
             yield Problem("spectrum.frequency", _("a spectrum needs at least two frequencies"))
         if len(self.frequency) != len(self.density):
-            yield Problem(
-                "spectrum.density",
-                _("{given} values given for {wanted} frequencies").format(
-                    given=len(self.density), wanted=len(self.frequency)
-                ),
-            )
+            text = _("{given} values given for {wanted} frequencies")
+            yield Problem("spectrum.density", text.format(given=len(self.density), wanted=len(self.frequency)))
         if any(two <= one for one, two in pairwise(self.frequency)):
             yield Problem("spectrum.frequency", _("the frequencies must rise from one to the next"))
         if not any(self.density):

@@ -56,11 +56,8 @@ class Search:
         method: Local | Global = Local(start=self.start)
         if self.method == "global":
             plain = Global()
-            method = Global(
-                seed=self.seed,
-                population=self.population or plain.population,
-                generations=self.generations or plain.generations,
-            )
+            generations = self.generations or plain.generations
+            method = Global(seed=self.seed, population=self.population or plain.population, generations=generations)
         return optimise(self.ask, self.bounds, self.goals[0], limits=self.limits, method=method, progress=progress)
 
 
@@ -182,14 +179,8 @@ def _owing(plan: Plan, table: Table) -> SensitivityPlan | None:
     ask = _asked(plan, table, tuple(drawn.distributions))
     if ask is None:
         return None
-    return SensitivityPlan(
-        ask=ask,
-        spread=tuple(drawn.distributions.values()),
-        answers=answers,
-        samples=samples,
-        seed=seed,
-        confidence=confidence,
-    )
+    spread = tuple(drawn.distributions.values())
+    return SensitivityPlan(ask=ask, spread=spread, answers=answers, samples=samples, seed=seed, confidence=confidence)
 
 
 def _following(plan: Plan, table: Table) -> Following | None:

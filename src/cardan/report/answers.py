@@ -86,13 +86,8 @@ def refused(name: str, title: str, error: InputError) -> Page:
     answer = _("Not calculated; the drive file leaves open:")
     if all(one.code == "unknown_kind" for one in error.problems):
         answer = _("Not calculated for joints of these kinds:")
-    return Page(
-        name=name,
-        title=title,
-        answer=answer,
-        blocks=[Words(text=text, tone="warning") for text in left],
-        alarms=[Words(text=alarm, tone="warning")],
-    )
+    blocks = [Words(text=text, tone="warning") for text in left]
+    return Page(name=name, title=title, answer=answer, blocks=blocks, alarms=[Words(text=alarm, tone="warning")])
 
 
 # The report of a drive with joints that turn by laws of their own, without what a chain of Hooke joints would tell.

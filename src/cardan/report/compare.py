@@ -144,12 +144,9 @@ def _figures(variants: Sequence[Variant], found: Sequence[Sequence[KeyFigure]]) 
             count[key.name] += 1
     lines = [_kept(variants)] if any(one.verdicts for one in variants) else []
     lines += [_line(keys, variants) for keys in grouped.values()]
-    return Table(
-        columns=(Column(heading=_("what"), left=True), Column(heading="", left=True), *_columns(variants), _best()),
-        rows=lines,
-        title=_("Key figures"),
-        note=_("✓ is the best of them; figures that are as good stand together."),
-    )
+    columns = (Column(heading=_("what"), left=True), Column(heading="", left=True), *_columns(variants), _best())
+    note = _("✓ is the best of them; figures that are as good stand together.")
+    return Table(columns=columns, rows=lines, title=_("Key figures"), note=note)
 
 
 def _columns(variants: Sequence[Variant]) -> Iterator[Column]:
@@ -240,12 +237,8 @@ def _verdicts(variants: Sequence[Variant]) -> Table:
         note += " " + plural("One more limit is used less.", "{count} more limits are used less.", left).format(
             count=left
         )
-    return Table(
-        columns=(Column(heading=_("limit"), left=True), *_columns(variants), _best()),
-        rows=rows,
-        title=_("Limits"),
-        note=note,
-    )
+    columns = (Column(heading=_("limit"), left=True), *_columns(variants), _best())
+    return Table(columns=columns, rows=rows, title=_("Limits"), note=note)
 
 
 def _used(one: Verdict) -> Cell:

@@ -142,11 +142,8 @@ def _shafts(on: Subject) -> Table:
     if any(one.spline is not None for one in shafts):
         teeth = [one.spline.teeth if one.spline else None for one in shafts]
         columns.append(Column(key="spline_teeth", heading=_("spline teeth"), values=teeth))
-    columns.append(
-        Column(
-            key="speed_fluctuation", heading=_("speed fluctuation δ"), values=fluctuation, dimension="share", digits=3
-        )
-    )
+    text = _("speed fluctuation δ")
+    columns.append(Column(key="speed_fluctuation", heading=text, values=fluctuation, dimension="share", digits=3))
     return table(answer.Table(title=_("Shafts"), columns=columns))
 
 

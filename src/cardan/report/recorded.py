@@ -90,21 +90,15 @@ def recorded(
     )
     names = [one.name for one in found.channels]
     try:
+        channel = said.channel if said.channel in names else None
         examined = examine(
-            found,
-            drive,
-            channel=said.channel if said.channel in names else None,
-            known=known,
-            progress=lambda share: told(READING + (1.0 - READING) * share),
+            found, drive, channel=channel, known=known, progress=lambda share: told(READING + (1.0 - READING) * share)
         )
         page = page_of(answer(examined), reader())
     except InputError as error:
         page = _unjudged(found, error)
-    return Recorded(
-        page=page,
-        sensors=tuple(_sensor(one) for one in found.channels),
-        tacho="" if found.tacho is None else names[found.tacho],
-    )
+    tacho = "" if found.tacho is None else names[found.tacho]
+    return Recorded(page=page, sensors=tuple(_sensor(one) for one in found.channels), tacho=tacho)
 
 
 def _placed(found: Signal, said: Said) -> Signal:
@@ -120,12 +114,9 @@ def _placed(found: Signal, said: Said) -> Signal:
 
 def _sensor(one: Channel) -> Sensor:
     turns = one.quantity in TURNING
+    shakes = one.quantity in ("acceleration", "velocity", "displacement")
     return Sensor(
-        name=one.name,
-        place=one.place,
-        direction=one.direction,
-        turns=turns or one.quantity == "other",
-        shakes=one.quantity in ("acceleration", "velocity", "displacement"),
+        name=one.name, place=one.place, direction=one.direction, turns=turns or one.quantity == "other", shakes=shakes
     )
 
 
@@ -133,10 +124,6 @@ def _unjudged(found: Signal, error: InputError) -> Page:
     """Return the page of a recording that tells nothing, with the reasons."""
     alarms = [Words(text=str(one), tone="warning") for one in error.problems]
     more = [Points(title=_("To mind"), items=found.cautions)] if found.cautions else []
-    return Page(
-        name="diagnosis",
-        title=_("Diagnosis of {name}").format(name=found.name),
-        answer=_("This recording cannot be judged."),
-        blocks=[*alarms, *more],
-        alarms=alarms,
-    )
+    title = _("Diagnosis of {name}").format(name=found.name)
+    text = _("This recording cannot be judged.")
+    return Page(name="diagnosis", title=title, answer=text, blocks=[*alarms, *more], alarms=alarms)

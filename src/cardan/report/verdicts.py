@@ -41,9 +41,6 @@ def judged(on: Subject) -> Judged:
     shown, left = urgent(result)
     note = plural("One more check passed.", "{count} more checks passed.", left).format(count=left) if left else ""
     rows = [row(one, reader()) for one in shown]
-    return Judged(
-        page=page(said, reader()),
-        keys=said.keys,
-        lights=Table(columns=verdict_columns(), rows=rows, title=_("Limits"), note=note) if rows else None,
-        changes=table(remedy_table(on.drive, result, helpful=True)) if result.remedies else None,
-    )
+    lights = Table(columns=verdict_columns(), rows=rows, title=_("Limits"), note=note) if rows else None
+    changes = table(remedy_table(on.drive, result, helpful=True)) if result.remedies else None
+    return Judged(page=page(said, reader()), keys=said.keys, lights=lights, changes=changes)

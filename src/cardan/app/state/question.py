@@ -49,11 +49,8 @@ def asked(session: Session, name: str, **choices: Any) -> Question | None:
     """Return the question about the drive that a user works on; None while there is none."""
     if session.drive is None:
         return None
+    folder = session.workspace.folder
+    language = session.choices.language
     return Question(
-        name=name,
-        drive=session.drive,
-        folder=session.workspace.folder,
-        language=session.choices.language,
-        reader=session.reader,
-        choices=choices,
+        name=name, drive=session.drive, folder=folder, language=language, reader=session.reader, choices=choices
     )

@@ -105,13 +105,9 @@ def one(drive: Drive) -> Many:
         given, **{f: getattr(given, f)[None] for f in ("joint_angle", "plane_twist", "yoke_angle", "start_phase")}
     )
     place = geometry(drive)
-    return FollowedDrive(
-        chain=rows,
-        joint_angle=rows.joint_angle,
-        length=place.length[None] if drive.form == "points" else None,
-        speed=float("nan") if drive.duty.speed is None else drive.duty.speed,
-        seen=swing(drive),
-    )
+    length = place.length[None] if drive.form == "points" else None
+    speed = float("nan") if drive.duty.speed is None else drive.duty.speed
+    return FollowedDrive(chain=rows, joint_angle=rows.joint_angle, length=length, speed=speed, seen=swing(drive))
 
 
 def many(

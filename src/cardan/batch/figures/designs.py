@@ -48,12 +48,8 @@ def sensitivity_figure(found: Sensitivity, answer: int = 0) -> Figure:
                 series.append(Curve(x=np.asarray([low, high]), y=np.full(2, place + shift), role="ink", width=1.2))
     highest = max(1.0, float(np.max(np.nan_to_num(found.total_range[answer]), initial=0.0)))
     column = found.answers[answer]
-    panel = Panel(
-        series=tuple(series),
-        x=axis(_("share of the variance"), "", [], include=(0.0, highest), margin=0.02, count=6),
-        y=_fields(found.fields, order),
-        title=" ",
-    )
+    x = axis(_("share of the variance"), "", [], include=(0.0, highest), margin=0.02, count=6)
+    panel = Panel(series=tuple(series), x=x, y=_fields(found.fields, order), title=" ")
     return Figure(
         name=f"sensitivity-{answer + 1}",
         title=_("Shares of the variance: {name}").format(name=name_of(column)),
@@ -115,11 +111,9 @@ def one_at_a_time_figure(found: OneAtATime, answer: int = 0) -> Figure:
     ]
     fields = _fields(found.fields, order.tolist())
     named = tuple(f"{name} ({a} … {b})" for name, a, b in zip(fields.texts, *texts, strict=True))
+    y = Axis(low=fields.low, high=fields.high, ticks=fields.ticks, texts=named, grid=False)
     panel = Panel(
-        series=tuple(series),
-        x=axis(title_of(column), "", known, include=(here,), margin=0.08, count=6),
-        y=Axis(low=fields.low, high=fields.high, ticks=fields.ticks, texts=named, grid=False),
-        title=" ",
+        series=tuple(series), x=axis(title_of(column), "", known, include=(here,), margin=0.08, count=6), y=y, title=" "
     )
     most = int(order[-1]) if len(order) else 0
     text = _("{field} moves it farthest, from {low} to {high}.")
@@ -142,14 +136,9 @@ def ranks_figure(found: Ranks) -> Figure:
     at = np.arange(len(order), dtype=float)
     weight = found.correlation[order]
     bars = Bars(at=at, size=weight, lying=True, roles=tuple("accent" if w > 0.0 else "cross" for w in weight))
-    panel = Panel(
-        series=(bars, Rule(value=0.0, upright=True, role="ink", dash="solid")),
-        x=axis(
-            _("rank correlation: 1 rises always, −1 falls always"), "", [], include=(-1.0, 1.0), margin=0.02, count=8
-        ),
-        y=_fields(found.fields, order),
-        title=" ",
-    )
+    series = (bars, Rule(value=0.0, upright=True, role="ink", dash="solid"))
+    x = axis(_("rank correlation: 1 rises always, −1 falls always"), "", [], include=(-1.0, 1.0), margin=0.02, count=8)
+    panel = Panel(series=series, x=x, y=_fields(found.fields, order), title=" ")
     said = _("No field that varies goes with it.")
     if order:
         weightiest = name_of(found.fields[0])
@@ -227,11 +216,6 @@ def optimum_figure(found: Optimum) -> Figure:
         )
         value = "≈ 0" if abs(found.value) <= found.uncertainty else amount(column, found.value, 4)
         said = text.format(value=value, point=point)
-    return Figure(
-        name="search",
-        title=_("How the search went"),
-        sentence=said,
-        source=str(found.goal) + "".join(f"; {limit}" for limit in found.limits),
-        rows=(Row(panels=(panel,), height=2.0),),
-        legend=False,
-    )
+    source = str(found.goal) + "".join(f"; {limit}" for limit in found.limits)
+    rows = (Row(panels=(panel,), height=2.0),)
+    return Figure(name="search", title=_("How the search went"), sentence=said, source=source, rows=rows, legend=False)

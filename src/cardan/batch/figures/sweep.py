@@ -56,12 +56,8 @@ def parallel_figure(
     for k, (column, (values, words)) in enumerate(zip(shown, table, strict=True)):
         series.append(Curve(x=np.full(2, float(k)), y=np.asarray([0.0, 1.0]), role="ink", width=0.9))
         series += _scale_notes(k, column, values, words, len(shown))
-    panel = Panel(
-        series=tuple(series),
-        x=Axis(low=-0.12, high=max(len(shown) - 1, 1) + 0.12, grid=False),
-        y=Axis(low=-0.09, high=1.36, grid=False),
-        bare=True,
-    )
+    x = Axis(low=-0.12, high=max(len(shown) - 1, 1) + 0.12, grid=False)
+    panel = Panel(series=tuple(series), x=x, y=Axis(low=-0.09, high=1.36, grid=False), bare=True)
     text = plural("{count} point", "{count} points", count)
     if total is not None and total > count:
         text = plural("{count} of {total} points", "{count} of {total} points", count)
@@ -185,12 +181,9 @@ def pareto_figure(columns: Sequence[Column], goals: Sequence[Goal], front: Rows,
     told = _("each point is a choice; {goals}").format(goals=", ".join(_goal(by, goal) for goal in goals))
     if len(goals) > 2:
         told += "; " + _("the darker a dot, the better by {goal}").format(goal=name_of(by[goals[2].name]))
+    rows = (Row(panels=(panel,), height=3.4),)
     return Figure(
-        name="pareto",
-        title=_("Pareto front"),
-        sentence=_choice(across, up, goals, x, y),
-        source=told,
-        rows=(Row(panels=(panel,), height=3.4),),
+        name="pareto", title=_("Pareto front"), sentence=_choice(across, up, goals, x, y), source=told, rows=rows
     )
 
 
@@ -397,15 +390,9 @@ def _fitted(column: Column, values: Array, edges: Array) -> Axis:
     found = axis_of(column, values, margin=0.0, count=7)
     low, high = float(edges[0]), float(edges[-1])
     kept = [k for k, tick in enumerate(found.ticks) if low <= tick <= high]
-    return Axis(
-        label=found.label,
-        unit=found.unit,
-        low=low,
-        high=high,
-        ticks=tuple(found.ticks[k] for k in kept),
-        texts=tuple(found.texts[k] for k in kept),
-        grid=False,
-    )
+    ticks = tuple(found.ticks[k] for k in kept)
+    texts = tuple(found.texts[k] for k in kept)
+    return Axis(label=found.label, unit=found.unit, low=low, high=high, ticks=ticks, texts=texts, grid=False)
 
 
 def _capital(text: str) -> str:
@@ -424,19 +411,13 @@ def histogram_figure(
     bars = Bars(at=middle, size=np.asarray(counts, dtype=float), thick=float(0.94 * (edges[1] - edges[0])))
     rules = [Rule(value=value, upright=True, text=text, role="ink") for text, value in (marks or {}).items()]
     total = int(np.sum(counts))
-    panel = Panel(
-        series=(bars, *rules),
-        x=axis(title_of(column), "", [edges], margin=0.0, count=8),
-        y=axis(_("Points"), "", [counts], include=(0.0,), margin=0.12),
-    )
+    y = axis(_("Points"), "", [counts], include=(0.0,), margin=0.12)
+    panel = Panel(series=(bars, *rules), x=axis(title_of(column), "", [edges], margin=0.0, count=8), y=y)
     peak = int(np.argmax(counts))
     text = _("Most points, {share} % of {total}, lie between {low} and {high}.")
-    said = text.format(
-        share=significant(100.0 * float(counts[peak]) / max(total, 1), 3),
-        total=counted(total),
-        low=amount(column, float(edges[peak])),
-        high=amount(column, float(edges[peak + 1])),
-    )
+    share = significant(100.0 * float(counts[peak]) / max(total, 1), 3)
+    high = amount(column, float(edges[peak + 1]))
+    said = text.format(share=share, total=counted(total), low=amount(column, float(edges[peak])), high=high)
     source = _("all points with an answer")
     if unknown:
         source = plural("{count} point has no answer", "{count} points have no answer", unknown).format(

@@ -57,14 +57,9 @@ def map_of(results: Results, across: str, up: str, value: str, *, where: str = "
     values = np.full((len(y), len(x)), math.nan)
     values[j, i] = rows["v"]
     middles = [_middles(results, name, places, how) for name, places, how in ((across, x, x_of), (up, y, y_of))]
+    points = int(np.sum(rows["n"]))
     return Map(
-        across=columns[0],
-        up=columns[1],
-        value=columns[2],
-        x=middles[0],
-        y=middles[1],
-        values=values,
-        points=int(np.sum(rows["n"])),
+        across=columns[0], up=columns[1], value=columns[2], x=middles[0], y=middles[1], values=values, points=points
     )
 
 
@@ -163,9 +158,5 @@ def ranks_of(results: Results, answer: str, *, fields: Sequence[str] = (), where
         if one.name != answer and len(mine) > 1 and np.ptp(other) > 0.0 and np.ptp(mine) > 0.0:
             found.append((float(np.corrcoef(mine, other)[0, 1]), one))
     found.sort(key=lambda pair: -abs(pair[0]))
-    return Ranks(
-        answer=column,
-        fields=tuple(one for _value, one in found),
-        correlation=np.asarray([value for value, _one in found]),
-        points=len(mine),
-    )
+    correlation = np.asarray([value for value, _one in found])
+    return Ranks(answer=column, fields=tuple(one for _value, one in found), correlation=correlation, points=len(mine))

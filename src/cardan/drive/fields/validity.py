@@ -180,12 +180,8 @@ def shaft_problems(shafts: Sequence[Shaft], n: int) -> Iterator[Problem]:
     for shaft in shafts:
         path = f"shafts[{shaft.number - 1}]"
         if shaft.number > n + 1:
-            yield Problem(
-                f"{path}.number",
-                _("there is no shaft {number}; {n} joints make shafts 1 to {last}").format(
-                    number=shaft.number, n=n, last=n + 1
-                ),
-            )
+            text = _("there is no shaft {number}; {n} joints make shafts 1 to {last}")
+            yield Problem(f"{path}.number", text.format(number=shaft.number, n=n, last=n + 1))
             continue
         if shaft.number in seen:
             yield Problem(f"{path}.number", _("shaft {number} is described twice").format(number=shaft.number))
@@ -202,12 +198,8 @@ def shaft_problems(shafts: Sequence[Shaft], n: int) -> Iterator[Problem]:
             ("spline", shaft.spline is not None),
         ):
             if unused:
-                yield Problem(
-                    f"{path}.{name}",
-                    _("shaft {number} is an end shaft; only a shaft between two joints has this").format(
-                        number=shaft.number
-                    ),
-                )
+                text = _("shaft {number} is an end shaft; only a shaft between two joints has this")
+                yield Problem(f"{path}.{name}", text.format(number=shaft.number))
 
 
 def _form_problems(drive: Described) -> Iterator[Problem]:
@@ -265,12 +257,8 @@ def movement_problems(movements: Sequence[Movement], n: int) -> Iterator[Problem
             yield Problem(f"movements[{k}].moves", _("names no point"))
         for moved in movement.moves:
             if moved not in known:
-                yield Problem(
-                    f"movements[{k}].moves",
-                    _("{moved} is not a point of this drive; its points are {known}").format(
-                        moved=repr(moved), known=", ".join(known)
-                    ),
-                )
+                text = _("{moved} is not a point of this drive; its points are {known}")
+                yield Problem(f"movements[{k}].moves", text.format(moved=repr(moved), known=", ".join(known)))
         axis = getattr(movement, "axis", None)
         if axis is not None and not any(axis):
             yield Problem(f"movements[{k}].axis", _("[0, 0, 0] has no direction"))

@@ -82,12 +82,9 @@ def turning(whole: Chain, joints: Sequence[Joint], *, near: bool = False) -> Cha
     if not mixed(joints):
         return whole
     joint_angle, twist, start, laws = alike(joints, whole.joint_angle, whole.plane_twist, near=near)
+    start_phase = whole.start_phase + start
     return Chain(
-        joint_angle=joint_angle,
-        plane_twist=twist,
-        yoke_angle=whole.yoke_angle,
-        start_phase=whole.start_phase + start,
-        laws=laws,
+        joint_angle=joint_angle, plane_twist=twist, yoke_angle=whole.yoke_angle, start_phase=start_phase, laws=laws
     )
 
 
@@ -124,12 +121,9 @@ def given_chain(drive: Drive) -> Chain:
     else:
         place = geometry(drive)
         joint_angle, twist = place.joint_angle, place.plane_twist
-    return Chain(
-        joint_angle=joint_angle,
-        plane_twist=twist,
-        yoke_angle=np.asarray([shaft.yoke_angle for shaft in drive.shafts[1:-1]], dtype=float),
-        start_phase=np.asarray(drive.input.start_phase, dtype=float),
-    )
+    yoke_angle = np.asarray([shaft.yoke_angle for shaft in drive.shafts[1:-1]], dtype=float)
+    start_phase = np.asarray(drive.input.start_phase, dtype=float)
+    return Chain(joint_angle=joint_angle, plane_twist=twist, yoke_angle=yoke_angle, start_phase=start_phase)
 
 
 # How joints of every kind turn: each that has a Möbius map as the Hooke joint that turns alike.

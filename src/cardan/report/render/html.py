@@ -51,11 +51,8 @@ def _kind(block: object) -> str:
 
 def _template(name: str) -> Any:
     folder = Path(__file__).parent / "templates"
+    loader = jinja2().FileSystemLoader(folder)
     world = jinja2().Environment(
-        loader=jinja2().FileSystemLoader(folder),
-        autoescape=True,
-        undefined=jinja2().StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
+        loader=loader, autoescape=True, undefined=jinja2().StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
     return world.get_template(name)

@@ -92,13 +92,9 @@ def _bending(name: str, links: tuple[str, str], stance: Stance) -> InnerPair:
 
 def touching(stance: Stance) -> Iterator[InnerPair]:
     """Yield a joint that holds nothing but the torque: shafts that touch at one point beside the axis."""
-    yield InnerPair(
-        name=mark("contact of joint {number}"),
-        type="PT",
-        links=(DRIVING, DRIVEN),
-        point=stance.centre + ARM * stance.length * stance.driven,
-        axis=frames.cross(stance.after, stance.driven),
-    )
+    point = stance.centre + ARM * stance.length * stance.driven
+    axis = frames.cross(stance.after, stance.driven)
+    yield InnerPair(name=mark("contact of joint {number}"), type="PT", links=(DRIVING, DRIVEN), point=point, axis=axis)
 
 
 def crossed(stance: Stance, *, slides: bool | str = False, offset: float = 0.0) -> Iterator[InnerPair]:

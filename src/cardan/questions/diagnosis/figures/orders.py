@@ -358,12 +358,9 @@ def expected_figure(found: Expected) -> Figure:
             ),
         )
         rows.append(Row(panels=(panel,), height=1.5))
+    text = _("amplitudes at the torque of the duty; order-of-magnitude, trends are more reliable")
     return Figure(
-        name="expected-orders",
-        title=_("What the fault should show"),
-        sentence="",
-        source=_("amplitudes at the torque of the duty; order-of-magnitude, trends are more reliable"),
-        rows=tuple(rows),
+        name="expected-orders", title=_("What the fault should show"), sentence="", source=text, rows=tuple(rows)
     )
 
 

@@ -70,32 +70,16 @@ def causes_figure(findings: Sequence[Finding]) -> Figure:
     size = np.asarray([100.0 * one.score for one in shown])
     at = np.arange(len(shown), 0, -1, dtype=float)
     first = "good" if shown[0].cause == "healthy" else "accent"
-    bars = Bars(
-        at=at,
-        size=size,
-        texts=tuple(Quantity(one.score, "share", decimals=0) for one in shown),
-        roles=(first, *("muted",) * (len(shown) - 1)),
-        thick=0.62,
-        lying=True,
-    )
+    texts = tuple(Quantity(one.score, "share", decimals=0) for one in shown)
+    bars = Bars(at=at, size=size, texts=texts, roles=(first, *("muted",) * (len(shown) - 1)), thick=0.62, lying=True)
     ticks = steps(0.0, 100.0, 5)
     names = tuple(_short(one.fault) for one in shown)
-    panel = Panel(
-        series=(bars,),
-        x=Axis(low=0.0, high=112.0, ticks=ticks, texts=written(ticks)),
-        y=Axis(low=0.4, high=len(shown) + 0.6, ticks=tuple(at), texts=names, grid=False),
-        title=_("Probability"),
-        dimension="share",
-        unit="percent",
-    )
-    return Figure(
-        name="causes",
-        title=_("What is likely wrong"),
-        sentence="",
-        source=_("weights of a multinomial logistic model, calibrated on simulated recordings"),
-        rows=(Row(panels=(panel,), height=0.27 * len(shown) + 0.3),),
-        legend=False,
-    )
+    x = Axis(low=0.0, high=112.0, ticks=ticks, texts=written(ticks))
+    y = Axis(low=0.4, high=len(shown) + 0.6, ticks=tuple(at), texts=names, grid=False)
+    panel = Panel(series=(bars,), x=x, y=y, title=_("Probability"), dimension="share", unit="percent")
+    text = _("weights of a multinomial logistic model, calibrated on simulated recordings")
+    rows = (Row(panels=(panel,), height=0.27 * len(shown) + 0.3),)
+    return Figure(name="causes", title=_("What is likely wrong"), sentence="", source=text, rows=rows, legend=False)
 
 
 def verdict(findings: Sequence[Finding]) -> Text:
@@ -204,12 +188,9 @@ def orbit_figure(found: Orbit) -> Figure:
         label = _("order {order}").format(order=f"{one.order:g}")
         curves.append(Curve(x=x / size, y=y / size, role=shaft(k + 2), label=label))
         curves.append(Curve(x=x[:1] / size, y=y[:1] / size, role=shaft(k + 2), width=0.0, marker=6.0))
+    text = _("Each order alone")
     filtered = Panel(
-        series=tuple(curves),
-        x=frame(own, found.names[0]),
-        y=frame(own, found.names[1]),
-        title=_("Each order alone"),
-        equal=True,
+        series=tuple(curves), x=frame(own, found.names[0]), y=frame(own, found.names[1]), title=text, equal=True
     )
     return Figure(
         name="orbit",

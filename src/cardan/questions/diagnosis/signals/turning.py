@@ -114,12 +114,8 @@ def _from_pulses(tacho: Channel, per_turn: float, level: float | None, hysteresi
         confidence *= 0.3
     every = max(1, int(per_turn / KNOTS))
     kept = found.count % every == 0
-    return Rotation(
-        time=found.time[kept],
-        angle=2.0 * math.pi * found.count[kept] / per_turn,
-        confidence=confidence,
-        cautions=tuple(cautions),
-    )
+    angle = 2.0 * math.pi * found.count[kept] / per_turn
+    return Rotation(time=found.time[kept], angle=angle, confidence=confidence, cautions=tuple(cautions))
 
 
 def _from_speed(tacho: Channel, per_turn: float) -> Rotation:
@@ -146,14 +142,9 @@ def _from_speed(tacho: Channel, per_turn: float) -> Rotation:
         time = tacho.time
     if angle.size < 2:
         raise refuse(tacho.name, _("the shaft stands"), "empty")
-    return Rotation(
-        time=time,
-        angle=angle,
-        source="angle" if tacho.quantity == "angle" else "speed",
-        confidence=confidence,
-        phased=tacho.quantity == "angle",
-        cautions=cautions,
-    )
+    source = "angle" if tacho.quantity == "angle" else "speed"
+    phased = tacho.quantity == "angle"
+    return Rotation(time=time, angle=angle, source=source, confidence=confidence, phased=phased, cautions=cautions)
 
 
 def _longest(good: Array) -> tuple[int, int]:
