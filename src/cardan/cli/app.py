@@ -336,7 +336,7 @@ app = typer.Typer(
     + _("Exit codes: 0 done, 1 a check failed, 2 bad input, 130 interrupted."),
     rich_markup_mode="rich",
     pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
+    context_settings=HELP,
 )
 
 

@@ -224,16 +224,10 @@ class Table:
         with ui.element("div").classes("tools"):
             if self.path.startswith("joints[") and "." not in self.path:
                 at = int(self.path[7:-1])
-                _tool(
-                    "arrow_upward",
-                    _("earlier in the chain"),
-                    self._changing(lambda text: joint_moved(text, at, at - 1)),
-                )
-                _tool(
-                    "arrow_downward",
-                    _("later in the chain"),
-                    self._changing(lambda text: joint_moved(text, at, at + 1)),
-                )
+                act = self._changing(lambda text: joint_moved(text, at, at - 1))
+                _tool("arrow_upward", _("earlier in the chain"), act)
+                act = self._changing(lambda text: joint_moved(text, at, at + 1))
+                _tool("arrow_downward", _("later in the chain"), act)
                 _tool("add", _("a joint after this one"), self._changing(lambda text: with_joint(text, at + 1)))
                 _tool("delete", _("take this joint out"), self._changing(lambda text: without_joint(text, at)))
             elif now.removable:

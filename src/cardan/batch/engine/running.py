@@ -60,13 +60,8 @@ def run(
         with opened(Path(into), work, keeps=keeps, cut=cut, heard=lambda: heard(0)) as store:
             return _Running(work, engine, store.chunks, store=store, keeps=keeps, told=heard).result()
     if keeps and work.size * len(work.columns) * NUMBER > HELD:
-        raise refuse(
-            "rows",
-            _("a table of {count} points is too large to be held: keep it in a folder, or keep no rows").format(
-                count=work.size
-            ),
-            "out_of_range",
-        )
+        text = _("a table of {count} points is too large to be held: keep it in a folder, or keep no rows")
+        raise refuse("rows", text.format(count=work.size), "out_of_range")
     return _Running(
         work, engine, chunks_of(work, chunk, keeps=keeps), keeps=keeps, told=_Told(work.size, progress)
     ).result()

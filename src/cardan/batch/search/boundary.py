@@ -225,11 +225,9 @@ class _Grid:
         edge = cells
         while len(edge):
             beside = np.concatenate([_moved(edge, a, b, step) for a, b in ((1, 0), (-1, 0), (0, 1), (0, -1))])
+            pairs = (((1, 0), (1, 1)), ((0, 0), (0, 1)), ((0, 1), (1, 1)), ((0, 0), (1, 0)))
             crossed = np.concatenate(
-                [
-                    self.kept(_moved(edge, a, b, step)) != self.kept(_moved(edge, c, d, step))
-                    for (a, b), (c, d) in (((1, 0), (1, 1)), ((0, 0), (0, 1)), ((0, 1), (1, 1)), ((0, 0), (1, 0)))
-                ]
+                [self.kept(_moved(edge, *one, step)) != self.kept(_moved(edge, *other, step)) for one, other in pairs]
             )
             room = np.all((beside >= 0) & (beside + step < self.shape), axis=1)
             new = sorted({(i, j) for i, j in beside[crossed & room].tolist()} - seen)
@@ -241,15 +239,9 @@ class _Grid:
     def crossings(self, cells: Array, accuracy: float) -> dict[tuple[int, int, int], Array]:
         """Return where the line crosses the edges of cells: lower corner and direction -> place (2,)."""
         step = self.last
-        edges = np.unique(
-            np.concatenate(
-                [
-                    np.column_stack([_moved(cells, a, b, step), np.full(len(cells), way)])
-                    for a, b, way in ((0, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1))
-                ]
-            ),
-            axis=0,
-        ).reshape(-1, 3)
+        sides = ((0, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1))
+        every = [np.column_stack([_moved(cells, a, b, step), np.full(len(cells), way)]) for a, b, way in sides]
+        edges = np.unique(np.concatenate(every), axis=0).reshape(-1, 3)
         start = edges[:, :2]
         stop = start + step * np.column_stack([edges[:, 2] == 0, edges[:, 2] == 1])
         differ = self.kept(start) != self.kept(stop)

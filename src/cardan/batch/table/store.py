@@ -166,12 +166,8 @@ def _manifest(path: Path, work: Work, keeps: bool, cut: Callable[[], int]) -> di
     if not same or found["columns"] != tuple(work.columns):
         raise refuse(str(path / MANIFEST), _("has been changed; put it back as it was, or choose another folder"))
     if found["rows"] != rows:
-        raise refuse(
-            str(path),
-            _("keeps no rows: choose another folder to keep them")
-            if keeps
-            else _("keeps all rows: choose another folder to keep none"),
-        )
+        text = _("keeps all rows: choose another folder to keep none")
+        raise refuse(str(path), _("keeps no rows: choose another folder to keep them") if keeps else text)
     return found
 
 

@@ -38,30 +38,7 @@ NARROWEST = 14
 WIDEST = 100
 """Sentences are not set wider than this, however wide the terminal."""
 
-UNITS = "|".join(
-    (
-        "mm",
-        "m",
-        "°",
-        "deg",
-        "rpm",
-        "rad/s",
-        "1/s",
-        "s",
-        "ms",
-        "h",
-        "Hz",
-        "k?N·m",
-        "k?N",
-        "MPa",
-        "GPa",
-        "kg",
-        "g",
-        "k?W",
-        "J",
-        "%",
-    )
-)
+UNITS = "mm|m|°|deg|rpm|rad/s|1/s|s|ms|h|Hz|k?N·m|k?N|MPa|GPa|kg|g|k?W|J|%"
 """What stays with the number before it at the end of a line, as a pattern."""
 
 SIGNS: dict[Tone, tuple[str, str]] = {

@@ -46,10 +46,8 @@ def wrong_count(field: str, values: Sequence[Any], wanted: int, *, empty: bool =
 def point_problems(points: Sequence[Sequence[float]]) -> Iterator[Problem]:
     """Yield what is wrong with the points of a drive's axis: too few, not finite, coincident, shafts at 90° or more."""
     if len(points) < 3:
-        yield Problem(
-            "points",
-            _("{count} points given; a drive needs at least 3: input, one joint, output").format(count=len(points)),
-        )
+        text = _("{count} points given; a drive needs at least 3: input, one joint, output")
+        yield Problem("points", text.format(count=len(points)))
         return
     for k, point in enumerate(points):
         if not _is_point(point):
@@ -229,22 +227,18 @@ def _form_problems(drive: Described) -> Iterator[Problem]:
         if form == "points" and shaft is not None and shaft.length is not None:
             yield Problem(f"shafts[{k - 1}].length", _("the joint centres already give the length of every shaft"))
     if not any(present for owner, _path, present in given if owner):
-        yield Problem(
-            "joints",
-            _(
-                "no geometry: give the joint centres (joints centre, input.point, output.point), or the angle of every "
-                "joint, or side_slope and plan_slope of every shaft"
-            ),
+        text = _(
+            "no geometry: give the joint centres (joints centre, input.point, output.point), or the angle of every "
+            "joint, or side_slope and plan_slope of every shaft"
         )
+        yield Problem("joints", text)
         return
     for owner, path, present in given:
         if not owner and present and form != "angles":
             yield Problem(path, _("only drives given by joint angles have plane twists"))
         elif owner and owner != form and present:
-            yield Problem(
-                path,
-                _("this drive's geometry is given by {form}; this field belongs to another form").format(form=form),
-            )
+            text = _("this drive's geometry is given by {form}; this field belongs to another form")
+            yield Problem(path, text.format(form=form))
         elif owner == form and not present:
             yield Problem(path, _("missing; a drive given by {form} needs it").format(form=form))
 

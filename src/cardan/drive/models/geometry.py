@@ -82,18 +82,9 @@ def _refuse_right_angles(cosine: Array) -> None:
     n = cosine.shape[-1]
     flat = xp.reshape(bad, (-1, n))
     joints = [i for i in range(n) if bool(xp.any(flat[:, i]))]
-    raise JointAngleLimitError(
-        [
-            Problem(
-                "points",
-                _("shafts {one} and {two} enclose 90° or more; a universal joint needs less").format(
-                    one=i + 1, two=i + 2
-                ),
-            )
-            for i in joints
-        ],
-        where=bad,
-    )
+    text = _("shafts {one} and {two} enclose 90° or more; a universal joint needs less")
+    problems = [Problem("points", text.format(one=i + 1, two=i + 2)) for i in joints]
+    raise JointAngleLimitError(problems, where=bad)
 
 
 def _fill(axis: Array, normal: Array, straight: Array) -> Array:
@@ -149,20 +140,12 @@ def geometry(drive: Drive) -> Geometry:
         steps = length[:, None] * axis
         points = np.concatenate((-steps[:1], np.zeros((1, 3)), np.cumsum(steps[1:], axis=0)))
         found = geometry_from_points(points)
-        return Geometry(**{**vars(found), "assumed": assumed})
+        return replace(found, assumed=assumed)
     joint_angle, twist = given_angles(drive)
     points = points_from_angles(joint_angle, twist[1:], length, first_twist=twist[0])
     found = geometry_from_points(points)
     normal = _normals(found.axis, twist)
-    return Geometry(
-        points=points,
-        length=length,
-        axis=found.axis,
-        normal=normal,
-        joint_angle=joint_angle,
-        plane_twist=twist[1:],
-        assumed=assumed,
-    )
+    return replace(found, length=length, normal=normal, joint_angle=joint_angle, plane_twist=twist[1:], assumed=assumed)
 
 
 def given_angles(drive: Drive) -> tuple[Array, Array]:

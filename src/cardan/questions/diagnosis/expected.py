@@ -302,15 +302,9 @@ def in_order(base: DriveModel, fault: str, severity: float) -> Iterator[Expected
             0.5 * WRONG_JOINT_ANGLE * severity,
         )
     by_torque = (0.0, 0.0, 1.0)
+    shares = _couples(base, joint_angle)
     yield from _spread(
-        base,
-        _couples(base, joint_angle),
-        order=2.0,
-        power=0.0,
-        source=SECONDARY,
-        axial=0.1,
-        torque=by_torque,
-        amplified=True,
+        base, shares, order=2.0, power=0.0, source=SECONDARY, axial=0.1, torque=by_torque, amplified=True
     )
     small = {k: 0.05 * one for k, one in _couples(base, joint_angle).items()}
     yield from _spread(base, small, order=4.0, power=0.0, source=SECONDARY, torque=by_torque)
@@ -359,14 +353,9 @@ def _tight(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedO
     couple = TIGHT * severity * base.torque / float(base.length[chosen])
     # A couple of friction turns its sense with the swing of the joint: a square wave, whose orders in space are even.
     for order, share in ((1.0, 0.6), (2.0, 1.0), (4.0, 0.5)):
+        shares = {chosen: share * couple}
         yield from _spread(
-            base,
-            {chosen: share * couple},
-            order=order,
-            power=0.0,
-            source=f"{FRICTION}; {TRADE}",
-            axial=0.2,
-            torque=(0.8, 0.0, 0.2),
+            base, shares, order=order, power=0.0, source=f"{FRICTION}; {TRADE}", axial=0.2, torque=(0.8, 0.0, 0.2)
         )
 
 
@@ -394,14 +383,9 @@ def _worn_joint(base: DriveModel, severity: float, chosen: int) -> Iterator[Expe
 
 def _worn_spline(base: DriveModel, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     force = _play(base, severity, chosen)
+    source = f"{SPLINES}; {TRADE}"
     yield from _spread(
-        base,
-        _ends(chosen, force),
-        order=1.0,
-        power=2.0,
-        source=f"{SPLINES}; {TRADE}",
-        axial=0.5,
-        torque=(0.2, 0.9, 0.0),
+        base, _ends(chosen, force), order=1.0, power=2.0, source=source, axial=0.5, torque=(0.2, 0.9, 0.0)
     )
 
 

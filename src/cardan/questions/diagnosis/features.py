@@ -269,12 +269,8 @@ def _over_speed(
         k = ORDERS.index(order)
         power = sum((one.mass * np.abs(one.value[k])) ** 2 for one in radial)
         level = np.sqrt(power)
-        curve[order] = np.asarray(
-            [
-                np.median(level[moving & (number == b)]) if np.any(moving & (number == b)) else np.nan
-                for b in range(BINS)
-            ]
-        )
+        groups = [level[moving & (number == b)] for b in range(BINS)]
+        curve[order] = np.asarray([np.median(one) if one.size else np.nan for one in groups])
         curve[-order] = level
         noise = math.sqrt(sum((one.mass * float(one.noise[k])) ** 2 for one in radial))
         curve[order][curve[order] < 1.5 * noise] = np.nan

@@ -141,15 +141,10 @@ def simulate_fault(
         quantity = "angular_speed" if direction == "torsion" else "acceleration"
         if direction == "torsion":
             values = values + course.speed
+        name = f"{kind} {named}"
+        place = places[kind]
         channels.append(
-            Channel(
-                name=f"{kind} {named}",
-                quantity=quantity,
-                values=values,
-                rate=runs.rate,
-                place=places[kind],
-                direction=direction,
-            )
+            Channel(name=name, quantity=quantity, values=values, rate=runs.rate, place=place, direction=direction)
         )
         watch.next()
     torque = course.torque + rng.normal(scale=0.02 * expected.reference, size=course.torque.size)

@@ -189,12 +189,9 @@ def _curve(data: ChartData, panel: Panel, one: Curve, otherwise: str) -> dict[st
     line = {"color": tint, "width": one.width, "dash_type": DASHES[one.dash]} if one.width else {"none": True}
     size = max(2, round(one.marker))
     dot = {"type": "circle", "size": size, "fill": {"color": tint}, "border": {"none": True}}
-    return _series(
-        data.numbers(panel.x.label or "x", panel.x.unit, one.x),
-        data.numbers(one.label or one.text or otherwise or _("line"), panel.y.unit, one.y, told=one.text),
-        line=line,
-        marker=dot if one.marker else {"type": "none"},
-    )
+    x = data.numbers(panel.x.label or "x", panel.x.unit, one.x)
+    y = data.numbers(one.label or one.text or otherwise or _("line"), panel.y.unit, one.y, told=one.text)
+    return _series(x, y, line=line, marker=dot if one.marker else {"type": "none"})
 
 
 def _series(x: Place, y: Place, **how: Any) -> dict[str, Any]:
@@ -211,14 +208,8 @@ def _mark(data: ChartData, panel: Panel, one: Series) -> Iterator[dict[str, Any]
         points: tuple[Any, Any] = (at, ends) if one.upright else (ends, at)
         line = {"color": palette.colour(one.role), "width": one.width, "dash_type": DASHES[one.dash]}
         where = "right" if one.upright else "above"
-        yield _line(
-            data,
-            panel,
-            one.text or across.label or _("line"),
-            points,
-            line,
-            _labels([None, one.text, None], one.role, where),
-        )
+        labels = _labels([None, one.text, None], one.role, where)
+        yield _line(data, panel, one.text or across.label or _("line"), points, line, labels)
     elif isinstance(one, Band | Shape):
         points = _outline(panel, one)
         line = {"color": palette.colour(one.role), "width": 0.75, "dash_type": "solid", "transparency": 40}
