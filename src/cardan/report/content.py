@@ -124,12 +124,12 @@ def moved(drive: Drive) -> list[Page]:
 def phased(on: Subject) -> Page:
     """Return the page of the yokes; where joints turn by laws of their own mostly why there is none."""
     try:
-        found = on.phasing
+        said = yokes.answer(on.drive, on.phasing)
+        return page(gather(QUESTIONS["phasing"], on.drive, said), reader())
     except InputError as error:
         if not on.by_laws:
             raise
         return replace(refused("phasing", _("Phasing of the yokes"), error), alarms=())
-    return page(gather(QUESTIONS["phasing"], on.drive, yokes.answer(on.drive, found)), reader())
 
 
 def _articulated(on: Subject) -> Iterator[Page]:
