@@ -66,7 +66,7 @@ class Header:
                 ui.item(_("Download"), on_click=lambda: self.download()).props('data-mark="file-download"')
             ui.item(_("Examples"), on_click=lambda: self._leave(lambda: self.session.open("")))
 
-    def _leave(self, then: Callable[[], None]) -> None:
+    def _leave(self, then: Callable[[], object]) -> None:
         """Do what leaves the present file, after a question where it is not saved."""
         if self.session.empty or self.session.saved or not self.session.history.before:
             then()
@@ -82,27 +82,16 @@ class Header:
     def open(self) -> None:
         """Offer the files of the workspace."""
         with self.session.speaking(), asking("open-file") as dialog:
-            ui.label(_("Files of the folder, the newest first")).classes("head")
-            names = self.session.workspace.names()
-            if not names:
-                ui.label(_("There is no drive file yet.")).classes("hint")
-            with ui.element("div").classes("files"):
-                for name in names:
-                    button = ui.button(name, on_click=lambda name=name: self._after(dialog, lambda: self._take(name)))
-                    button.props("flat no-caps align=left").classes("file")
-            ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
+            _of_folder(self.session, dialog, lambda name: self._after(dialog, lambda: self._take(name)), "", "file")
 
-    def _after(self, dialog: ui.dialog, then: Callable[[], None]) -> None:
+    def _after(self, dialog: ui.dialog, then: Callable[[], object]) -> None:
         """Close a dialog and go on."""
         dialog.close()
         with self.session.speaking():
             then()
 
     def _take(self, name: str) -> None:
-        self._leave(lambda: self._read(name))
-
-    def _read(self, name: str) -> None:
-        self._try(lambda: self.session.open(self.session.workspace.read(name), name))
+        self._leave(lambda: self._try(lambda: self.session.open(self.session.workspace.read(name), name)))
 
     def send(self) -> None:
         """Take a file from the user's disk."""
@@ -117,10 +106,7 @@ class Header:
 
     def _sent(self, name: str, content: bytes) -> None:
         with self.session.speaking():
-            self._leave(lambda: self._receive(name, content))
-
-    def _receive(self, name: str, content: bytes) -> None:
-        self._try(lambda: self.session.take(name, content))
+            self._leave(lambda: self._try(lambda: self.session.take(name, content)))
 
     def save(self) -> None:
         """Write the file; ask for a name first where it has none."""
@@ -155,6 +141,19 @@ class Header:
                 toasts.refused(error)
                 return False
         return True
+
+
+def _of_folder(session: Session, dialog: ui.dialog, taken: Callable[[str], None], mark: str, classes: str = "") -> None:
+    """Show the files of the folder to choose one, in a dialog."""
+    ui.label(_("Files of the folder, the newest first")).classes("head")
+    names = session.workspace.names()
+    if not names:
+        ui.label(_("There is no drive file yet.")).classes("hint")
+    with ui.element("div").classes("files"):
+        for name in names:
+            button = ui.button(name, on_click=lambda name=name: taken(name))
+            button.props(f"flat no-caps align=left{mark}").classes(classes)
+    ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
 
 
 def _button(icon: str, title: str, act: Callable[[], None]) -> ui.button:
@@ -343,21 +342,13 @@ class VariantsMenu:
 
     def _keep_file(self) -> None:
         """Offer the files of the folder to be kept as variants."""
-        session = self.session
         with asking("variant-files") as dialog:
-            ui.label(_("Files of the folder, the newest first")).classes("head")
-            names = session.workspace.names()
-            if not names:
-                ui.label(_("There is no drive file yet.")).classes("hint")
-            with ui.element("div").classes("files"):
-                for name in names:
 
-                    def taken(name: str = name) -> None:
-                        dialog.close()
-                        self._take(name)
+            def taken(name: str) -> None:
+                dialog.close()
+                self._take(name)
 
-                    ui.button(name, on_click=taken).props('flat no-caps align=left data-mark="variant-file"')
-            ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
+            _of_folder(self.session, dialog, taken, ' data-mark="variant-file"')
 
     def _take(self, name: str) -> None:
         session = self.session

@@ -241,7 +241,8 @@ def _swing(signal: Signal) -> TorsionalVibration | None:
 
 def _expected(drive: Drive, cause: str) -> Expected | None:
     """Return what a cause should show; None where nothing models it, or the drive cannot have it."""
-    fault = next((name for name, row in FAULTS.items() if row == cause or (cause == "healthy" and not row)), None)
+    wanted = "" if cause == "healthy" else cause
+    fault = next((name for name, (row, _made) in FAULTS.items() if row == wanted), None)
     if fault is None:
         return None
     try:

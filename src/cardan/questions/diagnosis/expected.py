@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -16,23 +16,6 @@ from cardan.texts import _, mark
 from cardan.units import deg
 
 from .drive_model import DriveModel, Housing, plant
-
-FAULTS = {
-    "healthy": "",
-    "unbalance": "F01",
-    "lost_weight": "F01",
-    "bent": "F02",
-    "joint_angles": "F10",
-    "phase": "F11",
-    "half_critical": "F12",
-    "tight_joint": "F13",
-    "critical": "F14",
-    "crack": "F15",
-    "worn_joint": "F20",
-    "worn_spline": "F21",
-    "centre_bearing": "F23",
-}
-"""Fault -> its row of the catalogue; empty for a drive in order."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -146,10 +129,10 @@ def expected_orders(
     if fault == "centre_bearing" and base.housing("centre") is None:
         raise refuse("fault", _("the drive has no centre bearing"), "inconsistent")
     wrong = _moved(base, fault, severity)
-    lines = [*in_order(wrong, fault, severity), *MAKERS[fault](wrong, severity, chosen)]
+    lines = [*in_order(wrong, fault, severity), *FAULTS[fault][1](wrong, severity, chosen)]
     return Expected(
         fault=fault,
-        cause=FAULTS[fault],
+        cause=FAULTS[fault][0],
         orders=tuple(one for one in lines if one.size > 0.0),
         bursts=bursts_of(wrong, fault, severity),
         critical=wrong.critical,
@@ -397,21 +380,22 @@ def _centre(base: DriveModel, severity: float, chosen: int) -> Iterator[Expected
             yield _line(house, "radial", order, near * share * force / house.mass, 1.5, LOOSE)
 
 
-MAKERS = {
-    "healthy": _nothing,
-    "unbalance": _unbalance,
-    "lost_weight": _lost_weight,
-    "bent": _bent,
-    "joint_angles": _joint_angles,
-    "phase": _phase,
-    "half_critical": _nothing,
-    "tight_joint": _tight,
-    "critical": _nothing,
-    "crack": _crack,
-    "worn_joint": _worn_joint,
-    "worn_spline": _worn_spline,
-    "centre_bearing": _centre,
+FAULTS: dict[str, tuple[str, Callable[[DriveModel, float, int], Iterator[ExpectedOrder]]]] = {
+    "healthy": ("", _nothing),
+    "unbalance": ("F01", _unbalance),
+    "lost_weight": ("F01", _lost_weight),
+    "bent": ("F02", _bent),
+    "joint_angles": ("F10", _joint_angles),
+    "phase": ("F11", _phase),
+    "half_critical": ("F12", _nothing),
+    "tight_joint": ("F13", _tight),
+    "critical": ("F14", _nothing),
+    "crack": ("F15", _crack),
+    "worn_joint": ("F20", _worn_joint),
+    "worn_spline": ("F21", _worn_spline),
+    "centre_bearing": ("F23", _centre),
 }
+"""Fault -> its row of the catalogue, empty for a drive in order, and what makes its orders."""
 
 
 def bursts_of(base: DriveModel, fault: str, severity: float) -> tuple[Bursts, ...]:

@@ -13,7 +13,7 @@ from cardan.catalogue.rows import Fault
 from cardan.texts import _
 
 from .expected import FAULTS, Expected, ExpectedOrder
-from .figures.orders import expected_figures, largest_order
+from .figures.orders import expected_figure, largest_order
 from .signals.signal import Signal
 
 __all__ = ["answer", "answer_of_list", "by_torque", "grows"]
@@ -33,7 +33,7 @@ def answer(found: Expected, made: Signal | None = None, path: Path | None = None
         sentence=_sentence(found),
         tables=(_largest(found),),
         remarks=(*_remarks(found), *_recording(found, made, path)),
-        figures=lambda: expected_figures(found),
+        figures=lambda: (expected_figure(found),),
         facts={
             "fault": found.fault,
             "cause": found.cause,
@@ -66,19 +66,14 @@ def answer(found: Expected, made: Signal | None = None, path: Path | None = None
 
 def answer_of_list() -> Answer:
     """Return what there is to say of the faults that can be simulated."""
+    words = [fault_words(name) for name in FAULTS]
     table = Table(
         name="faults",
         records=True,
         columns=(
             Column(key="fault", heading=_("fault"), values=list(FAULTS), left=True),
-            Column(key="cause", heading=_("cause"), values=list(FAULTS.values()), left=True),
-            Column(
-                key="words",
-                heading=_("what is wrong"),
-                values=[fault_words(name) for name in FAULTS],
-                left=True,
-                wrap=True,
-            ),
+            Column(key="cause", heading=_("cause"), values=[row for row, _made in FAULTS.values()], left=True),
+            Column(key="words", heading=_("what is wrong"), values=words, left=True, wrap=True),
         ),
     )
     text = _("{count} faults can be simulated.")
@@ -90,7 +85,7 @@ def fault_words(fault: str) -> str:
     own = {"unbalance": _("unbalance of a shaft"), "lost_weight": _("balance weight lost")}
     if fault in own:
         return own[fault]
-    row = catalogue().rows(Fault).get(FAULTS[fault])
+    row = catalogue().rows(Fault).get(FAULTS[fault][0])
     return _("nothing wrong") if row is None else _(row.fault)
 
 

@@ -7,17 +7,17 @@ from cardan.questions.diagnosis.signals.orders import OrderMap, OrderSpectrum, T
 from cardan.questions.diagnosis.signals.rotation import Rotation
 from cardan.questions.diagnosis.signals.torsional import TorsionalVibration
 
-from .orders import expected_figures, map_figures, spectrum_figures, tracks_figures
-from .signals import examination_figures, orbit_figures, rotation_figures, torsional_figures
+from .orders import expected_figure, map_figure, spectrum_figure, tracks_figure
+from .signals import examination_figures, orbit_figure, rotation_figure, torsional_figure
 
 FIGURES = {
-    OrderSpectrum: spectrum_figures,
-    OrderMap: map_figures,
-    TrackedOrders: tracks_figures,
-    Rotation: rotation_figures,
-    Orbit: orbit_figures,
-    TorsionalVibration: torsional_figures,
+    OrderSpectrum: spectrum_figure,
+    OrderMap: map_figure,
+    TrackedOrders: tracks_figure,
+    Rotation: rotation_figure,
+    Orbit: orbit_figure,
+    TorsionalVibration: torsional_figure,
     Examination: examination_figures,
-    Expected: expected_figures,
+    Expected: expected_figure,
 }
 """Result -> what makes its figures."""

@@ -84,21 +84,6 @@ def order_text(order: float) -> str:
     return f"{round(order)}" if round(order) and abs(order - round(order)) < WHOLE else f"{order:.2f}"
 
 
-def spectrum_figures(found: OrderSpectrum) -> tuple[Figure, ...]:
-    """Return the figure of an order spectrum."""
-    return (spectrum_figure(found),)
-
-
-def map_figures(found: OrderMap) -> tuple[Figure, ...]:
-    """Return the figure of an order map."""
-    return (map_figure(found),)
-
-
-def tracks_figures(found: TrackedOrders) -> tuple[Figure, ...]:
-    """Return the figure of orders followed."""
-    return (tracks_figure(found),)
-
-
 def spectrum_figure(found: OrderSpectrum) -> Figure:
     """Return the amplitudes over the orders, the highest named, with the level of the noise."""
     dimension, unit, size = unit_of(found.quantity)
@@ -320,11 +305,6 @@ def _broken(phase: Array) -> Array:
 
 POINTS = 201
 """Speeds along a curve."""
-
-
-def expected_figures(found: Expected) -> tuple[Figure, ...]:
-    """Return the figure of what a fault should show."""
-    return (expected_figure(found),)
 
 
 def expected_figure(found: Expected) -> Figure:

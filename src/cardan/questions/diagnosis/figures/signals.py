@@ -115,21 +115,6 @@ ORDERS = 12.0
 """Highest order of the twist drawn."""
 
 
-def rotation_figures(found: Rotation) -> tuple[Figure, ...]:
-    """Return the figure of a rotation."""
-    return (rotation_figure(found),)
-
-
-def orbit_figures(found: Orbit) -> tuple[Figure, ...]:
-    """Return the figure of an orbit."""
-    return (orbit_figure(found),)
-
-
-def torsional_figures(found: TorsionalVibration) -> tuple[Figure, ...]:
-    """Return the figure of torsional vibration."""
-    return (torsional_figure(found),)
-
-
 def rotation_figure(found: Rotation) -> Figure:
     """Return the speed over time, each value the mean of a turn."""
     count = int(min(max(found.turns, 2.0), POINTS))
