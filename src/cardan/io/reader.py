@@ -122,23 +122,11 @@ def _flattened(key: str, table: Mapping[str, Any]) -> str:
 # What to say of a key that a table does not know: the key that was meant, or where it belongs.
 
 OTHER_WORDS = {
-    "alpha": "joint_angle",
-    "joint_angle_angle": "joint_angle",
-    "misalignment": "joint_angle",
-    "deflection": "joint_angle",
-    "beta": "plane_twist",
-    "twist": "plane_twist",
-    "gamma": "yoke_angle",
-    "phasing": "yoke_angle",
-    "clocking": "yoke_angle",
-    "psi": "start_phase",
-    "position": "centre",
-    "center": "centre",
-    "rpm": "speed",
-    "omega": "speed",
-    "joint": "joints",
-    "shaft": "shafts",
-}
+    "alpha": "joint_angle", "joint_angle_angle": "joint_angle", "misalignment": "joint_angle",
+    "deflection": "joint_angle", "beta": "plane_twist", "twist": "plane_twist", "gamma": "yoke_angle",
+    "phasing": "yoke_angle", "clocking": "yoke_angle", "psi": "start_phase", "position": "centre", "center": "centre",
+    "rpm": "speed", "omega": "speed", "joint": "joints", "shaft": "shafts",
+}  # fmt: skip
 """Words of other texts for our fields."""
 
 CLOSE = 0.8

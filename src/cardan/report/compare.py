@@ -32,19 +32,9 @@ Sense: TypeAlias = Literal["less", "more", ""]
 """Whether a smaller or a greater figure is better; empty where neither is."""
 
 PAGES = (
-    "motion",
-    "phasing",
-    "articulation",
-    "forces",
-    "losses",
-    "accuracy",
-    "torsion",
-    "bending",
-    "life",
-    "strength",
-    "mobility",
-    "assembly",
-)
+    "motion", "phasing", "articulation", "forces", "losses", "accuracy", "torsion", "bending", "life", "strength",
+    "mobility", "assembly",
+)  # fmt: skip
 """Parts of the report whose key figures are compared."""
 
 ALIKE = 1e-9

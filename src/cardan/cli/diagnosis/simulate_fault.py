@@ -22,15 +22,9 @@ from cardan.texts import _
 from cardan.units import nearest, rpm
 
 NAMES = {
-    "runs.run_up": "--run-up-s",
-    "runs.hold": "--hold-s",
-    "runs.rate": "--rate-hz",
-    "runs.held": "--steady-rpm",
-    "fault": "FAULT",
-    "severity": "--severity",
-    "shaft": "--shaft",
-    "snr": "--snr-db",
-}
+    "runs.run_up": "--run-up-s", "runs.hold": "--hold-s", "runs.rate": "--rate-hz", "runs.held": "--steady-rpm",
+    "fault": "FAULT", "severity": "--severity", "shaft": "--shaft", "snr": "--snr-db",
+}  # fmt: skip
 """What is asked for -> the option that says it."""
 
 

@@ -68,14 +68,9 @@ def select(
 
 
 OPTIONS = {
-    "torque": "--torque-Nm",
-    "joint_angle": "--joint-angle-deg",
-    "speed": "--speed-rpm",
-    "service_factor": "--service-factor",
-    "outer": "--outer-mm",
-    "life": "--life-h",
-    "joint": "--joint",
-}
+    "torque": "--torque-Nm", "joint_angle": "--joint-angle-deg", "speed": "--speed-rpm",
+    "service_factor": "--service-factor", "outer": "--outer-mm", "life": "--life-h", "joint": "--joint",
+}  # fmt: skip
 
 
 def _option(field: str) -> str:

@@ -43,21 +43,10 @@ CurveStep: TypeAlias = Annotated[
 ]
 
 SUFFIX = {
-    "torque": "Nm",
-    "speed": "rpm",
-    "span": "mm",
-    "outer": "mm",
-    "position": "mm",
-    "journal": "mm",
-    "bore": "mm",
-    "capacity": "N",
-    "length": "mm",
-    "mean_diameter": "mm",
-    "mass_centre": "mm",
-    "stiffness": "N_per_um",
-    "axial_stiffness": "N_per_um",
-    "tilt_stiffness": "Nm_per_rad",
-}
+    "torque": "Nm", "speed": "rpm", "span": "mm", "outer": "mm", "position": "mm", "journal": "mm", "bore": "mm",
+    "capacity": "N", "length": "mm", "mean_diameter": "mm", "mass_centre": "mm", "stiffness": "N_per_um",
+    "axial_stiffness": "N_per_um", "tilt_stiffness": "Nm_per_rad",
+}  # fmt: skip
 """Field of the drive -> unit that its key in a file is best given in."""
 
 

@@ -69,12 +69,9 @@ class Reading:
 
 
 OPTIONS = {
-    "rate": "--rate-hz",
-    "pulses_per_turn": "--pulses-per-turn",
-    "tacho": "--tacho",
-    "titles": "--title",
+    "rate": "--rate-hz", "pulses_per_turn": "--pulses-per-turn", "tacho": "--tacho", "titles": "--title",
     "full_scale": "--full-scale",
-}
+}  # fmt: skip
 """Argument of `cardan.recordings.load_recording` -> option."""
 
 

@@ -18,17 +18,9 @@ from cardan.units import mm
 from .torsion_band import Element, Out, SpeedBand, asked_of, band_of, check_out, elements_of, repeated, stepped, written
 
 OPTIONS = {
-    "kind": "--kind",
-    "inertia": "--inertia-kg-m2",
-    "inertia_ratio": "--ratio",
-    "station": "--at",
-    "mode": "--mode",
-    "order": "--order",
-    "radius": "--radius-mm",
-    "count": "--count",
-    "speeds": "--speeds",
-    "elements": "--element",
-}
+    "kind": "--kind", "inertia": "--inertia-kg-m2", "inertia_ratio": "--ratio", "station": "--at", "mode": "--mode",
+    "order": "--order", "radius": "--radius-mm", "count": "--count", "speeds": "--speeds", "elements": "--element",
+}  # fmt: skip
 """What the question calls by another name than the command."""
 
 

@@ -163,17 +163,9 @@ def _yoke(part: Part, shaft: int, centre: Array, outward: Array, arm: Array, rad
     corners = centre + np.concatenate((flat + thick, flat - thick))
     count = len(half)
     cap = (
-        (0, 1, 2),
-        (0, 2, 11),
-        (2, 3, 11),
-        (3, 10, 11),
-        (3, 4, 10),
-        (4, 9, 10),
-        (4, 5, 9),
-        (5, 8, 9),
-        (5, 6, 8),
+        (0, 1, 2), (0, 2, 11), (2, 3, 11), (3, 10, 11), (3, 4, 10), (4, 9, 10), (4, 5, 9), (5, 8, 9), (5, 6, 8),
         (6, 7, 8),
-    )
+    )  # fmt: skip
     return _prism(part, shaft, corners, count, cap)
 
 

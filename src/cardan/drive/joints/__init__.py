@@ -29,36 +29,11 @@ def register(*kinds: type[Joint]) -> None:
 
 
 register(
-    Hooke,
-    OffsetCross,
-    DoubleCardan,
-    ConstantVelocity,
-    Tracta,
-    Rzeppa,
-    Weiss,
-    Tripod,
-    HalfCardan,
-    ElasticHalfCardan,
-    PinCoupling,
-    Clemens,
-)
+    Hooke, OffsetCross, DoubleCardan, ConstantVelocity, Tracta, Rzeppa, Weiss, Tripod, HalfCardan, ElasticHalfCardan,
+    PinCoupling, Clemens,
+)  # fmt: skip
 
 __all__ = [
-    "DEFAULT",
-    "JOINTS",
-    "Clemens",
-    "ConstantVelocity",
-    "DoubleCardan",
-    "ElasticHalfCardan",
-    "HalfCardan",
-    "Hooke",
-    "Joint",
-    "OffsetCross",
-    "PinCoupling",
-    "Profile",
-    "Rzeppa",
-    "Tracta",
-    "Tripod",
-    "Weiss",
-    "register",
-]
+    "DEFAULT", "JOINTS", "Clemens", "ConstantVelocity", "DoubleCardan", "ElasticHalfCardan", "HalfCardan", "Hooke",
+    "Joint", "OffsetCross", "PinCoupling", "Profile", "Rzeppa", "Tracta", "Tripod", "Weiss", "register",
+]  # fmt: skip

@@ -84,18 +84,9 @@ class ElasticHalfCardan(Joint):
     kind: ClassVar[str] = "elastic_half_cardan"
     title: ClassVar[str] = mark("flexible coupling")
     types: ClassVar[tuple[str, ...]] = (
-        "el_disc",
-        "el_link",
-        "el_bush",
-        "el_hexagon",
-        "el_tyre_split",
-        "el_tyre_solid",
-        "el_petal3",
-        "el_petal8",
-        "el_circular_teeth",
-        "el_balls",
-        "disc_pack_modern",
-    )
+        "el_disc", "el_link", "el_bush", "el_hexagon", "el_tyre_split", "el_tyre_solid", "el_petal3", "el_petal8",
+        "el_circular_teeth", "el_balls", "disc_pack_modern",
+    )  # fmt: skip
     steepest: ClassVar[float] = math.radians(10.0)
     refusals: ClassVar[Mapping[str, str]] = {
         **REFUSALS,

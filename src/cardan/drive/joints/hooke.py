@@ -21,16 +21,9 @@ class Hooke(Joint):
     title: ClassVar[str] = mark("Hooke")
     beside: ClassVar[str] = "double_cardan"
     types: ClassVar[tuple[str, ...]] = (
-        "light",
-        "medium",
-        "heavy",
-        "super_heavy",
-        "rubber_bush_cross",
-        "hooke_bolt_cross",
-        "instrument_ring_tip",
-        "instrument_ball_disc",
-        "mill_rolling",
-    )
+        "light", "medium", "heavy", "super_heavy", "rubber_bush_cross", "hooke_bolt_cross", "instrument_ring_tip",
+        "instrument_ball_disc", "mill_rolling",
+    )  # fmt: skip
     foreign: ClassVar[frozenset[str]] = frozenset()
     fixed: ClassVar[bool] = True
     crossed: ClassVar[bool] = True

@@ -30,39 +30,19 @@ UNITS = {
 """Quantity -> unit -> factor to SI."""
 
 SI = {
-    "acceleration": "m_s2",
-    "velocity": "m_s",
-    "displacement": "m",
-    "angle": "rad",
-    "angular_speed": "rad_s",
-    "torque": "Nm",
-    "pulses": "",
-    "other": "",
-}
+    "acceleration": "m_s2", "velocity": "m_s", "displacement": "m", "angle": "rad", "angular_speed": "rad_s",
+    "torque": "Nm", "pulses": "", "other": "",
+}  # fmt: skip
 """Quantity -> unit in which it is kept."""
 
 WORDS = {
-    "acceleration": ("acceleration",),
-    "acc": ("acceleration",),
-    "accel": ("acceleration",),
-    "velocity": ("velocity",),
-    "vel": ("velocity",),
-    "displacement": ("displacement",),
-    "disp": ("displacement",),
-    "proximity": ("displacement",),
-    "angle": ("angle",),
-    "speed": ("angular_speed", "velocity"),
-    "rpm": ("angular_speed",),
-    "torque": ("torque",),
-    "pulses": ("pulses",),
-    "pulse": ("pulses",),
-    "tacho": ("pulses",),
-    "tachometer": ("pulses",),
-    "keyphasor": ("pulses",),
-    "phasor": ("pulses",),
-    "trigger": ("pulses",),
-    "other": ("other",),
-}
+    "acceleration": ("acceleration",), "acc": ("acceleration",), "accel": ("acceleration",),
+    "velocity": ("velocity",), "vel": ("velocity",), "displacement": ("displacement",), "disp": ("displacement",),
+    "proximity": ("displacement",), "angle": ("angle",), "speed": ("angular_speed", "velocity"),
+    "rpm": ("angular_speed",), "torque": ("torque",), "pulses": ("pulses",), "pulse": ("pulses",),
+    "tacho": ("pulses",), "tachometer": ("pulses",), "keyphasor": ("pulses",), "phasor": ("pulses",),
+    "trigger": ("pulses",), "other": ("other",),
+}  # fmt: skip
 """Word of a title -> what it may mean."""
 
 SHAKING = ("acceleration", "velocity", "displacement")
@@ -71,28 +51,10 @@ SHAKING = ("acceleration", "velocity", "displacement")
 PLACE = re.compile(r"(?:supports|shafts|joints)\[\d+\]")
 
 PRINTED = {
-    "ms-2": "m_s2",
-    "m_s_s": "m_s2",
-    "mm_s_s": "mm_s2",
-    "gn": "g",
-    "g's": "g",
-    "1_min": "rpm",
-    "min-1": "rpm",
-    "u_min": "rpm",
-    "r_min": "rpm",
-    "°": "deg",
-    "degree": "deg",
-    "degrees": "deg",
-    "°_s": "deg_s",
-    "ips": "in_s",
-    "inch": "in",
-    "mils": "mil",
-    "micron": "um",
-    "volt": "V",
-    "volts": "V",
-    "radian": "rad",
-    "radians": "rad",
-}
+    "ms-2": "m_s2", "m_s_s": "m_s2", "mm_s_s": "mm_s2", "gn": "g", "g's": "g", "1_min": "rpm", "min-1": "rpm",
+    "u_min": "rpm", "r_min": "rpm", "°": "deg", "degree": "deg", "degrees": "deg", "°_s": "deg_s", "ips": "in_s",
+    "inch": "in", "mils": "mil", "micron": "um", "volt": "V", "volts": "V", "radian": "rad", "radians": "rad",
+}  # fmt: skip
 """Units as other programs write them."""
 
 

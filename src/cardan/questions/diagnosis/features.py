@@ -40,27 +40,10 @@ from .signals.signal import Channel, Progress, Signal, Watch
 from .signals.turning import estimate_rotation
 
 NAMES = (
-    "order_1",
-    "order_2",
-    "order_2_unloaded",
-    "order_3",
-    "order_4",
-    "half_orders",
-    "at_centre",
-    "torque_on_1",
-    "turned_by_torque",
-    "torque_on_2",
-    "power_of_1",
-    "steep_at_top",
-    "power_of_2",
-    "peak_of_2",
-    "peak_of_3",
-    "at_third",
-    "axial_share",
-    "knocks_1",
-    "knocks_2",
-    "uneven",
-)
+    "order_1", "order_2", "order_2_unloaded", "order_3", "order_4", "half_orders", "at_centre", "torque_on_1",
+    "turned_by_torque", "torque_on_2", "power_of_1", "steep_at_top", "power_of_2", "peak_of_2", "peak_of_3",
+    "at_third", "axial_share", "knocks_1", "knocks_2", "uneven",
+)  # fmt: skip
 """Names of the features, in the order of the calibration."""
 
 SAME_SPEED = 0.04

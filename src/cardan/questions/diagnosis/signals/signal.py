@@ -15,15 +15,9 @@ from cardan.texts import _
 from cardan.units import nearest
 
 QUANTITIES = {
-    "acceleration": "acceleration",
-    "velocity": "speed",
-    "displacement": "length",
-    "angle": "angle",
-    "angular_speed": "angular_speed",
-    "torque": "torque",
-    "pulses": "",
-    "other": "",
-}
+    "acceleration": "acceleration", "velocity": "speed", "displacement": "length", "angle": "angle",
+    "angular_speed": "angular_speed", "torque": "torque", "pulses": "", "other": "",
+}  # fmt: skip
 """What a channel can measure -> its dimension in `cardan.units.DIMENSIONS`; empty for what has none."""
 
 DIRECTIONS = ("x", "y", "z", "radial", "axial", "torsion", "")
