@@ -236,13 +236,8 @@ def rubber(radius: float, *, wide: bool) -> Surface:
     width = (1.3 if wide else 0.7) * radius
     low, high = 1.72 * radius, 2.28 * radius
     bulge = [
-        (-0.5, low),
-        (-0.42, 0.5 * (low + high)),
-        (-0.5, high),
-        (0.5, high),
-        (0.42, 0.5 * (low + high)),
-        (0.5, low),
-    ]
+        (-0.5, low), (-0.42, 0.5 * (low + high)), (-0.5, high), (0.5, high), (0.42, 0.5 * (low + high)), (0.5, low),
+    ]  # fmt: skip
     return revolved([(width * x, r) for x, r in [*bulge, bulge[0]]], 32)
 
 

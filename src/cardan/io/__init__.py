@@ -7,22 +7,7 @@ from .examples import example, example_mechanism, example_names, example_text, m
 from .schema import mechanism_reference, mechanism_schema, reference, schema
 
 __all__ = [
-    "dumps",
-    "example",
-    "example_mechanism",
-    "example_names",
-    "example_text",
-    "load",
-    "load_either",
-    "load_mechanism",
-    "loads",
-    "loads_either",
-    "loads_mechanism",
-    "mechanism_names",
-    "mechanism_reference",
-    "mechanism_schema",
-    "recording_names",
-    "reference",
-    "schema",
-    "starter",
-]
+    "dumps", "example", "example_mechanism", "example_names", "example_text", "load", "load_either", "load_mechanism",
+    "loads", "loads_either", "loads_mechanism", "mechanism_names", "mechanism_reference", "mechanism_schema",
+    "recording_names", "reference", "schema", "starter",
+]  # fmt: skip

@@ -464,13 +464,8 @@ def _sleeve(slip: Slip, body: float, low: float, high: float) -> Surface:
     length = abs(open_ - shut) - mouth
     neck = min(0.25 * length, 0.4 * abs(body - wall))
     profile = [
-        (0.0, 0.0),
-        (0.0, body),
-        (neck, wall),
-        (length - 0.2 * mouth, wall),
-        (length, 1.09 * wall),
-        (length, 0.0),
-    ]
+        (0.0, 0.0), (0.0, body), (neck, wall), (length - 0.2 * mouth, wall), (length, 1.09 * wall), (length, 0.0),
+    ]  # fmt: skip
     solid = revolved(profile, 28)
     teeth = toothed(1.03 * slip.root, 1.03 * slip.tip, slip.teeth)
     ring = placed(plate(1.09 * wall * teeth / np.linalg.norm(teeth, axis=-1, keepdims=True), 0.0, mouth, teeth), ACROSS)

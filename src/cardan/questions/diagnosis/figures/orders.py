@@ -39,15 +39,10 @@ BELIEVED = 0.6
 """Confidence below which the sentence says so."""
 
 DIMENSIONS = {
-    "acceleration": ("acceleration", "m_s2"),
-    "velocity": ("speed", "mm_s"),
-    "displacement": ("displacement", "um"),
-    "angle": ("angle", "deg"),
-    "angular_speed": ("angular_speed", "rpm"),
-    "torque": ("torque", "Nm"),
-    "pulses": ("", ""),
-    "other": ("", ""),
-}
+    "acceleration": ("acceleration", "m_s2"), "velocity": ("speed", "mm_s"), "displacement": ("displacement", "um"),
+    "angle": ("angle", "deg"), "angular_speed": ("angular_speed", "rpm"), "torque": ("torque", "Nm"),
+    "pulses": ("", ""), "other": ("", ""),
+}  # fmt: skip
 """Quantity -> dimension and usual unit on an axis."""
 
 
