@@ -20,13 +20,11 @@ from cardan.texts import _
 from .quantity import Joined, Quantity, Text, told
 from .reader import Reader, raised
 
-Tone: TypeAlias = Literal["plain", "good", "warning", "failed", "next"]
-"""How good it is; ``"next"`` is a step to take."""
+Tone: TypeAlias = Literal["plain", "good", "warning", "failed", "next"]  # how good it is; ``"next"`` is a step to take
 
 Depth: TypeAlias = Literal["brief", "full", "data"]
 
-FILE = "FILE"
-"""In a command to type next: the file that was asked about."""
+FILE = "FILE"  # in a command to type next: the file that was asked about
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -210,8 +208,7 @@ def words_of(value: Any, reader: Reader) -> Any:
 
 # Checks of an answer on itself, and how closely they hold: digits beyond the power of ten are the processor's.
 
-SHORT = -2
-"""Powers of ten from this on are written out."""
+SHORT = -2  # powers of ten from this on are written out
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,8 +15,7 @@ from .answer import Answer, Column, Table, bare, words_of
 from .quantity import Quantity, told
 from .reader import Reader
 
-BUFFER = 1 << 16
-"""Letters of CSV that are written at once."""
+BUFFER = 1 << 16  # letters of CSV that are written at once
 
 
 def data(answer: Answer, reader: Reader) -> dict[str, Any]:

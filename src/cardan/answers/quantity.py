@@ -11,11 +11,8 @@ from cardan.texts import _
 
 from .reader import THIN, Reader
 
-ROUNDING = 1e-13
-"""A share below this is nothing but rounding."""
-
-TOUCHING = ("°", "′", "″")
-"""Units that stand right behind their number."""
+ROUNDING = 1e-13  # a share below this is nothing but rounding
+TOUCHING = ("°", "′", "″")  # units that stand right behind their number
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,11 +14,8 @@ from cardan.units import DIMENSIONS, label, nearest, preferred, thousands
 
 # Numbers as people read them: significant digits, a true minus, thin groups of thousands, powers of ten.
 
-COMMA = ("ru",)
-"""Languages whose decimal sign is the comma."""
-
-THIN = "\u202f"
-"""Narrow blank within numbers."""
+COMMA = ("ru",)  # languages whose decimal sign is the comma
+THIN = "\u202f"  # narrow blank within numbers
 
 
 def significant(value: float, digits: int = 4) -> str:
@@ -139,8 +136,7 @@ def _unknown(units: Mapping[str, str]) -> Iterator[Problem]:
         yield Problem("--unit", said + (_(" - did you mean {near}?").format(near=near) if near else ""))
 
 
-USUAL = Reader()
-"""Usual units, decimal sign of the language."""
+USUAL = Reader()  # usual units, decimal sign of the language
 
 _reading: ContextVar[Reader] = ContextVar("cardan_reader", default=USUAL)
 

@@ -10,8 +10,7 @@ from typing import Any
 
 from cardan.units import DIMENSIONS
 
-MODES = 3
-"""How many natural frequencies and critical speeds are told."""
+MODES = 3  # how many natural frequencies and critical speeds are told
 
 
 @dataclass(frozen=True, kw_only=True)

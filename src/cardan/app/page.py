@@ -129,13 +129,11 @@ STATIC = Path(__file__).parent / "static"
 
 ICON = STATIC / "icon.svg"
 
-CHOSEN = "cardan_choices"
-"""Cookie with the choices of a user."""
+CHOSEN = "cardan_choices"  # cookie with the choices of a user
 
 YEAR = 365 * 24 * 3600
 
-LATER = 0.08
-"""Seconds by which the form, the text and the view in space follow the curves and the verdicts."""
+LATER = 0.08  # seconds by which the form, the text and the view in space follow the curves and the verdicts
 
 
 def serve_files(app: Any) -> None:

@@ -25,12 +25,10 @@ from .state.session import Session, choices_of
 nicegui = later("nicegui", mark("the app needs NiceGUI: pip install 'cardan[app]'"))
 pages = later("cardan.app.page")
 
-PORT = 8321
-"""Port that is tried first; any free one when it is taken and none was asked for."""
+PORT = 8321  # port that is tried first; any free one when it is taken and none was asked for
 
 
-RECONNECT = 30.0
-"""Seconds that a busy or sleeping browser may be silent without losing its page."""
+RECONNECT = 30.0  # seconds that a busy or sleeping browser may be silent without losing its page
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,20 +140,11 @@ def _port(how: Start) -> int:
 
 COOKIE = "cardan_token"
 
-VISITOR = "cardan_visitor"
-"""Cookie that tells the visitors of a shared server apart."""
-
-LOCAL = ("127.0.0.1", "localhost", "::1")
-"""Names of this machine that need no token."""
-
-LARGEST = 4_000_000
-"""Bytes of a request at most: a drive file of the largest size and what goes with it."""
-
-LARGEST_SENT = 102_000_000
-"""The same of a request that sends a file: a recording of the largest size."""
-
-SENT = "/_nicegui/client/"
-"""Where NiceGUI takes the files that a page is sent."""
+VISITOR = "cardan_visitor"  # cookie that tells the visitors of a shared server apart
+LOCAL = ("127.0.0.1", "localhost", "::1")  # names of this machine that need no token
+LARGEST = 4_000_000  # bytes of a request at most: a drive file of the largest size and what goes with it
+LARGEST_SENT = 102_000_000  # the same of a request that sends a file: a recording of the largest size
+SENT = "/_nicegui/client/"  # where NiceGUI takes the files that a page is sent
 
 App: TypeAlias = Any
 

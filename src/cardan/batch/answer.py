@@ -18,11 +18,8 @@ from .sweep import SweepWork
 from .table.swept import Sweep
 from .work import Column as Field
 
-SHOWN = 12
-"""Rows of a table that are shown where no reduction is asked for."""
-
-GROUPS = 24
-"""Groups of a reduction that are shown."""
+SHOWN = 12  # rows of a table that are shown where no reduction is asked for
+GROUPS = 24  # groups of a reduction that are shown
 
 
 def answer(work: SweepWork, found: Sweep, plan: Path, *, keeps: bool) -> Answer:

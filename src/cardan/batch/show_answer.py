@@ -24,14 +24,9 @@ from .work import Rows
 
 # What ``cardan sweep show`` was asked: the rows that are told, and the pictures that suit them.
 
-DRAWN = 500
-"""Points that are drawn as lines."""
-
-DOTTED = 3000
-"""Points that are drawn as dots."""
-
-FEW = 160
-"""Values of a field that make a map of its own grid."""
+DRAWN = 500  # points that are drawn as lines
+DOTTED = 3000  # points that are drawn as dots
+FEW = 160  # values of a field that make a map of its own grid
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -170,17 +165,10 @@ class Asked:
         return ranks_figure(ranks_of(self.results, self._drawn(), where=self.where))
 
 
-SHOWN = 12
-"""Rows that people are shown."""
-
-WIDEST = 8
-"""Columns of rows that people are shown; all are in CSV and JSON."""
-
-LISTED = 10_000
-"""Rows that JSON holds."""
-
-LONG = 24
-"""Letters of a heading at most; a column with more is called by its name in the table."""
+SHOWN = 12  # rows that people are shown
+WIDEST = 8  # columns of rows that people are shown; all are in CSV and JSON
+LISTED = 10_000  # rows that JSON holds
+LONG = 24  # letters of a heading at most; a column with more is called by its name in the table
 
 
 def answer(asked: Asked, exported: tuple[Path, int] | None = None) -> Answer:

@@ -116,8 +116,7 @@ def sweep(
 BLOCK = 2**13
 """Points that are answered at a time: their arrays stay in the caches, in memory that is not given back each time."""
 
-GATHERED = 2**16
-"""Points that are summed up at a time."""
+GATHERED = 2**16  # points that are summed up at a time
 
 RUNS = 8
 """Runs of blocks that are summed up apart, whatever the number of processors, so that sums round alike anywhere."""

@@ -16,8 +16,7 @@ from cardan.maths.arrays import Array
 Role: TypeAlias = Literal["point", "answer", "status"]
 """What a column holds: where the point lies, what was answered there, how that went."""
 
-Rows: TypeAlias = dict[str, Array]
-"""Rows of a table: one array (n,) for each column, by its name, in the column's unit."""
+Rows: TypeAlias = dict[str, Array]  # rows of a table: one array (n,) for each column, by its name, in the column's unit
 
 State: TypeAlias = Any
 """What a reduction has seen so far: lists, numbers, texts and None, nothing else, so that JSON holds it exactly."""
@@ -33,8 +32,7 @@ class Status(IntEnum):
     """The drive exists; a question has no answer there."""
 
 
-STATUS = "status"
-"""Name of the column with the `Status` of each point."""
+STATUS = "status"  # name of the column with the `Status` of each point
 
 FEASIBLE = "feasible"
 """Name of the column that tells whether a point was answered and keeps every constraint; there where any is set."""
@@ -114,23 +112,15 @@ class Work(Protocol):
 
 # Pieces of a sweep: idempotent, named by what they hold, of a size that pays and fits.
 
-TARGET = 0.5
-"""Seconds that a chunk should take: long against handing it over, short against being stopped or killed."""
-
-ROOM = 2**28
-"""Bytes that the making of one chunk may take."""
-
-MOST = 20_000
-"""How many chunks a sweep is cut into at most, as far as `ROOM` lets it: each is a file."""
-
-ENOUGH = 0.05
-"""Seconds that a trial has to last to be believed."""
+TARGET = 0.5  # seconds that a chunk should take: long against handing it over, short against being stopped or killed
+ROOM = 2**28  # bytes that the making of one chunk may take
+MOST = 20_000  # how many chunks a sweep is cut into at most, as far as `ROOM` lets it: each is a file
+ENOUGH = 0.05  # seconds that a trial has to last to be believed
 
 SMALL = 64
 """A sweep of so few points that take long has each in a chunk of its own: trying others would be half the work."""
 
-UNKNOWN = 256
-"""Rows of a chunk where none could be evaluated to see how long they take."""
+UNKNOWN = 256  # rows of a chunk where none could be evaluated to see how long they take
 
 
 @dataclass(frozen=True, slots=True)

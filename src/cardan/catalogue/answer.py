@@ -33,8 +33,7 @@ SHOWN = {
 }
 """Table -> keys that stand for people, where not all of them fit."""
 
-WIDE, BRIEF = 18, 5
-"""Widest text, and how many keys, of other tables for people."""
+WIDE, BRIEF = 18, 5  # widest text, and how many keys, of other tables for people
 
 SURE = {
     "confirmed": mark("confirmed by the source"),

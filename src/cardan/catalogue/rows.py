@@ -328,12 +328,10 @@ R = TypeVar("R", bound=Row)
 SENTENCES = ("source", "note", "name", "family", "treatment", "lubricant", "fault", "inspection", "repair")
 """Fields of rows that people read and no program compares."""
 
-WORDS = ("parts", "uses")
-"""Fields of rows with a list of such words; rows keep them as they are, for they are compared."""
+WORDS = ("parts", "uses")  # fields of rows with a list of such words; rows keep them as they are, for they are compared
 
 
-USUAL: Mapping[str, str] = MappingProxyType({})
-"""No other units than those we write."""
+USUAL: Mapping[str, str] = MappingProxyType({})  # no other units than those we write
 
 
 class RowKey(NamedTuple):

@@ -19,8 +19,7 @@ from cardan.texts import DOMAIN, FOLDER, LANGUAGES, _, language, speaking
 
 app, failure = later("cardan.cli.app"), later("cardan.cli.shared.failure")
 """The parser, and what is said when something goes wrong: they load while an early ctrl-C is answered already."""
-readers = later("cardan.answers.reader")
-"""In what units and signs the reader is told; the help needs none."""
+readers = later("cardan.answers.reader")  # in what units and signs the reader is told; the help needs none
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -15,8 +15,7 @@ from cardan.units import mm
 from .material import Material
 from .shaft import Shaft
 
-FITS = 1e-3
-"""Stretches may miss the length of their shaft by this share; they are stretched to fit."""
+FITS = 1e-3  # stretches may miss the length of their shaft by this share; they are stretched to fit
 
 
 class Piece(NamedTuple):

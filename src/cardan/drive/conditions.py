@@ -22,8 +22,7 @@ from .duty import Case, Duty, Harmonic
 from .fields.paths import pose_drives
 from .models.geometry import in_form
 
-ROUNDING = 1e-9
-"""What is left of the time by less than this is none."""
+ROUNDING = 1e-9  # what is left of the time by less than this is none
 
 
 @dataclass(frozen=True, kw_only=True)

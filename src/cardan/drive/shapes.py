@@ -9,17 +9,10 @@ import numpy as np
 from cardan.maths.arrays import Array
 from cardan.maths.kernel.meshes import Surface, box, circle, joined, placed, plate, revolved, swept
 
-Y_FIRST = np.asarray([(0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)])
-"""Carries what is turned about x to y."""
-
-Z_FIRST = np.asarray([(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)])
-"""Carries what is turned about x to z."""
-
-EDGEWISE = np.asarray([(1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)])
-"""Carries a plate in x, y to one in x, z."""
-
-ACROSS = np.asarray([(0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)])
-"""Carries a plate in x, y to one in y, z."""
+Y_FIRST = np.asarray([(0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)])  # carries what is turned about x to y
+Z_FIRST = np.asarray([(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)])  # carries what is turned about x to z
+EDGEWISE = np.asarray([(1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)])  # carries a plate in x, y to one in x, z
+ACROSS = np.asarray([(0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)])  # carries a plate in x, y to one in y, z
 
 
 @lru_cache(maxsize=256)

@@ -8,8 +8,7 @@ from .body import body_length
 from .described import Described
 from .shaft import Shaft
 
-SAME = 1e-9
-"""Places of a shaft nearer than this share of its length, or of a metre, are one."""
+SAME = 1e-9  # places of a shaft nearer than this share of its length, or of a metre, are one
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -10,8 +10,7 @@ from .fields.parts import known_lengths
 from .joints import Joint
 from .shaft import PointMass, Shaft
 
-BESIDE = 1.5
-"""Spans of a joint within which a part that a shaft carries is taken for its yoke."""
+BESIDE = 1.5  # spans of a joint within which a part that a shaft carries is taken for its yoke
 
 
 def yoke_mass(joint: Joint) -> float:

@@ -208,8 +208,7 @@ def _inner(here: Any, steps: tuple[Step, ...], k: int) -> Any:
 
 _PLACE = re.compile(r"\b(joints|shafts)\[(\d+)\]")
 
-Moved = Callable[[int], int | None]
-"""Index before -> index behind; None for what goes."""
+Moved = Callable[[int], int | None]  # index before -> index behind; None for what goes
 
 
 @tables_only("joints")

@@ -14,14 +14,9 @@ from cardan.texts import mark
 
 xlsxwriter = later("xlsxwriter", mark("a workbook needs XlsxWriter: pip install 'cardan[xlsx]'"))
 
-MOST_ROWS = 1_048_576
-"""Rows of a sheet."""
-
-MOST_LETTERS = 32_767
-"""Letters of a cell."""
-
-NAME_LETTERS = 31
-"""Letters of a sheet's name."""
+MOST_ROWS = 1_048_576  # rows of a sheet
+MOST_LETTERS = 32_767  # letters of a cell
+NAME_LETTERS = 31  # letters of a sheet's name
 
 UNREADABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufeff\ufffe\uffff]")
 """Marks of control and halves of letters: no such file may hold them."""
@@ -35,8 +30,7 @@ PICTURE = re.compile(
 )
 """Place of a picture that reaches from one cell to another, in a sheet's drawing."""
 
-LONGEST_TITLE = 250
-"""Letters of a title among the properties."""
+LONGEST_TITLE = 250  # letters of a title among the properties
 
 QUIET = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
 """Words that look like a formula, an address or a number are words."""

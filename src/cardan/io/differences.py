@@ -14,11 +14,8 @@ from cardan.units import DIMENSIONS, label
 
 from .drive_file import whole
 
-MOST = 12
-"""Significant digits that count: 20° and 20° calculated otherwise are the same."""
-
-LONG = 7
-"""Letters of a number above which a unit is looked for that makes it shorter."""
+MOST = 12  # significant digits that count: 20° and 20° calculated otherwise are the same
+LONG = 7  # letters of a number above which a unit is looked for that makes it shorter
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,8 +18,7 @@ from cardan.texts import _
 
 from .reader import drive_from_tree, read_as
 
-MAX_BYTES = 20_000_000
-"""Larger files are refused; no more of them is read."""
+MAX_BYTES = 20_000_000  # larger files are refused; no more of them is read
 
 
 def load(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Drive:

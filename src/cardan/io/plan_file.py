@@ -25,14 +25,9 @@ from cardan.texts import _
 
 from .drive_file import known_to, load, parsed, text_of
 
-FORMAT = 1
-"""Version of the plan file."""
-
-ENGINES = ("in-process", "processes", "cluster")
-"""Where a sweep may be worked on."""
-
-KEYS = ("search", "sensitivity", "boundary")
-"""Tables of designs that choose their points themselves; read by those."""
+FORMAT = 1  # version of the plan file
+ENGINES = ("in-process", "processes", "cluster")  # where a sweep may be worked on
+KEYS = ("search", "sensitivity", "boundary")  # tables of designs that choose their points themselves; read by those
 
 
 @dataclass(frozen=True, kw_only=True)

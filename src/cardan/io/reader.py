@@ -129,8 +129,7 @@ OTHER_WORDS = {
 }  # fmt: skip
 """Words of other texts for our fields."""
 
-CLOSE = 0.8
-"""Two keys so alike are taken for the same before other tables are looked at."""
+CLOSE = 0.8  # two keys so alike are taken for the same before other tables are looked at
 
 
 def meant(cls: type, key: str) -> str:

@@ -17,8 +17,7 @@ from cardan.files import refusal, write_text
 from cardan.texts import _, mark
 from cardan.units import DIMENSIONS
 
-MIN_ROWS = 4
-"""A twice differentiable spline needs so many rows."""
+MIN_ROWS = 4  # a twice differentiable spline needs so many rows
 
 
 def read_shifts(path: Path) -> tuple[tuple[float, ...], tuple[Point, ...]]:
@@ -87,8 +86,7 @@ def _text(thing: Table | TorqueHistory | History) -> str:
 
 # CSV files of measured or computed values over time, with the unit of every column in its title.
 
-MAX_BYTES = 100_000_000
-"""Larger files are refused; no more of them is read."""
+MAX_BYTES = 100_000_000  # larger files are refused; no more of them is read
 
 NUMBERS = ("", mark("a number"), mark("two numbers"), mark("three numbers"), mark("four numbers"))
 

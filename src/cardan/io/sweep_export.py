@@ -22,11 +22,8 @@ from cardan.units import label
 
 from .book import MOST_ROWS, opened, put, sheet_name
 
-SUFFIXES = (".csv", ".parquet", ".xlsx")
-"""Kinds of file that `export` writes."""
-
-WIDEST = 34
-"""Letters of the widest column of a sheet."""
+SUFFIXES = (".csv", ".parquet", ".xlsx")  # kinds of file that `export` writes
+WIDEST = 34  # letters of the widest column of a sheet
 
 
 def export(results: Results, path: str | Path, *, rows: Rows | None = None, where: str = "") -> int:

@@ -11,8 +11,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from cardan.units import DIMENSIONS, KEY, Key, preferred
 
-WORD_OR_FLAG: Any = bool | str
-"""Type of a field that is true, false or one of its words."""
+WORD_OR_FLAG: Any = bool | str  # type of a field that is true, false or one of its words
 
 
 @dataclass(frozen=True, slots=True)

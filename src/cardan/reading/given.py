@@ -13,14 +13,9 @@ from cardan.units import DIMENSIONS, Key, factor
 
 Kind: TypeAlias = Literal["numbers", "whole", "table", "word", "flag", "rows", "record"]
 
-REQUIRED: Any = object()
-"""Default of an input that must be given."""
-
-RIGHT = 0.5 * math.pi
-"""A right angle."""
-
-BY_UNIT = "by unit"
-"""In place of a dimension: the first one that has the unit in the key."""
+REQUIRED: Any = object()  # default of an input that must be given
+RIGHT = 0.5 * math.pi  # a right angle
+BY_UNIT = "by unit"  # in place of a dimension: the first one that has the unit in the key
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -173,8 +168,7 @@ def gives(key: str, doc: str, dimension: str | None = BY_UNIT) -> Gives:
     return Gives(key=key, doc=doc, dimension=dimension, unit=unit_of(key, dimension), of=of)
 
 
-LEAST = "min"
-"""A word of keys that is not the unit of its name."""
+LEAST = "min"  # a word of keys that is not the unit of its name
 
 _UNITS = {unit: name for name, units in reversed(DIMENSIONS.items()) for unit in units if unit != LEAST}
 """Unit -> the first dimension that has it."""

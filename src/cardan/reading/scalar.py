@@ -13,11 +13,8 @@ from cardan.units import Key, nearest
 from .fields import WORD_OR_FLAG
 from .ranges import in_range, out_of_range, range_code
 
-SCALARS = (float, int, bool, str, WORD_OR_FLAG)
-"""Types of one value."""
-
-ANY = Key("")
-"""Key of a number of any size, which is no quantity of a drive."""
+SCALARS = (float, int, bool, str, WORD_OR_FLAG)  # types of one value
+ANY = Key("")  # key of a number of any size, which is no quantity of a drive
 
 
 @dataclass(frozen=True, slots=True)

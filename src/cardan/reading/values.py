@@ -16,8 +16,7 @@ from cardan.units import factor
 from .given import Given, unit_of, without_unit
 from .scalar import Wrong, scalar, unknown_key
 
-TYPES = {"word": str, "flag": bool, "whole": int}
-"""Kind of an input -> type of its scalars; all others hold numbers."""
+TYPES = {"word": str, "flag": bool, "whole": int}  # kind of an input -> type of its scalars; all others hold numbers
 
 
 class Values(dict[str, Any]):

@@ -24,8 +24,7 @@ from .block import Listing, Page, Points, Words, page
 from .subject import Progress, Subject
 from .summary import steep_joints
 
-Choices: TypeAlias = Mapping[str, Any]
-"""What the user chose beside the drive."""
+Choices: TypeAlias = Mapping[str, Any]  # what the user chose beside the drive
 
 
 def subject(drive: Drive, *, known: Catalogue | None = None) -> Subject:

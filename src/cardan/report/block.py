@@ -21,8 +21,7 @@ from cardan.figures import Figure
 from cardan.figures.for_reader import for_reader
 from cardan.texts import _
 
-Text: TypeAlias = Any
-"""A `cardan.answers.quantity.Text` where a page is made, a str on the page."""
+Text: TypeAlias = Any  # a `cardan.answers.quantity.Text` where a page is made, a str on the page
 
 
 def shown(text: Text) -> str:
@@ -120,8 +119,7 @@ def verdict_columns() -> tuple[Column, ...]:
 
 # An answer as a page of the report, for one reader: HTML, PDF, workbook and app show it.
 
-MOST = 1000.0
-"""A limit that is exceeded more often is told as exceeded beyond that."""
+MOST = 1000.0  # a limit that is exceeded more often is told as exceeded beyond that
 
 
 def page(answer: Answer, reader: Reader, depth: Depth = "full") -> Page:

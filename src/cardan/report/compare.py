@@ -37,14 +37,9 @@ PAGES = (
 )  # fmt: skip
 """Parts of the report whose key figures are compared."""
 
-ALIKE = 1e-9
-"""Relative difference below which two figures are the same."""
-
-MOST = 40
-"""Verdicts listed."""
-
-MOST_USED = 1000.0
-"""A limit that is exceeded more often is told as exceeded beyond that."""
+ALIKE = 1e-9  # relative difference below which two figures are the same
+MOST = 40  # verdicts listed
+MOST_USED = 1000.0  # a limit that is exceeded more often is told as exceeded beyond that
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -20,17 +20,10 @@ from cardan.texts import _
 from .block import Page, Points, Words
 from .block import page as page_of
 
-Progress: TypeAlias = Callable[[float], object]
-"""Told the share done; may answer "stop"."""
-
-READING = 0.4
-"""Share of the work that reading a file is, about."""
-
-SUFFIXES = tuple(SIGNAL_FORMATS)
-"""What recordings are called at their end."""
-
-WAYS = tuple(one for one in DIRECTIONS if one)
-"""Directions in which a sensor can look."""
+Progress: TypeAlias = Callable[[float], object]  # told the share done; may answer "stop"
+READING = 0.4  # share of the work that reading a file is, about
+SUFFIXES = tuple(SIGNAL_FORMATS)  # what recordings are called at their end
+WAYS = tuple(one for one in DIRECTIONS if one)  # directions in which a sensor can look
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -34,8 +34,7 @@ from cardan.register import QUESTIONS
 
 Progress = Callable[[float], object]
 
-ALONE = 12
-"""In drives with more joints than this, single yokes are not tried one by one."""
+ALONE = 12  # in drives with more joints than this, single yokes are not tried one by one
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

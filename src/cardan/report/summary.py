@@ -25,11 +25,8 @@ from cardan.units import deg
 from .block import Page, Table, Tone, Words, capital, shown, table
 from .subject import Subject
 
-ILL = 80.0
-"""Joint angle [°] above which rounding grows so much that the last digits mean nothing."""
-
-SAME = 1e-6
-"""Yokes that differ by less than this [rad] are one and the same setting."""
+ILL = 80.0  # joint angle [°] above which rounding grows so much that the last digits mean nothing
+SAME = 1e-6  # yokes that differ by less than this [rad] are one and the same setting
 
 
 def judgement(on: Subject, pages: Sequence[Page] = ()) -> Words:

@@ -25,8 +25,7 @@ from cardan.texts import _, plural
 from .block import capital
 from .subject import Progress, Subject
 
-REMEDIES = 3
-"""Cures of a verdict; those after them move the drive more."""
+REMEDIES = 3  # cures of a verdict; those after them move the drive more
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,8 +122,7 @@ __all__ = ["MOST", "Light", "lights", "sentence", "with_remedies"]
 
 # What can be put into a drive file with one touch: settings of the yokes, and changes that cure failed verdicts.
 
-SHOWN = 3
-"""Settings with spline teeth beside the exact ones."""
+SHOWN = 3  # settings with spline teeth beside the exact ones
 
 
 @dataclass(frozen=True, kw_only=True)

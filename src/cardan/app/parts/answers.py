@@ -25,14 +25,9 @@ from . import widgets
 from .blocks import Export, PageView
 from .widgets import Timer
 
-AT_ONCE = ("motion",)
-"""Answers so quick that they are made while the edit is worked on."""
-
-QUIET = 0.4
-"""Seconds without an edit after which a long answer is begun."""
-
-LOOK = 0.15
-"""Seconds between two looks at how far a long answer is."""
+AT_ONCE = ("motion",)  # answers so quick that they are made while the edit is worked on
+QUIET = 0.4  # seconds without an edit after which a long answer is begun
+LOOK = 0.15  # seconds between two looks at how far a long answer is
 
 
 class Answers:

@@ -23,8 +23,7 @@ from cardan.texts import _
 
 from .widgets import Live
 
-Export: TypeAlias = Callable[[Figure | Page], object]
-"""What takes a figure or a page away from the app, into a file."""
+Export: TypeAlias = Callable[[Figure | Page], object]  # what takes a figure or a page away from the app, into a file
 
 BUTTONS = "(event) => { const one = event.target.closest('[data-do]'); if (one) emit(one.dataset.do); }"
 """Tells which button of a table was pressed."""

@@ -21,8 +21,7 @@ from .answers import Sheet
 from .blocks import Export, PageView
 from .widgets import drop_down, sending
 
-MOST_PULSES = 10_000
-"""Pulses that a tacho gives in a turn at most."""
+MOST_PULSES = 10_000  # pulses that a tacho gives in a turn at most
 
 
 class Diagnosis(Sheet):

@@ -22,8 +22,7 @@ from .widgets import asking, drop_down
 
 # A paper on its way: how far it is, a button to stop it, and what becomes of it.
 
-LOOK = 0.2
-"""Seconds between two looks."""
+LOOK = 0.2  # seconds between two looks
 
 
 class Making:

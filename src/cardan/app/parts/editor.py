@@ -52,8 +52,7 @@ class Editor:
 
 # The drive file as text, both ways in step with everything else.
 
-QUIET = 0.4
-"""Seconds without a key after which the text is read."""
+QUIET = 0.4  # seconds without a key after which the text is read
 
 
 class Source:

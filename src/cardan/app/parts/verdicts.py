@@ -20,14 +20,9 @@ from cardan.texts import _
 from .answers import applied
 from .widgets import Live, Timer
 
-QUIET = 0.4
-"""Seconds without an edit after which cures are looked for."""
-
-SOON = 0.002
-"""Seconds by which verdicts follow the curves."""
-
-LOOK = 0.2
-"""Seconds between two looks whether they were found."""
+QUIET = 0.4  # seconds without an edit after which cures are looked for
+SOON = 0.002  # seconds by which verdicts follow the curves
+LOOK = 0.2  # seconds between two looks whether they were found
 
 PRESSED = """(event) => {
   const button = event.target.closest('[data-do]');

@@ -20,17 +20,10 @@ from cardan.texts import _
 
 from .widgets import Timer, drop_down
 
-TURNING = -1
-"""In place of the index of a mode shape: the drive turns."""
-
-LOADED = ("forces", "couples")
-"""Groups that need the forces of the drive."""
-
-QUIET = 0.35
-"""Seconds without an edit after which utilisations, forces and mode shapes are calculated anew."""
-
-SOON = 0.02
-"""Seconds by which the view follows the form."""
+TURNING = -1  # in place of the index of a mode shape: the drive turns
+LOADED = ("forces", "couples")  # groups that need the forces of the drive
+QUIET = 0.35  # seconds without an edit after which utilisations, forces and mode shapes are calculated anew
+SOON = 0.02  # seconds by which the view follows the form
 
 FOLLOWING = (
     "if(!window.cardanPhi){window.cardanPhi=true;let last=0;addEventListener('cardan-angle',e=>{"

@@ -131,8 +131,7 @@ def sending(
 
 # What the page tells in passing.
 
-READ = 8000
-"""Milliseconds that leave time to read several lines."""
+READ = 8000  # milliseconds that leave time to read several lines
 
 
 def refused(why: InputError | str) -> None:

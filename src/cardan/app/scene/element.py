@@ -20,8 +20,7 @@ from nicegui.element import Element
 
 from cardan.texts import _
 
-PIECE = 400_000
-"""Characters of a picture in one message; a message of a megabyte would break the connection."""
+PIECE = 400_000  # characters of a picture in one message; a message of a megabyte would break the connection
 
 Message = dict[str, Any]
 

@@ -20,11 +20,8 @@ from .form import tree_of
 
 # Undo and redo: every text that the drive file was.
 
-DEPTH = 200
-"""Steps kept."""
-
-ROOM = 20_000_000
-"""Characters kept at most, of long files fewer steps."""
+DEPTH = 200  # steps kept
+ROOM = 20_000_000  # characters kept at most, of long files fewer steps
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,11 +53,8 @@ class History:
 
 # The folder a user works in: no path outside it is read or written.
 
-MAX_UPLOAD = 2_000_000
-"""Bytes of a file that a user may send."""
-
-MAX_LISTED = 200
-"""Files that are listed."""
+MAX_UPLOAD = 2_000_000  # bytes of a file that a user may send
+MAX_LISTED = 200  # files that are listed
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,8 +22,7 @@ Sort: TypeAlias = Literal[
     "number", "whole", "text", "choice", "flag", "point", "numbers", "words", "named", "table", "tables", "changes"
 ]
 
-LONG = ("note",)
-"""Texts of several lines."""
+LONG = ("note",)  # texts of several lines
 
 OFFERED = {"type": "joint_types", "size": "joint_sizes", "grade": "materials", "norm": "angle_norms"}
 """Field -> table of the catalogue whose rows it may name."""

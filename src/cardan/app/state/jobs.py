@@ -16,14 +16,9 @@ from .worker import Done, Failed, Made, Share, Worker
 
 State: TypeAlias = Literal["waiting", "running", "done", "failed", "cancelled"]
 
-PATIENCE = 2.0
-"""Seconds from asking for an end to forcing it."""
-
-LISTEN = 0.05
-"""Seconds that a quiet worker is listened to before looking whether its work is still wanted."""
-
-KEPT = 48
-"""Answers kept, the ones asked for last."""
+PATIENCE = 2.0  # seconds from asking for an end to forcing it
+LISTEN = 0.05  # seconds that a quiet worker is listened to before looking whether its work is still wanted
+KEPT = 48  # answers kept, the ones asked for last
 
 
 class Job:

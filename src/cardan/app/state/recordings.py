@@ -22,11 +22,8 @@ from cardan.texts import _
 
 from .document import MAX_LISTED, Workspace
 
-MAX_RECORDING = 100_000_000
-"""Bytes of a recording that a user may send."""
-
-DIAGNOSIS = "diagnosis"
-"""The question that is answered from a recording."""
+MAX_RECORDING = 100_000_000  # bytes of a recording that a user may send
+DIAGNOSIS = "diagnosis"  # the question that is answered from a recording
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,11 +9,8 @@ from cardan.drive.drive import Drive
 from cardan.errors import refuse
 from cardan.texts import _
 
-MOST = 12
-"""Variants that can be kept."""
-
-LONGEST = 40
-"""Letters of a name."""
+MOST = 12  # variants that can be kept
+LONGEST = 40  # letters of a name
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -16,11 +16,8 @@ from cardan.errors import CardanError
 
 from .question import Progress, Question
 
-Made: TypeAlias = "Callable[[Question, Progress], Any]"
-"""What answers a question; picklable."""
-
-OFTEN = 0.1
-"""Seconds between two words on how far the work is."""
+Made: TypeAlias = "Callable[[Question, Progress], Any]"  # what answers a question; picklable
+OFTEN = 0.1  # seconds between two words on how far the work is
 
 
 @dataclass(frozen=True, slots=True)

@@ -235,8 +235,7 @@ class DriveEvaluator:
         return answers, int(Status.NO_ANSWER if problems else Status.ANSWERED), tuple(problems)
 
 
-STATUS_COLUMN = Column(name=STATUS, unit="", role="status", text=TEXT_STATUS)
-"""The column of states."""
+STATUS_COLUMN = Column(name=STATUS, unit="", role="status", text=TEXT_STATUS)  # the column of states
 
 
 def evaluator(

@@ -22,8 +22,7 @@ from cardan.questions.motion.extremes import Extremes, extremes
 from cardan.questions.motion.turning import Evenness, Swing, swing
 from cardan.texts import _
 
-RIGHT = 1e-15
-"""Bends nearer to a right angle than this are none: the cosine that the loader refuses."""
+RIGHT = 1e-15  # bends nearer to a right angle than this are none: the cosine that the loader refuses
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

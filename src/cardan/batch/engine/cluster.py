@@ -39,17 +39,10 @@ T = TypeVar("T")
 AHEAD = 2
 """Chunks that are given away for each thread of a worker: one that it works on, and one so that it need not wait."""
 
-LOOK = 1.0
-"""Seconds between two looks at how many workers there are."""
-
-TRY = 2.0
-"""Seconds that a scheduler has to answer a single question."""
-
-GONE = ("cancelled", "lost")
-"""What Dask calls work that it will not give back."""
-
-FIRST = 10.0
-"""Seconds that a scheduler has to answer at first."""
+LOOK = 1.0  # seconds between two looks at how many workers there are
+TRY = 2.0  # seconds that a scheduler has to answer a single question
+GONE = ("cancelled", "lost")  # what Dask calls work that it will not give back
+FIRST = 10.0  # seconds that a scheduler has to answer at first
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -345,8 +338,7 @@ def _quiet() -> Iterator[None]:
 
 # A Dask cluster of this machine: started for one sweep, and ended with it whatever happens.
 
-PART = 5.0
-"""Seconds that a cluster of ours has to end."""
+PART = 5.0  # seconds that a cluster of ours has to end
 
 
 library = later("distributed", mark("a cluster needs dask.distributed: pip install 'cardan[cluster]'"))

@@ -27,11 +27,8 @@ from cardan.texts import _, language, plural, speaking
 T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)
 
-Heard = Callable[[], object]
-"""Called often, while waiting too; may answer "stop"."""
-
-OFTEN = 0.2
-"""Seconds after which an engine that waits asks whether to go on."""
+Heard = Callable[[], object]  # called often, while waiting too; may answer "stop"
+OFTEN = 0.2  # seconds after which an engine that waits asks whether to go on
 
 
 class EngineLostError(CardanError):
@@ -214,14 +211,12 @@ def stillborn(why: str) -> str:
     )
 
 
-READY = "ready"
-"""What a process says when it has read what is to be done."""
+READY = "ready"  # what a process says when it has read what is to be done
 
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 """Variables of the environment that keep libraries to one thread."""
 
-GRACE = 1.0
-"""Seconds that an idle process has to end by itself."""
+GRACE = 1.0  # seconds that an idle process has to end by itself
 
 
 class _Worker:

@@ -23,14 +23,9 @@ __all__ = ["Sweep", "read_sweep", "run"]
 
 Keeping: TypeAlias = Literal["kept", "none"]
 
-HELD = 2**30
-"""Bytes of a table that may be held in memory."""
-
-NUMBER = 8
-"""Bytes of a number."""
-
-OFTEN = 0.1
-"""Seconds between two words on how far a sweep is."""
+HELD = 2**30  # bytes of a table that may be held in memory
+NUMBER = 8  # bytes of a number
+OFTEN = 0.1  # seconds between two words on how far a sweep is
 
 
 def run(

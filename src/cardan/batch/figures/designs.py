@@ -20,11 +20,8 @@ from cardan.texts import _, plural
 
 from .sweep import amount, axis_of, counted, name_of, pareto_figure, title_of
 
-BARS = 14
-"""Fields with a bar of their own, the weightiest."""
-
-DOTS = 4000
-"""Evaluated places that are drawn at most."""
+BARS = 14  # fields with a bar of their own, the weightiest
+DOTS = 4000  # evaluated places that are drawn at most
 
 
 def sensitivity_figures(found: Sensitivity) -> tuple[Figure, ...]:

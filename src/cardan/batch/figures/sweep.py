@@ -20,18 +20,12 @@ from cardan.units import label, thousands
 FINER = (0.4, 0.65, 0.8, 0.9, 0.96, 1.0)
 """Shares of the lines below each shade, from the worst to the best: few are dark."""
 
-CLASSES = len(FINER)
-"""Shades of lines and dots."""
-
-BEST = 0.1
-"""Share of the points that is called the best."""
-
-MOST_COLUMNS = 9
-"""Columns that a figure of lines has room for."""
+CLASSES = len(FINER)  # shades of lines and dots
+BEST = 0.1  # share of the points that is called the best
+MOST_COLUMNS = 9  # columns that a figure of lines has room for
 
 
-LETTERS = 240
-"""Letters of the names in three lines across the figure, about; those at the ends have half the room."""
+LETTERS = 240  # letters of the names in three lines across the figure, about; those at the ends have half the room
 
 
 def parallel_figure(
@@ -224,8 +218,7 @@ def _choice(across: Column, up: Column, goals: Sequence[Goal], x: Array, y: Arra
 
 # How columns of a sweep are called on axes, and how their values are written.
 
-LONG = 34
-"""Letters of a name on an axis."""
+LONG = 34  # letters of a name on an axis
 
 
 def name_of(column: Column) -> str:
@@ -304,8 +297,7 @@ def counted(count: int) -> str:
 
 # The answers of a sweep on paper: over two fields as a map, or how often each value occurs.
 
-WIDE = 0.02
-"""Width of a bar of colours beside a map, a share of the map's."""
+WIDE = 0.02  # width of a bar of colours beside a map, a share of the map's
 
 
 def heat_figure(

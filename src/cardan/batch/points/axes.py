@@ -22,17 +22,10 @@ from cardan.texts import _
 
 from .distributions import METHODS, Distribution, correlated, uniforms
 
-MOST = 10**12
-"""More points than this are refused: at ten million a second they would take a day."""
-
-WIDEST = 1000
-"""Fields that a design draws at most."""
-
-LISTED = 1_000_000
-"""Longest list of values; what is longer is a grid or a design."""
-
-Value: TypeAlias = float | int | bool | str
-"""One value of a field, in the unit of its path."""
+MOST = 10**12  # more points than this are refused: at ten million a second they would take a day
+WIDEST = 1000  # fields that a design draws at most
+LISTED = 1_000_000  # longest list of values; what is longer is a grid or a design
+Value: TypeAlias = float | int | bool | str  # one value of a field, in the unit of its path
 
 
 class Axis(Protocol):

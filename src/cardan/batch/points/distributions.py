@@ -221,17 +221,10 @@ def correlated(paths: Sequence[str], correlations: Sequence[tuple[str, str, floa
 
 # Points of a unit cube that depend on their number alone: any part of a design can be made anywhere.
 
-METHODS = ("random", "sobol", "halton", "lhs")
-"""Ways of drawing points."""
-
-BLOCK = 4096
-"""Random numbers are made in blocks of so many points, each block from its own counter."""
-
-EDGE = 2.0**-54
-"""Shares stay so far from 0 and 1, where some distributions have no value."""
-
-_ROUNDS = 4
-"""Rounds of the cipher that shuffles the cells of a Latin hypercube."""
+METHODS = ("random", "sobol", "halton", "lhs")  # ways of drawing points
+BLOCK = 4096  # random numbers are made in blocks of so many points, each block from its own counter
+EDGE = 2.0**-54  # shares stay so far from 0 and 1, where some distributions have no value
+_ROUNDS = 4  # rounds of the cipher that shuffles the cells of a Latin hypercube
 
 
 def uniforms(method: str, dimensions: int, seed: int, start: int, stop: int, count: int) -> Array:

@@ -156,5 +156,4 @@ class Maker:
 TEXT_STATUS = mark("0 where the point is answered, 1 where it makes no drive, 2 where a question has no answer")
 """What the column of states means."""
 
-TEXT_FEASIBLE = mark("whether the point is answered and keeps every constraint")
-"""What the column of constraints means."""
+TEXT_FEASIBLE = mark("whether the point is answered and keeps every constraint")  # what the column of constraints means

@@ -19,8 +19,7 @@ from .optimise import Optimum
 from .pareto import ParetoSet
 from .sobol import Sensitivity
 
-SHOWN = 12
-"""Points of a choice that people are shown."""
+SHOWN = 12  # points of a choice that people are shown
 
 
 def answer(found: Optimum | ParetoSet | Sensitivity | Boundary) -> Answer:

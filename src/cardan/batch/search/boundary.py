@@ -16,11 +16,8 @@ from cardan.texts import _
 from .goals import Evaluator, Limit, Progress, StoppedError, answered, check_names, excess
 from .optimise import Bounds, check_bounds
 
-MOST = 2**24
-"""Places of the finest grid at most: each has room for a number."""
-
-ROUNDS = 30
-"""How often the place of a crossing is narrowed down, at most."""
+MOST = 2**24  # places of the finest grid at most: each has room for a number
+ROUNDS = 30  # how often the place of a crossing is narrowed down, at most
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -161,14 +161,9 @@ def check_names(named: Iterable[Goal | Limit | str], columns: Iterable[Column]) 
 
 # Many points asked piece by piece: progress is told, work can be stopped, memory stays bounded.
 
-Progress: TypeAlias = Callable[[float], object]
-"""Told the share done; when it answers "stop", the work ends."""
-
-FIRST, MOST = 16, 2**16
-"""Points of the first piece and of the largest."""
-
-SECONDS = 0.25
-"""How long a piece takes, about."""
+Progress: TypeAlias = Callable[[float], object]  # told the share done; when it answers "stop", the work ends
+FIRST, MOST = 16, 2**16  # points of the first piece and of the largest
+SECONDS = 0.25  # how long a piece takes, about
 
 
 class StoppedError(Exception):

@@ -18,17 +18,10 @@ from cardan.texts import _
 
 from .goals import Evaluator, Goal, Limit, Progress, StoppedError, check_names, excess, tell
 
-KEPT = 1e-9
-"""A limit is kept if it is passed by no more than this share of it."""
-
-LOST = 1e100
-"""Cost of a point that breaks a limit, times one plus its excess: all that keep them are better."""
-
-UNANSWERED = 1e6
-"""Excess of a point without an answer."""
-
-Bounds: TypeAlias = Sequence[tuple[float, float]]
-"""Ends of each field's range, in the unit of its column."""
+KEPT = 1e-9  # a limit is kept if it is passed by no more than this share of it
+LOST = 1e100  # cost of a point that breaks a limit, times one plus its excess: all that keep them are better
+UNANSWERED = 1e6  # excess of a point without an answer
+Bounds: TypeAlias = Sequence[tuple[float, float]]  # ends of each field's range, in the unit of its column
 
 Ending: TypeAlias = Literal["converged", "not converged", "nothing found", "cancelled"]
 

@@ -23,8 +23,7 @@ nsga2 = later("pymoo.algorithms.moo.nsga2", MISSING)
 problem = later("pymoo.core.problem")
 optimize = later("pymoo.optimize")
 
-WORST = 1e9
-"""Cost of a point without an answer: pymoo takes no nan."""
+WORST = 1e9  # cost of a point without an answer: pymoo takes no nan
 
 
 def pareto(rows: Rows, goals: Sequence[Goal], limits: Sequence[Limit] = ()) -> Array:

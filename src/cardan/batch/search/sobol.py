@@ -17,17 +17,10 @@ from cardan.units import nearest
 
 from .goals import Evaluator, Progress, answered
 
-RESAMPLES = 400
-"""Samples drawn anew from the samples, for the ranges of the indices."""
-
-MOST = 2**22
-"""Numbers of such samples held at once."""
-
-LEAST = 8
-"""Samples with an answer, at least."""
-
-ROOM = 2**27
-"""Numbers that all points together may hold."""
+RESAMPLES = 400  # samples drawn anew from the samples, for the ranges of the indices
+MOST = 2**22  # numbers of such samples held at once
+LEAST = 8  # samples with an answer, at least
+ROOM = 2**27  # numbers that all points together may hold
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -7,8 +7,7 @@ from typing import Any
 
 from cardan.batch.search.goals import Limit
 
-BINS = 50
-"""Bins of a histogram when none are asked for."""
+BINS = 50  # bins of a histogram when none are asked for
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -24,8 +24,7 @@ from .summaries import BINS as MOST_BINS
 
 # Kinds of reductions: what each has seen of the rows, and what it tells of them.
 
-Value: TypeAlias = dict[str, Any]
-"""What is told of one group: ``value`` and what belongs to it."""
+Value: TypeAlias = dict[str, Any]  # what is told of one group: ``value`` and what belongs to it
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -218,8 +217,7 @@ KINDS: dict[str, Kind] = {
 """Name of a kind in a plan -> kind."""
 
 
-GROUPS = 10_000
-"""More groups than this are refused: a table of the rows is what is wanted then."""
+GROUPS = 10_000  # more groups than this are refused: a table of the rows is what is wanted then
 
 
 _PERCENT = re.compile(r"p(\d+(?:\.\d+)?)\s+(.*)")

@@ -24,11 +24,8 @@ from cardan.texts import _, mark
 from .store import SUFFIX, manifest_of, names_in
 from .swept import Sweep, read_sweep
 
-TABLE = "sweep"
-"""What the table is called in questions."""
-
-Part: TypeAlias = Path | Rows
-"""A piece of the table: a file, or rows that are held."""
+TABLE = "sweep"  # what the table is called in questions
+Part: TypeAlias = Path | Rows  # a piece of the table: a file, or rows that are held
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

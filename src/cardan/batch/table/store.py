@@ -33,8 +33,7 @@ except ImportError:
 FORMAT = 1
 MANIFEST, SUMMARY, LOCK = "manifest.json", "summary.json", ".lock"
 
-FEW = 3
-"""How many names a message tells."""
+FEW = 3  # how many names a message tells
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -268,11 +267,8 @@ pyarrow = later("pyarrow")
 
 CHUNK_FORMAT = 1
 SUFFIX = ".parquet"
-PART = ".part"
-"""End of the name of a file that is being written."""
-
-ABOUT, STATES, CHECK = b"cardan", b"cardan.states", b"cardan.check"
-"""Keys of what stands beside the rows."""
+PART = ".part"  # end of the name of a file that is being written
+ABOUT, STATES, CHECK = b"cardan", b"cardan.states", b"cardan.check"  # keys of what stands beside the rows
 
 
 @dataclass(frozen=True, kw_only=True)

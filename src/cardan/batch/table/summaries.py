@@ -15,14 +15,9 @@ import numpy as np
 from cardan.batch.work import State
 from cardan.maths.arrays import Array
 
-Groups: TypeAlias = "Array | None"
-"""Group of each number, array of int (n,); None where there is one group."""
-
-KEPT = 50_000
-"""So many numbers are kept as they are for a percentile; of more, a histogram is."""
-
-BINS = 16_384
-"""Bins of such a histogram at most; it has at least half as many."""
+Groups: TypeAlias = "Array | None"  # group of each number, array of int (n,); None where there is one group
+KEPT = 50_000  # so many numbers are kept as they are for a percentile; of more, a histogram is
+BINS = 16_384  # bins of such a histogram at most; it has at least half as many
 
 
 def _lists(count: int, **blank: Any) -> State:

@@ -16,14 +16,9 @@ from cardan.texts import _
 
 from .results import TABLE, Results, condition, quoted
 
-FINEST = 160
-"""Columns and rows of a map at most; what is finer is put together."""
-
-COARSE = 60
-"""Columns and rows of a map whose fields take more values than that."""
-
-DRAWN = 100_000
-"""Rows that ranks are told from, at most."""
+FINEST = 160  # columns and rows of a map at most; what is finer is put together
+COARSE = 60  # columns and rows of a map whose fields take more values than that
+DRAWN = 100_000  # rows that ranks are told from, at most
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -33,8 +33,7 @@ from cardan.report.render.renderer import Renderer, form_of
 from cardan.texts import _
 from cardan.units import nearest
 
-LEAST = 0.1
-"""Share of the largest order below which one does not count."""
+LEAST = 0.1  # share of the largest order below which one does not count
 
 
 def diagnose(

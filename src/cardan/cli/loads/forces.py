@@ -22,8 +22,7 @@ from cardan.questions.gathering import principal
 from cardan.register import QUESTIONS
 from cardan.texts import _
 
-ALL = "all"
-"""Stands for every movement of the file."""
+ALL = "all"  # stands for every movement of the file
 
 
 def forces(

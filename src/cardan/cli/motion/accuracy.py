@@ -27,8 +27,7 @@ from cardan.units import DIMENSIONS
 How: TypeAlias = Literal["squares", "worst", "samples"]
 What: TypeAlias = Literal["angle", "change"]
 
-MOST_SAMPLES = 10_000_000
-"""More drives than this are refused: they fill the memory and show nothing that fewer do not."""
+MOST_SAMPLES = 10_000_000  # more drives than this are refused: they fill the memory and show nothing that fewer do not
 
 
 def accuracy(

@@ -16,8 +16,7 @@ from cardan.questions.motion.articulation_answer import answer, ask
 from cardan.texts import _
 from cardan.units import rpm
 
-MOST_INSTANTS = 1_000_000
-"""More instants than this are refused."""
+MOST_INSTANTS = 1_000_000  # more instants than this are refused
 
 
 def articulation(

@@ -20,8 +20,7 @@ from cardan.reading.fields import spellings_of
 from cardan.texts import _
 from cardan.units import deg, nearest, rpm
 
-USUAL = 20.0
-"""Joint angle [deg] where none is said."""
+USUAL = 20.0  # joint angle [deg] where none is said
 
 
 def _words(incomplete: str) -> list[tuple[str, str]]:

@@ -16,11 +16,8 @@ from cardan.questions.motion.answer import answer, ask
 from cardan.texts import _
 from cardan.units import deg, rpm
 
-STEP = 30.0
-"""Step of the printed table [deg]; JSON, CSV and figures have steps of one degree."""
-
-MOST_POSITIONS = 1_000_000
-"""More positions than this would not fit a table anyone reads."""
+STEP = 30.0  # step of the printed table [deg]; JSON, CSV and figures have steps of one degree
+MOST_POSITIONS = 1_000_000  # more positions than this would not fit a table anyone reads
 
 
 def motion(

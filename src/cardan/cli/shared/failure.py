@@ -25,11 +25,8 @@ from cardan.texts import _, language, mark, plural
 
 words = later("cardan.cli.shared.words")
 
-DONE, FAILED, BAD_INPUT, FAULT, INTERRUPTED = 0, 1, 2, 70, 130
-"""Exit codes."""
-
-SHOWN = 40
-"""More problems than this are counted, not listed; ``--json`` lists all."""
+DONE, FAILED, BAD_INPUT, FAULT, INTERRUPTED = 0, 1, 2, 70, 130  # exit codes
+SHOWN = 40  # more problems than this are counted, not listed; ``--json`` lists all
 
 
 class RefusedError(CardanError):

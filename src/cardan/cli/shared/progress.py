@@ -16,8 +16,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 from cardan.texts import _
 from cardan.units import thousands
 
-PATIENCE = 2.0
-"""Seconds before the bar appears."""
+PATIENCE = 2.0  # seconds before the bar appears
 
 
 @contextmanager

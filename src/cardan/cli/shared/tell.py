@@ -29,14 +29,9 @@ from cardan.texts import _
 
 from .output import print_lines, print_text
 
-GAP = 2
-"""Blanks between columns."""
-
-NARROWEST = 14
-"""Prose in a table is not set narrower than this."""
-
-WIDEST = 100
-"""Sentences are not set wider than this, however wide the terminal."""
+GAP = 2  # blanks between columns
+NARROWEST = 14  # prose in a table is not set narrower than this
+WIDEST = 100  # sentences are not set wider than this, however wide the terminal
 
 UNITS = "mm|m|°|deg|rpm|rad/s|1/s|s|ms|h|Hz|k?N·m|k?N|MPa|GPa|kg|g|k?W|J|%"
 """What stays with the number before it at the end of a line, as a pattern."""
@@ -50,8 +45,7 @@ SIGNS: dict[Tone, tuple[str, str]] = {
 }
 """Tone -> sign and colour; the sentence itself says it in words."""
 
-LONGEST = 34
-"""Letters of a name at the head of a row."""
+LONGEST = 34  # letters of a name at the head of a row
 
 
 def tell(

@@ -22,8 +22,7 @@ from cardan.texts import _
 
 from .sweep_design import designed
 
-HELD = 200_000
-"""A table of at most so many points is held without a folder."""
+HELD = 200_000  # a table of at most so many points is held without a folder
 
 
 def sweep(

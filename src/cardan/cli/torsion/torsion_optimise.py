@@ -19,8 +19,7 @@ from cardan.texts import _
 
 from .torsion_band import Element, Out, SpeedBand, asked_of, band_of, check_out, elements_of, repeated, stepped, written
 
-ROUNDS = 40
-"""Generations of a search."""
+ROUNDS = 40  # generations of a search
 
 OPTIONS = {"free": "--free", "speeds": "--speeds", "elements": "--element", "method.points": "--grid"}
 """What the question calls by another name than the command."""

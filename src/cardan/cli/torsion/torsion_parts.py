@@ -22,11 +22,8 @@ Pieces: TypeAlias = Annotated[
     ),
 ]
 
-COUNT = 121
-"""Values of a list where no number is given."""
-
-MOST = 1_000_000
-"""Values of a list at most."""
+COUNT = 121  # values of a list where no number is given
+MOST = 1_000_000  # values of a list at most
 
 
 def values(text: str, option: str, *, count: int = COUNT, low: float | None = None) -> Any:

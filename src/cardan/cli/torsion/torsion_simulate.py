@@ -19,8 +19,7 @@ from cardan.texts import _
 from .torsion_band import asked_of
 from .torsion_parts import Pieces
 
-MOST_SAMPLES = 1_000_000
-"""More samples than this are refused."""
+MOST_SAMPLES = 1_000_000  # more samples than this are refused
 
 
 def torsion_simulate(

@@ -29,11 +29,8 @@ from cardan.texts import _
 from .build import Build, Track, bearing_radius, sizes
 from .solids import Arms, arms
 
-FRAMES = 120
-"""Places of a turn."""
-
-STEEL = 7850.0
-"""Density of the discs that stand for moments of inertia [kg/m³]."""
+FRAMES = 120  # places of a turn
+STEEL = 7850.0  # density of the discs that stand for moments of inertia [kg/m³]
 
 
 def assembled(
@@ -278,8 +275,7 @@ def _station(build: Build, number: int) -> None:
 
 # Tubes, stubs, slip splines, flanges and what else a shaft carries between its yokes.
 
-SHOWN_TEETH = 40
-"""Teeth of a spline that are drawn at most."""
+SHOWN_TEETH = 40  # teeth of a spline that are drawn at most
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

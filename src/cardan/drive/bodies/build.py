@@ -211,8 +211,7 @@ def name_of(joint: Joint, i: int) -> str:
 STEEPEST, LEAST = math.radians(42.0), math.radians(13.0)
 """Yokes leave room for joint angles between these, and a little more."""
 
-ROOM = 0.46
-"""Share of a shaft between two joints that one yoke takes at most."""
+ROOM = 0.46  # share of a shaft between two joints that one yoke takes at most
 
 SHOWN = 4.0
 """How much of an end shaft is drawn behind its yoke, in radii of the joint, where nothing stands farther out."""

@@ -21,8 +21,7 @@ from cardan.maths.kernel import frames
 
 Part: TypeAlias = Literal["driving yoke", "driven yoke", "cross", "tube"]
 
-SIDES = 10
-"""Faces around a tube."""
+SIDES = 10  # faces around a tube
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -129,8 +128,7 @@ def solids(drive: Drive, angle: float = 0.0) -> Solids:
     return Solids(bodies=tuple(bodies), centres=centres, ends=ends, radius=radius, place=place, arms=stand)
 
 
-_NECK = 1.35
-"""Where a yoke ends and its tube begins, in yoke radii from the joint centre."""
+_NECK = 1.35  # where a yoke ends and its tube begins, in yoke radii from the joint centre
 
 
 _FORK = (

@@ -15,8 +15,7 @@ from cardan.errors import Problem
 from cardan.texts import _
 from cardan.units import mm, rpm
 
-ROUNDING = 1e-9
-"""A part may stick out of its shaft by this share of the length: what is left of rounding."""
+ROUNDING = 1e-9  # a part may stick out of its shaft by this share of the length: what is left of rounding
 
 
 def part_problems(drive: Described) -> Iterator[Problem]:

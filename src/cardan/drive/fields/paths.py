@@ -20,8 +20,7 @@ from cardan.units import DIMENSIONS, nearest
 
 from .keys import key_of, meant, spelled
 
-D = TypeVar("D", bound=Described)
-"""A drive, checked or not."""
+D = TypeVar("D", bound=Described)  # a drive, checked or not
 
 _STEP = re.compile(r"([A-Za-z_][A-Za-z0-9_]*)((?:\[\d+\])*)$")
 
@@ -248,14 +247,9 @@ def _first(known: Mapping[str, tuple[str, float]]) -> Iterator[str]:
 
 # Keys of the drive file in words: ``shafts[3].yoke_angle`` is the yoke angle of shaft 4.
 
-CLAUSE = re.compile(r"[;,，；(\[]")
-"""Where the words that name a field end and those on its sign and its form begin."""
-
-STEP = re.compile(r"([a-z]+)(?:\[(\d+)\])?")
-"""Part of a drive, with its number from 0 where there are several."""
-
-AXES = re.compile(r"\[([012])\]$")
-"""Coordinate of a point."""
+CLAUSE = re.compile(r"[;,，；(\[]")  # where the words that name a field end and those on its sign and its form begin
+STEP = re.compile(r"([a-z]+)(?:\[(\d+)\])?")  # part of a drive, with its number from 0 where there are several
+AXES = re.compile(r"\[([012])\]$")  # coordinate of a point
 
 
 def with_key(path: str) -> str:

@@ -39,14 +39,12 @@ USUAL: tuple[tuple[str, float, float], ...] = (
 SHIFTS = (1e-3, 1e3, 1e-6, 1e6)
 """By which a value in another unit is off: millimetres and metres, megapascals and pascals."""
 
-APART = 100.0
-"""Distance of neighbouring points of the axis [m] beyond which they are hardly meant."""
+APART = 100.0  # distance of neighbouring points of the axis [m] beyond which they are hardly meant
 
 RADIANS = (math.radians(0.05), math.radians(0.9))
 """Joint angles between which all of a drive look like radians that were given as degrees."""
 
-QUARTERS = tuple(k * math.pi / 4.0 for k in (1, 2, 3, 4))
-"""Angles in radians that are common; as many degrees are not."""
+QUARTERS = tuple(k * math.pi / 4.0 for k in (1, 2, 3, 4))  # angles in radians that are common; as many degrees are not
 
 
 @dataclass(frozen=True, kw_only=True)

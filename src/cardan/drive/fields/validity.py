@@ -26,15 +26,11 @@ from .parts import ROUNDING, known_lengths, part_problems, place_problems
 from .paths import pose_problems
 from .ranges import range_problems
 
-MAX_JOINTS = 1000
-"""More joints than this are refused: no drive has them, and a report could not show them."""
-
-COINCIDENT = 1e-9
-"""Points nearer than this share of the largest distance are the same point."""
+MAX_JOINTS = 1000  # more joints than this are refused: no drive has them, and a report could not show them
+COINCIDENT = 1e-9  # points nearer than this share of the largest distance are the same point
 
 
-TINY = 1e-100
-"""Points nearer than this [m] are the same point; the square of their distance would vanish."""
+TINY = 1e-100  # points nearer than this [m] are the same point; the square of their distance would vanish
 
 
 def wrong_count(field: str, values: Sequence[Any], wanted: int, *, empty: bool = False) -> Iterator[Problem]:
@@ -262,11 +258,8 @@ def movement_problems(movements: Sequence[Movement], n: int) -> Iterator[Problem
 
 # What a duty must satisfy to be a duty cycle, and what a maker's rating must say.
 
-WHOLE = 1e-4
-"""Shares of a duty cycle may miss the whole time by this, 0.01 %."""
-
-SLACK = 1e-12
-"""What sums of decimal fractions may be off beside that."""
+WHOLE = 1e-4  # shares of a duty cycle may miss the whole time by this, 0.01 %
+SLACK = 1e-12  # what sums of decimal fractions may be off beside that
 
 
 def duty_problems(drive: Described) -> Iterator[Problem]:
@@ -337,8 +330,7 @@ def bound_problems(drive: Described) -> Iterator[Problem]:
 
 # What a drive must satisfy to be a torsional line: its stations, its play and damping, and the torques on it.
 
-ENDS = ("input", "output")
-"""Words for the two ends of a drive; no station may be called so."""
+ENDS = ("input", "output")  # words for the two ends of a drive; no station may be called so
 
 
 def line_problems(drive: Described) -> Iterator[Problem]:
@@ -455,12 +447,10 @@ def _torque_problems(drive: Described) -> Iterator[Problem]:
 
 # What the sizes, materials and figures must satisfy that strength and upkeep go by.
 
-SPLINE_ROUNDING = 1e-9
-"""Sizes that differ by this share are the same."""
+SPLINE_ROUNDING = 1e-9  # sizes that differ by this share are the same
 
 
-ROOM = 0.02
-"""More needles than fit by this share are a matter of rounded diameters."""
+ROOM = 0.02  # more needles than fit by this share are a matter of rounded diameters
 
 
 def size_problems(drive: Described) -> Iterator[Problem]:

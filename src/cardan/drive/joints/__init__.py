@@ -13,11 +13,8 @@ from .tracta import Tracta
 from .tripod import Tripod
 from .weiss import Weiss
 
-JOINTS: dict[str, type[Joint]] = {}
-"""Value of the file key ``kind`` -> class."""
-
-DEFAULT = Hooke.kind
-"""Kind of a joint whose file does not name it."""
+JOINTS: dict[str, type[Joint]] = {}  # value of the file key ``kind`` -> class
+DEFAULT = Hooke.kind  # kind of a joint whose file does not name it
 
 
 def register(*kinds: type[Joint]) -> None:

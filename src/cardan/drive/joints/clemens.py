@@ -123,20 +123,11 @@ def _link(length: float) -> Surface:
 # hinged there about the tangential axis, or the middle line of a groove in which a ball runs. Profiles alike touch in
 # the halving plane and run evenly at any bend.
 
-CELLS = 90
-"""Pieces in which the circle of shaft 1 is searched; at most four contacts lie on it."""
-
-START = -math.pi + 0.003
-"""Where the search begins: off the places at which a drawing would put a contact."""
-
-DENSEST = 0.02
-"""Least spacing of the pieces over an even one."""
-
-NEWTON = 7
-"""Steps from a straight line between the ends of a piece to rounding."""
-
-STEP = 2e-5
-"""Step of the difference quotient of the ratio [rad]: its error of second order is at that of rounding."""
+CELLS = 90  # pieces in which the circle of shaft 1 is searched; at most four contacts lie on it
+START = -math.pi + 0.003  # where the search begins: off the places at which a drawing would put a contact
+DENSEST = 0.02  # least spacing of the pieces over an even one
+NEWTON = 7  # steps from a straight line between the ends of a piece to rounding
+STEP = 2e-5  # step of the difference quotient of the ratio [rad]: its error of second order is at that of rounding
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

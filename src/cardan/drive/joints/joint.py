@@ -61,8 +61,7 @@ CROSS_ONLY = frozenset(
 """Fields that only a joint with one cross can use."""
 
 
-PLACES = 360
-"""Places in a turn at which a law is looked at for its second order."""
+PLACES = 360  # places in a turn at which a law is looked at for its second order
 
 
 REFUSALS: Mapping[str, str] = MappingProxyType(

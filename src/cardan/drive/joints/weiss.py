@@ -126,11 +126,8 @@ class Weiss(Joint):
 
 # A law of motion known point by point: its derivatives by its harmonics.
 
-SAMPLES = 256
-"""Places in a turn at which a law is looked at; a joint that turns has no harmonics of half that order."""
-
-NOISE = 1e-15
-"""Harmonics below this [rad] are rounding; their derivatives would grow with the order."""
+SAMPLES = 256  # places in a turn at which a law is looked at; a joint that turns has no harmonics of half that order
+NOISE = 1e-15  # harmonics below this [rad] are rounding; their derivatives would grow with the order
 
 
 def course(angle: Array, angle_error: Callable[[Array], Array]) -> tuple[Array, Array, Array]:

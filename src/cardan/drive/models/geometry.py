@@ -179,8 +179,7 @@ __all__ = ["Geometry", "geometry", "geometry_from_points", "given_angles", "poin
 #
 # What is the same in all of them is a number, not an array, and costs nothing.
 
-Number: TypeAlias = "Array | float"
-"""The same in all drives, or an array (n,)."""
+Number: TypeAlias = "Array | float"  # the same in all drives, or an array (n,)
 
 Vector: TypeAlias = tuple[Number, Number, Number]
 
@@ -270,11 +269,8 @@ def _over(a: Vector, size: Number) -> Vector:
 
 # From one form of geometry to another: joint centres, bends, slopes.
 
-UNTURNED = 1e-12
-"""A shaft whose direction differs by less runs along x."""
-
-STEEP = 1.57
-"""A shaft that rises or turns aside by more [rad] has no slope that a file could give."""
+UNTURNED = 1e-12  # a shaft whose direction differs by less runs along x
+STEEP = 1.57  # a shaft that rises or turns aside by more [rad] has no slope that a file could give
 
 GEOMETRY = ("centre", "joint_angle", "plane_twist", "move_within", "point", "length", "side_slope", "plan_slope")
 """Fields that belong to a form of the geometry."""

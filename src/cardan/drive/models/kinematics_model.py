@@ -132,11 +132,8 @@ def given_chain(drive: Drive) -> Chain:
 # that of one with cos α = κ whose driving yoke stands a quarter turn ahead. So a chain of mixed kinds is a chain of
 # Hooke joints with other joint angles and plane twists, and all that is known of those holds for it.
 
-NEGLIGIBLE = 1e-6
-"""What a joint may leave beside its nearest map [rad] to be taken by it: a fifth of a second of arc."""
-
-STEP = 1e-5
-"""Step [rad] of the joint angle in the central difference of `growth`; what it leaves is of order 1e-10."""
+NEGLIGIBLE = 1e-6  # what a joint may leave beside its nearest map [rad] to be taken by it: a fifth of a second of arc
+STEP = 1e-5  # step [rad] of the joint angle in the central difference of `growth`; what it leaves is of order 1e-10
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -12,11 +12,8 @@ from cardan.drive.support import Support
 from cardan.errors import InputError
 from cardan.texts import _
 
-NEAR = 0.9
-"""Share of its length at which a shaft is proposed to have its centre bearing: before its second joint."""
-
-REACH = 0.1
-"""Distance [m] of the proposed bearings of an end shaft from its joint and from each other."""
+NEAR = 0.9  # share of its length at which a shaft is proposed to have its centre bearing: before its second joint
+REACH = 0.1  # distance [m] of the proposed bearings of an end shaft from its joint and from each other
 
 
 def machines_of(drive: Drive) -> tuple[int, ...]:

@@ -11,8 +11,7 @@ from cardan.texts import _
 
 from . import csv, json, xlsx
 
-FORMATS = {module.suffix: module for module in (csv, json, xlsx)}
-"""Suffix -> module."""
+FORMATS = {module.suffix: module for module in (csv, json, xlsx)}  # suffix -> module
 
 
 def write(result: Any, path: Path) -> None:

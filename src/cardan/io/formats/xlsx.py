@@ -14,8 +14,7 @@ from .csv import columns_of
 
 suffix = ".xlsx"
 
-WIDEST = 30
-"""Letters of the widest column."""
+WIDEST = 30  # letters of the widest column
 
 
 def content(result: Any) -> bytes:

@@ -24,14 +24,9 @@ SIGNAL_FORMATS = {csv.suffix: csv, ".txt": csv, wav.suffix: wav, uff.suffix: uff
 WRITERS = {csv.suffix: csv, wav.suffix: wav, uff.suffix: uff, ".unv": uff, tdms.suffix: tdms}
 """Suffix -> module that writes such files."""
 
-MARKS = ((b"RIFF", ".wav"), (b"TDSm", ".tdms"), (b"    -1", ".uff"))
-"""How files begin -> suffix."""
-
-UNSCALED = 0.3
-"""Trust in a channel whose numbers are of an unknown size: its orders are right, its levels are not."""
-
-LEAST_VALUES = 16
-"""A channel with fewer is no recording."""
+MARKS = ((b"RIFF", ".wav"), (b"TDSm", ".tdms"), (b"    -1", ".uff"))  # how files begin -> suffix
+UNSCALED = 0.3  # trust in a channel whose numbers are of an unknown size: its orders are right, its levels are not
+LEAST_VALUES = 16  # a channel with fewer is no recording
 
 __all__ = ["SIGNAL_FORMATS", "WRITERS", "signal", "write"]
 

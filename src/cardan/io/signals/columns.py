@@ -170,8 +170,7 @@ def title_of(name: str, quantity: str, place: str, direction: str) -> str:
 
 # What a reader finds in a file, before anybody asks what it means.
 
-MOST_VALUES = 100_000_000
-"""Values of all channels of a recording together; more do not fit a desk computer's memory."""
+MOST_VALUES = 100_000_000  # values of all channels of a recording together; more do not fit a desk computer's memory
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

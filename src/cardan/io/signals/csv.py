@@ -20,20 +20,11 @@ from .columns import Asked, Column, Raw, content, meaning, title_of
 
 suffix = ".csv"
 
-MAX_BYTES = 200_000_000
-"""Larger files are refused; no more of them is read."""
-
-CHUNK = 50_000
-"""Lines read at once."""
-
-PREAMBLE = 60
-"""Lines above the titles that a logger writes at most."""
-
-PRINTED = bytes([9, 10, 12, 13, *range(32, 256)])
-"""Bytes of text."""
-
-TOLD = 5
-"""Lines of which it is told what is wrong with them."""
+MAX_BYTES = 200_000_000  # larger files are refused; no more of them is read
+CHUNK = 50_000  # lines read at once
+PREAMBLE = 60  # lines above the titles that a logger writes at most
+PRINTED = bytes([9, 10, 12, 13, *range(32, 256)])  # bytes of text
+TOLD = 5  # lines of which it is told what is wrong with them
 
 
 def read(path: Path, asked: Asked) -> Raw:

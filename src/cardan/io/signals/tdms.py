@@ -20,8 +20,7 @@ log = later("nptdms.log")
 
 suffix = ".tdms"
 
-MAX_BYTES = 400_000_000
-"""Larger files are refused."""
+MAX_BYTES = 400_000_000  # larger files are refused
 
 
 def read(path: Path, asked: Asked) -> Raw:

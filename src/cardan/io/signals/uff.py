@@ -22,17 +22,10 @@ pyuff = later("pyuff", mark("universal files need the extra `signals`: pip insta
 
 suffix = ".uff"
 
-MAX_BYTES = 400_000_000
-"""Larger files are refused."""
-
-MOST_LETTERS = 80
-"""Of a line of text in a data set."""
-
-TIME_RESPONSES = (0, 1)
-"""Types of functions that run over time: general ones and time responses."""
-
-QUANTITY_OF = {8: "displacement", 11: "velocity", 12: "acceleration"}
-"""Type of the ordinate -> quantity."""
+MAX_BYTES = 400_000_000  # larger files are refused
+MOST_LETTERS = 80  # of a line of text in a data set
+TIME_RESPONSES = (0, 1)  # types of functions that run over time: general ones and time responses
+QUANTITY_OF = {8: "displacement", 11: "velocity", 12: "acceleration"}  # type of the ordinate -> quantity
 
 DIRECTION_OF = {1: "x", 2: "y", 3: "z", 4: "torsion", 5: "torsion", 6: "torsion"}
 """Direction of the response -> direction; negative ones turn the sign."""

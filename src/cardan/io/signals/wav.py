@@ -18,8 +18,7 @@ from .csv import unlike
 
 suffix = ".wav"
 
-MAX_BYTES = 400_000_000
-"""Larger files are refused; no more of them is read."""
+MAX_BYTES = 400_000_000  # larger files are refused; no more of them is read
 
 
 def read(path: Path, asked: Asked) -> Raw:

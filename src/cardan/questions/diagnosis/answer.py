@@ -21,20 +21,11 @@ from .match import Signs
 
 __all__ = ["answer", "answer_of_signs"]
 
-SHOWN = 6
-"""Causes in the table."""
-
-LINES = 4
-"""Orders named of a channel."""
-
-EXPLAINED = 3
-"""Causes with their evidence, at most."""
-
-SMALL, SERIOUS = 0.02, 0.1
-"""Probabilities below which a cause is not worth a line, and not worth its evidence."""
-
-SURE = 0.6
-"""Confidence below which the reader is warned."""
+SHOWN = 6  # causes in the table
+LINES = 4  # orders named of a channel
+EXPLAINED = 3  # causes with their evidence, at most
+SMALL, SERIOUS = 0.02, 0.1  # probabilities below which a cause is not worth a line, and not worth its evidence
+SURE = 0.6  # confidence below which the reader is warned
 
 
 def answer(found: Examination) -> Answer:

@@ -22,8 +22,7 @@ from cardan.units import rpm
 GRADE = 16.0e-3
 """Balance quality e ω of a shaft that its drive says nothing of [m/s]: G16, usual for drive shafts (ISO 21940-11)."""
 
-A_METRE = 5.0
-"""Mass of a metre of shaft that its drive says nothing of [kg/m]."""
+A_METRE = 5.0  # mass of a metre of shaft that its drive says nothing of [kg/m]
 
 SPEED, TORQUE, LENGTH = 3000.0 * rpm, 200.0, 1.0
 """Top speed [rad/s], torque [N·m] and length of a shaft [m] where the drive says none."""

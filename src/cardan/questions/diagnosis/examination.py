@@ -23,20 +23,14 @@ from .signals.signal import Channel, Progress, Signal, Watch
 from .signals.spectra import integrate
 from .signals.torsional import KEPT, LEAST_TEETH, TorsionalVibration, torsional_vibration
 
-SHAKING = ("acceleration", "velocity", "displacement")
-"""Quantities whose orders are shown, the best first."""
-
-FOLLOWED = (1.0, 2.0, 3.0)
-"""Orders followed over the speed."""
-
-SLOWEST = 0.4
-"""Share of the least speed of the shaft below which integrated channels are cut off."""
+SHAKING = ("acceleration", "velocity", "displacement")  # quantities whose orders are shown, the best first
+FOLLOWED = (1.0, 2.0, 3.0)  # orders followed over the speed
+SLOWEST = 0.4  # share of the least speed of the shaft below which integrated channels are cut off
 
 JUDGED, LOOKED_AT, MAPPED = 0.6, 0.8, 0.9
 """Shares of the work, about: causes, spectra, the map; orders followed are the rest."""
 
-ALONG = ("axial", "torsion")
-"""Directions in which no sensor looks across a shaft."""
+ALONG = ("axial", "torsion")  # directions in which no sensor looks across a shaft
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

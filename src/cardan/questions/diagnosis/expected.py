@@ -155,26 +155,19 @@ def _moved(base: DriveModel, fault: str, severity: float) -> DriveModel:
 
 # The orders and knocks that each fault makes: forces at the joints, shared out to the housings.
 
-RESIDUAL = 0.5
-"""Share of the allowed unbalance that a drive in order has."""
-
-TIMES = 4.0
-"""Unbalance of a fault over the allowed one."""
-
-RUNOUT, PLAY = 0.4e-3, 0.1e-3
-"""Run-out of a bent tube and play of a worn joint, spline or bearing, at severity 1 [m]."""
+RESIDUAL = 0.5  # share of the allowed unbalance that a drive in order has
+TIMES = 4.0  # unbalance of a fault over the allowed one
+RUNOUT, PLAY = 0.4e-3, 0.1e-3  # Run-out of a bent tube and play of a worn joint, spline or bearing, at severity 1 [m]
 
 WRONG_JOINT_ANGLE, WRONG_PHASE = 5.0 * deg, 30.0 * deg
 """What a joint angle is too large by and a yoke is turned by, at severity 1."""
 
-TIGHT = 0.1
-"""Friction couple of a tight joint over the torque."""
+TIGHT = 0.1  # friction couple of a tight joint over the torque
 
 LOSSES = (0.45, 0.1)
 """Losses of stiffness of a crack, across and along its edge (the captions of the paper on cracked shafts)."""
 
-ARM = 0.2
-"""Arm on which a swinging torque is taken up by a housing [m]."""
+ARM = 0.2  # arm on which a swinging torque is taken up by a housing [m]
 
 BOOK, COUPLES, SPLINES = (
     mark("Kozhevnikov & Perfil'ev (1978), eq. 253–260"),

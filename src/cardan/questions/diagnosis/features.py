@@ -46,23 +46,12 @@ NAMES = (
 )  # fmt: skip
 """Names of the features, in the order of the calibration."""
 
-SAME_SPEED = 0.04
-"""Share of the speed within which windows count as held at it."""
-
-DIFFERENT = 0.3
-"""Share of the largest torque by which two holds must differ to tell what the torque does."""
-
-NEAR_THIRD = 0.05
-"""Share of a third of the critical speed within which a peak of order 3 counts as its."""
-
-STOPPED = 0.5
-"""Share of the confidence that is left where not all channels were looked at."""
-
-FAINT = 1e-5
-"""Share of order 1 below which an order is rounding, not vibration."""
-
-BINS = 14
-"""Of speed in a run-up."""
+SAME_SPEED = 0.04  # share of the speed within which windows count as held at it
+DIFFERENT = 0.3  # share of the largest torque by which two holds must differ to tell what the torque does
+NEAR_THIRD = 0.05  # share of a third of the critical speed within which a peak of order 3 counts as its
+STOPPED = 0.5  # share of the confidence that is left where not all channels were looked at
+FAINT = 1e-5  # share of order 1 below which an order is rounding, not vibration
+BINS = 14  # of speed in a run-up
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -322,11 +311,8 @@ def _uneven(out: dict[str, float], signal: Signal, shaft: Rotation, base: DriveM
 
 # What does not fit between a recording and the drive that it is said to be of: speeds and places.
 
-TOO_FAST = 1.15
-"""Times the top speed of the drive that a recording may reach."""
-
-TOO_SLOW = 0.5
-"""Share of the least speed of the drive that a recording should reach."""
+TOO_FAST = 1.15  # times the top speed of the drive that a recording may reach
+TOO_SLOW = 0.5  # share of the least speed of the drive that a recording should reach
 
 APART = 0.03
 """Share by which the mean speed of the output may differ from that of the shaft: over whole turns joints make none."""
@@ -335,8 +321,7 @@ MISFIT, FAR, PLACELESS, SIZELESS = 0.3, 0.6, 0.8, 0.6
 """What is left of the confidence: where two speeds contradict each other, where the recording lies outside of the
 running of the drive, where a sensor does not say its place, where the drive does not say what its sizes follow from."""
 
-SILENT = 0.4
-"""Share of the confidence that is left where order 1, which every shaft has, does not rise over the noise."""
+SILENT = 0.4  # share of the confidence that is left where order 1, which every shaft has, does not rise over the noise
 
 
 def doubts(signal: Signal, shaft: Rotation, base: DriveModel) -> Iterator[tuple[str, float]]:

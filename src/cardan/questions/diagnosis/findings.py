@@ -24,23 +24,15 @@ from .match import Signs, likely_causes
 from .signals.orders import OrderSpectrum
 from .signals.signal import Progress, Signal
 
-TELLING = 0.3
-"""What a feature has to add for or against a cause to be told [nat]."""
-
-MOST = 4
-"""Most reasons told for or against."""
-
-BY_SIGNS = 0.3
-"""Confidence in causes that are ranked by signs alone."""
+TELLING = 0.3  # what a feature has to add for or against a cause to be told [nat]
+MOST = 4  # most reasons told for or against
+BY_SIGNS = 0.3  # confidence in causes that are ranked by signs alone
 
 UNLIKE, MOST_UNLIKE = 0.4, 3
 """What a feature beyond all of the calibration leaves of the confidence, and how many of them count."""
 
-BETTER = ("order_2_unloaded", "at_centre", "axial_share", "uneven")
-"""Features that may be as small as they like."""
-
-SURE = 0.98
-"""Largest confidence: the calibration is of simulated recordings."""
+BETTER = ("order_2_unloaded", "at_centre", "axial_share", "uneven")  # features that may be as small as they like
+SURE = 0.98  # largest confidence: the calibration is of simulated recordings
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -279,8 +271,7 @@ def _peak(name: str, times: Quantity | str, seen: Features) -> Text:
 BEYOND = 1.0
 """Standard deviations beyond all of the calibration from which on a feature is like nothing that was learnt."""
 
-FAR = 3.0
-"""Standard deviations beyond which a feature counts no more."""
+FAR = 3.0  # standard deviations beyond which a feature counts no more
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -25,13 +25,11 @@ PROBES = (0.75, 1.25, 1.75, 2.5, 3.5)
 POWERS = {"acceleration": 0, "velocity": 1, "displacement": 2}
 """Quantity -> power of the angular speed that makes an acceleration of it."""
 
-AXIAL = ("axial", "x")
-"""Directions along the shaft."""
+AXIAL = ("axial", "x")  # directions along the shaft
 
 TURNS = 16
 
-CLEAR = 2.5
-"""Times what noise leaves that an order has to reach to count as seen."""
+CLEAR = 2.5  # times what noise leaves that an order has to reach to count as seen
 
 LITTLE = {0.5: -1.0, 1.5: -1.0, 3.0: -1.0, 4.0: -1.0}
 """Level below which an order of faults alone says no more, so that a quiet recording and a noisy one say the same."""

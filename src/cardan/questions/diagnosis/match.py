@@ -11,11 +11,8 @@ from cardan.catalogue.rows import FLAGS, Fault
 from cardan.errors import Problem, check
 from cardan.texts import _
 
-NEAR = 0.05
-"""A measured order belongs to an order of a fault when it is this near."""
-
-SLACK = 1e-12
-"""What is left of rounding in a measured order."""
+NEAR = 0.05  # a measured order belongs to an order of a fault when it is this near
+SLACK = 1e-12  # what is left of rounding in a measured order
 
 ORDERS, TORQUE, SIGN = 2, 1, 3
 """Points for all orders explained, agreement on the torque, a symptom or a circumstance; a rule of this program."""

@@ -16,11 +16,8 @@ from cardan.texts import _
 from .expected import Expected, expected_orders
 from .signals.signal import Channel, Progress, Signal, Watch
 
-SPREAD = 0.25
-"""Standard deviation of the logarithm of what decides a line's size in one recording and nobody knows."""
-
-MOST_VALUES = 2e7
-"""Values of a channel; what is made of all of them together would not fit the memory otherwise."""
+SPREAD = 0.25  # standard deviation of the logarithm of what decides a line's size in one recording and nobody knows
+MOST_VALUES = 2e7  # values of a channel; what is made of all of them together would not fit the memory otherwise
 
 
 @dataclass(frozen=True, kw_only=True)

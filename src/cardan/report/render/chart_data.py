@@ -17,11 +17,8 @@ from cardan.texts import _
 
 # Formats of a workbook, each made once.
 
-PALE = 0.86
-"""Share of white in the colour behind a tone."""
-
-CODE = "Consolas"
-"""Font of text as it stands in a file."""
+PALE = 0.86  # share of white in the colour behind a tone
+CODE = "Consolas"  # font of text as it stands in a file
 
 
 class Looks:
@@ -51,20 +48,11 @@ class Looks:
         return self._made[key]
 
 
-HEAD = 6
-"""Rows above the numbers: title, what stands here, figure, panel, name, unit."""
-
-WIDTH = 13
-"""Of a column, in letters."""
-
-PRINTED = 60
-"""Rows of numbers that are printed; more are for the spreadsheet alone."""
-
-BESIDE = 16
-"""Columns that are printed."""
-
-DIGITS = 6
-"""Of the largest number of a column."""
+HEAD = 6  # rows above the numbers: title, what stands here, figure, panel, name, unit
+WIDTH = 13  # of a column, in letters
+PRINTED = 60  # rows of numbers that are printed; more are for the spreadsheet alone
+BESIDE = 16  # columns that are printed
+DIGITS = 6  # of the largest number of a column
 
 
 @dataclass(frozen=True, kw_only=True)

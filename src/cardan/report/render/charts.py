@@ -19,23 +19,15 @@ from .chart_data import ChartData, Place
 
 DASHES = {"solid": "solid", "dashed": "dash", "dotted": "round_dot", "dashdot": "dash_dot"}
 
-OUTLINE = 8
-"""Shapes with at most so many corners are marks that a chart draws as lines."""
-
-INCH = 104.0
-"""Pixels of a chart for an inch of print."""
-
-AROUND = 84.0
-"""Pixels above and below the frame of a chart: its title, axis and legend."""
-
-BAR = 16.0
-"""Pixels of a chart for each of its lying bars: its name has to have room."""
+OUTLINE = 8  # shapes with at most so many corners are marks that a chart draws as lines
+INCH = 104.0  # pixels of a chart for an inch of print
+AROUND = 84.0  # pixels above and below the frame of a chart: its title, axis and legend
+BAR = 16.0  # pixels of a chart for each of its lying bars: its name has to have room
 
 SIZES = ((12, 9, 17.0), (30, 8, 12.5), (math.inf, 7, 11.0))
 """Up to how many bars their names have which size, and the pixels that one needs at the least."""
 
-LONG = 36
-"""Letters of a name of a bar that has room in one line at the usual size."""
+LONG = 36  # letters of a name of a bar that has room in one line at the usual size
 
 TRACK = palette.mixed(palette.colour("muted"), "#ffffff", 0.82)
 """Colour behind lying bars, up to their limit."""
@@ -313,8 +305,7 @@ def _at_ticks(one: Bars, upon: Axis) -> dict[int, int]:
 
 # Axes of the charts of a spreadsheet from those of a panel.
 
-SMALL = {"size": 9, "color": palette.colour("muted")}
-"""Letters at an axis and in a legend."""
+SMALL = {"size": 9, "color": palette.colour("muted")}  # letters at an axis and in a legend
 
 
 def axis_of(axis: Axis) -> dict[str, Any]:

@@ -38,8 +38,7 @@ MEDIA = {
 }
 """Kind of file -> what a browser calls it."""
 
-LONGEST = 80
-"""Letters of a name."""
+LONGEST = 80  # letters of a name
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -145,8 +144,7 @@ def _name(thing: Thing, kind: str, title: str) -> str:
 BEGINNINGS = ("=", "+", "-", "@", "\t", "\r")
 """Words that begin so would be calculated by a spreadsheet that opens the file."""
 
-ABOVE = ("judgement", "warnings", "lights", "remedies", "figures", "changes")
-"""Parts of a report before its pages."""
+ABOVE = ("judgement", "warnings", "lights", "remedies", "figures", "changes")  # parts of a report before its pages
 
 
 def content_data(content: Content) -> dict[str, Any]:

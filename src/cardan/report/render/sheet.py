@@ -17,36 +17,20 @@ from cardan.report.block import Block, Cell, Column, Listing, Picture, Points, T
 from .chart_data import ChartData, Looks
 from .charts import Drawn, charts, split
 
-NARROW, SHORT, WIDE = 9, 24, 44
-"""Letters of the narrowest column, of a word or two and of the widest column."""
-
-ACROSS = 118
-"""Letters of a line of words, and of a page that has no wider table."""
-
-MOST = 170
-"""Letters of a page up to which words go all the way across its tables."""
+NARROW, SHORT, WIDE = 9, 24, 44  # letters of the narrowest column, of a word or two and of the widest column
+ACROSS = 118  # letters of a line of words, and of a page that has no wider table
+MOST = 170  # letters of a page up to which words go all the way across its tables
 
 LETTER, MARGIN, LINE = 7, 5, 21
 """Pixels of a digit, of the margin of a cell, and of a line of words: rows of no stated height, as those of 20 pixels
 are written, every spreadsheet makes as high as it likes."""
 
-PAPER = (10.69 * 96.0, 6.6 * 96.0)
-"""Pixels of a printed page within its margins, in natural size."""
-
-INCH, DPI = 100.0, 150.0
-"""Pixels of a sheet, and of a picture, for an inch of print."""
-
-WIDEST_CHART = 900.0
-"""Pixels."""
-
-TOP = 6.0 * LINE
-"""Pixels of a printed page that are no reason to begin another one: a title and what it comes to."""
-
-HIGHEST_ROW = 545.0
-"""Pixels."""
-
-SQUEEZED = 0.72
-"""Share of its height to which a picture or a chart shrinks to stay on a page with what is above it."""
+PAPER = (10.69 * 96.0, 6.6 * 96.0)  # pixels of a printed page within its margins, in natural size
+INCH, DPI = 100.0, 150.0  # pixels of a sheet, and of a picture, for an inch of print
+WIDEST_CHART = 900.0  # Pixels
+TOP = 6.0 * LINE  # pixels of a printed page that are no reason to begin another one: a title and what it comes to
+HIGHEST_ROW = 545.0  # Pixels
+SQUEEZED = 0.72  # share of its height to which a picture or a chart shrinks to stay on a page with what is above it
 
 
 HEAD: dict[str, Any] = {"bold": True, "text_wrap": True, "valign": "bottom", "bottom": 1, "bg_color": "#eef1f5"}
@@ -333,11 +317,8 @@ def _need(table: Table, k: int, column: Column) -> int:
 DIGIT = 507.0
 """Width of a digit in the usual letters of spreadsheets (Calibri), thousandths of their size; so are all below."""
 
-BROADEST = 560.0
-"""Width of a letter that is not listed, about: those of other alphabets, bold ones."""
-
-SPARE = 1.05
-"""What words may be wider than told: bold letters, other fonts."""
+BROADEST = 560.0  # width of a letter that is not listed, about: those of other alphabets, bold ones
+SPARE = 1.05  # what words may be wider than told: bold letters, other fonts
 
 WIDTHS: dict[str, float] = {
     letter: width

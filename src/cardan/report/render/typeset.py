@@ -23,11 +23,8 @@ matplotlib = later("matplotlib")
 
 TEMPLATE = Path(__file__).parent / "templates" / "report.typ"
 
-FONTS = "'DejaVu Sans'"
-"""Font of the words in figures: matplotlib brings it wherever cardan is installed."""
-
-STANDARD: Final = "ua-1"
-"""The PDF can be read aloud: tagged, with words for every picture."""
+FONTS = "'DejaVu Sans'"  # font of the words in figures: matplotlib brings it wherever cardan is installed
+STANDARD: Final = "ua-1"  # the PDF can be read aloud: tagged, with words for every picture
 
 
 UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufeff\ufffe\uffff]")

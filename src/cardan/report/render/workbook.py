@@ -17,11 +17,8 @@ from .chart_data import CODE, ChartData, Looks
 from .charts import split
 from .sheet import LINE, Paper
 
-SKETCH = 260.0
-"""Pixels of the drive on the first page, from top to bottom."""
-
-HEADER = 90
-"""Letters of the drive's name above a printed page."""
+SKETCH = 260.0  # pixels of the drive on the first page, from top to bottom
+HEADER = 90  # letters of the drive's name above a printed page
 
 
 def written(content: Content) -> bytes:

@@ -52,11 +52,8 @@ class Stance:
         return found
 
 
-DRIVING, DRIVEN = "driving", "driven"
-"""Links that every joint has: its shafts."""
-
-ARM = 0.1
-"""Distance of a point of contact from the axis over the length of the shaft behind; any but nought would do."""
+DRIVING, DRIVEN = "driving", "driven"  # links that every joint has: its shafts
+ARM = 0.1  # distance of a point of contact from the axis over the length of the shaft behind; any but nought would do
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

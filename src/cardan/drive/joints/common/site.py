@@ -16,8 +16,7 @@ from cardan.texts import _
 
 from .inner import Stance
 
-BACK = np.diag([-1.0, 1.0, -1.0])
-"""Turns a yoke round, so that its hub lies against the power flow."""
+BACK = np.diag([-1.0, 1.0, -1.0])  # turns a yoke round, so that its hub lies against the power flow
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -149,8 +148,7 @@ class Site:
 QUARTER = np.asarray([(1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)])
 """Turns a yoke by a quarter turn from the mark of its shaft."""
 
-BALLS = 6
-"""Number of balls of a joint that is only known to be even."""
+BALLS = 6  # number of balls of a joint that is only known to be even
 
 
 def about(surface: Surface, angle: float) -> Surface:

@@ -23,20 +23,14 @@ from cardan.texts import _
 from cardan.units import deg, rpm
 from cardan.units import factor as unit_factor
 
-LINES = 36
-"""Lines of a map at most: one for each range of speed."""
-
-NAMED = 5
-"""Peaks of a spectrum with their order beside them."""
-
-WHOLE = 0.02
-"""How far from a whole number an order may be to be called whole."""
+LINES = 36  # lines of a map at most: one for each range of speed
+NAMED = 5  # peaks of a spectrum with their order beside them
+WHOLE = 0.02  # how far from a whole number an order may be to be called whole
 
 RUN, LASTING = 0.7, 0.2
 """Shares of the range of speed and of the recording that one run has to cover to be drawn over the speed."""
 
-BELIEVED = 0.6
-"""Confidence below which the sentence says so."""
+BELIEVED = 0.6  # confidence below which the sentence says so
 
 DIMENSIONS = {
     "acceleration": ("acceleration", "m_s2"), "velocity": ("speed", "mm_s"), "displacement": ("displacement", "um"),
@@ -298,8 +292,7 @@ def _broken(phase: Array) -> Array:
 
 # What a fault should show: its orders over the speed where they are largest.
 
-POINTS = 201
-"""Speeds along a curve."""
+POINTS = 201  # speeds along a curve
 
 
 def expected_figure(found: Expected) -> Figure:

@@ -32,14 +32,9 @@ from .orders import (
     unit_of,
 )
 
-SHOWN = 6
-"""Causes with a bar."""
-
-LONG = 44
-"""Letters of the name of a cause."""
-
-LIKELY = 0.5
-"""Probability from which on a cause is called likely."""
+SHOWN = 6  # causes with a bar
+LONG = 44  # letters of the name of a cause
+LIKELY = 0.5  # probability from which on a cause is called likely
 
 
 def examination_figures(found: Examination) -> tuple[Figure, ...]:
@@ -105,14 +100,9 @@ def _short(name: str) -> str:
 
 # A recording as motion: how the shaft turned, where its centre went, how it swung about its turning.
 
-POINTS = 800
-"""Points of a curve at most."""
-
-TURNS = 2.0
-"""Turns of the twist that are drawn."""
-
-ORDERS = 12.0
-"""Highest order of the twist drawn."""
+POINTS = 800  # points of a curve at most
+TURNS = 2.0  # turns of the twist that are drawn
+ORDERS = 12.0  # highest order of the twist drawn
 
 
 def rotation_figure(found: Rotation) -> Figure:

@@ -16,11 +16,8 @@ from .orders import TURNS, turned
 from .rotation import Rotation
 from .signal import Channel
 
-POINTS = 181
-"""Points of an ellipse."""
-
-SMOOTH = 16.0
-"""Order up to which the raw way is read: it is drawn."""
+POINTS = 181  # points of an ellipse
+SMOOTH = 16.0  # order up to which the raw way is read: it is drawn
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

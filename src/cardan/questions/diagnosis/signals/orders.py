@@ -23,23 +23,12 @@ from .signal import Channel, Progress
 
 # A channel at even angles of its shaft, cut into windows of whole turns.
 
-HIGHEST = 10.0
-"""Order up to which spectra reach."""
-
-TURNS = 16
-"""Turns in a window."""
-
-BLOCK = 1 << 20
-"""Points that are transformed at once; bounds the memory."""
-
-OVERLAP = 0.75
-"""Share of a window that the next one shares with it."""
-
-POINTS_AN_ORDER = 4
-"""Points in the period of the highest order, which `read_slowly` asks for."""
-
-MOST_POINTS = 2e7
-"""Points at even angles; more would not fit the memory with all that is made of them."""
+HIGHEST = 10.0  # order up to which spectra reach
+TURNS = 16  # turns in a window
+BLOCK = 1 << 20  # points that are transformed at once; bounds the memory
+OVERLAP = 0.75  # share of a window that the next one shares with it
+POINTS_AN_ORDER = 4  # points in the period of the highest order, which `read_slowly` asks for
+MOST_POINTS = 2e7  # points at even angles; more would not fit the memory with all that is made of them
 
 WINDOWS = {"hann": (0.5, 0.5), "flattop": (0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368)}
 """Window -> weights of its cosines. A flat top reads amplitudes between two lines to 0.1 %, but is twice as wide."""

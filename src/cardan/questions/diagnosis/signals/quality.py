@@ -11,26 +11,13 @@ from cardan.texts import _, plural
 
 from .signal import LARGEST
 
-CLIPPED = 3.0
-"""Times as many values at the very top as just below it: no vibration does that."""
-
-NEXT = 2e-3
-"""Share of the range that counts as just below the top."""
-
-WRAP = 0.9
-"""Share of the range that a value jumps by when a number has overflown."""
-
-UNEVEN = 0.02
-"""Share of a step by which times may differ from even ones."""
-
-GAP = 1.5
-"""Steps from which on values are missing between two times."""
-
-STILL = 0.1
-"""Share of the recording over which a vibration may stay at one value to the last digit."""
-
-LOST = 0.5
-"""Share of the values that may be missing; beyond it a channel says nothing."""
+CLIPPED = 3.0  # times as many values at the very top as just below it: no vibration does that
+NEXT = 2e-3  # share of the range that counts as just below the top
+WRAP = 0.9  # share of the range that a value jumps by when a number has overflown
+UNEVEN = 0.02  # share of a step by which times may differ from even ones
+GAP = 1.5  # steps from which on values are missing between two times
+STILL = 0.1  # share of the recording over which a vibration may stay at one value to the last digit
+LOST = 0.5  # share of the values that may be missing; beyond it a channel says nothing
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -23,32 +23,15 @@ from cardan.units import rpm
 from .rotation import LEAST_TURNS, Rotation
 from .signal import Channel, Progress, Watch
 
-BAND = (1.5, 250.0)
-"""Turns a second between which a shaft is sought where nothing is known of it [Hz]."""
-
-FASTEST = 2.0
-"""Order up to which the strongest line is sought."""
-
-WINDOWS = (0.25, 0.5, 1.0, 2.0, 4.0)
-"""Lengths of a window of the spectrogram that are tried [s]."""
-
-HOPS = 4
-"""Steps of the spectrogram in the length of a window."""
-
-AROUND = 16
-"""Lines to each side whose median a line is put over."""
-
-BLOCK = 1 << 20
-"""Values that are transformed at once; bounds the memory."""
-
-SHORTER = 0.9
-"""Share of the longest channel that one may last and be sought in together with it."""
-
-JUMP = 4
-"""Lines that the ridge may change by from step to step."""
-
-STIFF = 0.5
-"""What a change by one line costs, in nepers of power."""
+BAND = (1.5, 250.0)  # turns a second between which a shaft is sought where nothing is known of it [Hz]
+FASTEST = 2.0  # order up to which the strongest line is sought
+WINDOWS = (0.25, 0.5, 1.0, 2.0, 4.0)  # lengths of a window of the spectrogram that are tried [s]
+HOPS = 4  # steps of the spectrogram in the length of a window
+AROUND = 16  # lines to each side whose median a line is put over
+BLOCK = 1 << 20  # values that are transformed at once; bounds the memory
+SHORTER = 0.9  # share of the longest channel that one may last and be sought in together with it
+JUMP = 4  # lines that the ridge may change by from step to step
+STIFF = 0.5  # what a change by one line costs, in nepers of power
 
 SURE, NOISE = 4.0, 2.2
 """Mean height of a ridge over what is around it [nepers of power]: surely a tone; what chance makes in noise."""
@@ -62,8 +45,7 @@ PRIOR = {1.0: 0.50, 2.0: 0.35, 3.0: 0.08, 4.0: 0.07}
 BETWEEN = {2: (0.5, 1.5, 2.5), 3: (1 / 3, 2 / 3, 4 / 3, 5 / 3), 4: (0.25, 0.75, 1.25, 1.75)}
 """Divisor -> multiples of the line at which there should be something if the line is an order with this divisor."""
 
-SEEN, UNSEEN = 0.5, 0.1
-"""Chance that one of these stands out if it belongs to the shaft, and if it does not."""
+SEEN, UNSEEN = 0.5, 0.1  # chance that one of these stands out if it belongs to the shaft, and if it does not
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -12,8 +12,7 @@ import scipy
 
 from cardan.maths.arrays import Array, ArrayLike
 
-LEAST_TURNS = 3.0
-"""A recording of fewer turns tells nothing of orders."""
+LEAST_TURNS = 3.0  # a recording of fewer turns tells nothing of orders
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -22,11 +22,8 @@ QUANTITIES = {
 
 DIRECTIONS = ("x", "y", "z", "radial", "axial", "torsion", "")
 
-LARGEST = 1e30
-"""Numbers beyond this are no measurement, in any unit."""
-
-TURNING = ("pulses", "angular_speed", "angle")
-"""Quantities that tell how a shaft turns."""
+LARGEST = 1e30  # numbers beyond this are no measurement, in any unit
+TURNING = ("pulses", "angular_speed", "angle")  # quantities that tell how a shaft turns
 
 
 def _real(values: ArrayLike) -> Array:
@@ -207,8 +204,7 @@ class Signal:
 
 # Who watches work of several parts: told how far the whole of it is, and heard when he wants it to stop.
 
-Progress: TypeAlias = Callable[[float], object]
-"""Told the share done; may answer "stop"."""
+Progress: TypeAlias = Callable[[float], object]  # told the share done; may answer "stop"
 
 
 class Watch:

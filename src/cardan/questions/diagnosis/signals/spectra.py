@@ -19,11 +19,8 @@ from .signal import Channel
 NEXT = {"acceleration": "velocity", "velocity": "displacement", "angular_speed": "angle"}
 """Quantity -> its integral over time."""
 
-LEAST_VALUES = 16
-"""A cepstrum of fewer values says nothing."""
-
-FLOOR = 1e-6
-"""Share of the highest power below which a line counts as this much; a logarithm needs something."""
+LEAST_VALUES = 16  # a cepstrum of fewer values says nothing
+FLOOR = 1e-6  # share of the highest power below which a line counts as this much; a logarithm needs something
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -18,14 +18,9 @@ from .turning import counted
 EVEN_TURNS = 4
 """Turns over which the even turning is averaged; with Hann's weights all orders that are quarters from 1/2 up go."""
 
-LEAST_WINDOWS = 3
-"""Of these turns a recording needs so many: one goes at each end."""
-
-LEAST_TEETH = 8
-"""A wheel of fewer teeth sees too little of a turn: 4 teeth are needed in a period of the highest order."""
-
-KEPT = 8
-"""Whole orders that belong to the shaft; what repeats from turn to turn above them is put down to the teeth."""
+LEAST_WINDOWS = 3  # of these turns a recording needs so many: one goes at each end
+LEAST_TEETH = 8  # a wheel of fewer teeth sees too little of a turn: 4 teeth are needed in a period of the highest order
+KEPT = 8  # whole orders that belong to the shaft; what repeats from turn to turn above them is put down to the teeth
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

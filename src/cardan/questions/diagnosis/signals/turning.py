@@ -18,20 +18,11 @@ from .ridge import ridge
 from .rotation import LEAST_TURNS, Rotation
 from .signal import Channel, Progress, Signal
 
-MOST_TURNS = 1e7
-"""No recording has more: 10 000 rpm for half a day."""
-
-FASTEST = 1e6 * rpm
-"""No shaft of a drive turns faster."""
-
-SAMPLES_A_PULSE = 4.0
-"""Values between pulses below which their times are guesses."""
-
-KNOTS = 8
-"""Knots of the angle in a turn, about, where there are more pulses; their times are sharp to a sample at best."""
-
-SLOW = 0.02
-"""Share of the greatest speed below which a shaft counts as standing."""
+MOST_TURNS = 1e7  # no recording has more: 10 000 rpm for half a day
+FASTEST = 1e6 * rpm  # no shaft of a drive turns faster
+SAMPLES_A_PULSE = 4.0  # values between pulses below which their times are guesses
+KNOTS = 8  # knots of the angle in a turn, about, where there are more pulses; their times are sharp to a sample at best
+SLOW = 0.02  # share of the greatest speed below which a shaft counts as standing
 
 
 def estimate_rotation(
@@ -208,17 +199,10 @@ def _jumps(found: Rotation) -> float:
 HYSTERESIS = 0.2
 """Share of the height of the pulses that a value must fall below and rise above to count; noise stays within it."""
 
-RARE = 2e-4
-"""Share of the values beyond which a level is a spike, not one of the pulses."""
-
-EXTRA, MISSING = 0.6, 1.6
-"""A time between pulses is too short or too long beside those around it."""
-
-AROUND = 4
-"""Times between pulses to each side that tell what one should be."""
-
-GRID = 0.35
-"""How far from a whole number of pulses a gap may end for the pulses in it to be counted."""
+RARE = 2e-4  # share of the values beyond which a level is a spike, not one of the pulses
+EXTRA, MISSING = 0.6, 1.6  # a time between pulses is too short or too long beside those around it
+AROUND = 4  # times between pulses to each side that tell what one should be
+GRID = 0.35  # how far from a whole number of pulses a gap may end for the pulses in it to be counted
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
