@@ -236,7 +236,7 @@ def _swing(signal: Signal) -> TorsionalVibration | None:
 def _expected(drive: Drive, cause: str) -> Expected | None:
     """Return what a cause should show; None where nothing models it, or the drive cannot have it."""
     wanted = "" if cause == "healthy" else cause
-    fault = next((name for name, (row, _made) in FAULTS.items() if row == wanted), None)
+    fault = next((name for name, row in FAULTS.items() if row == wanted), None)
     if fault is None:
         return None
     try:

@@ -129,10 +129,10 @@ def expected_orders(
     if fault == "centre_bearing" and base.housing("centre") is None:
         raise refuse("fault", _("the drive has no centre bearing"), "inconsistent")
     wrong = _moved(base, fault, severity)
-    lines = [*in_order(wrong, fault, severity), *FAULTS[fault][1](wrong, severity, chosen)]
+    lines = [*in_order(wrong, fault, severity), *MAKERS[fault][1](wrong, severity, chosen)]
     return Expected(
         fault=fault,
-        cause=FAULTS[fault][0],
+        cause=FAULTS[fault],
         orders=tuple(one for one in lines if one.size > 0.0),
         bursts=bursts_of(wrong, fault, severity),
         critical=wrong.critical,
@@ -373,7 +373,7 @@ def _centre(base: DriveModel, severity: float, chosen: int) -> Iterator[Expected
             yield _line(house, "radial", order, near * share * force / house.mass, 1.5, LOOSE)
 
 
-FAULTS: dict[str, tuple[str, Callable[[DriveModel, float, int], Iterator[ExpectedOrder]]]] = {
+MAKERS: dict[str, tuple[str, Callable[[DriveModel, float, int], Iterator[ExpectedOrder]]]] = {
     "healthy": ("", _nothing),
     "unbalance": ("F01", _unbalance),
     "lost_weight": ("F01", _lost_weight),
@@ -389,6 +389,8 @@ FAULTS: dict[str, tuple[str, Callable[[DriveModel, float, int], Iterator[Expecte
     "centre_bearing": ("F23", _centre),
 }
 """Fault -> its row of the catalogue, empty for a drive in order, and what makes its orders."""
+
+FAULTS = {fault: row for fault, (row, _made) in MAKERS.items()}  # fault -> its row of the catalogue
 
 
 def bursts_of(base: DriveModel, fault: str, severity: float) -> tuple[Bursts, ...]:

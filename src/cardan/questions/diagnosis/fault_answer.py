@@ -72,7 +72,7 @@ def answer_of_list() -> Answer:
         records=True,
         columns=(
             Column(key="fault", heading=_("fault"), values=list(FAULTS), left=True),
-            Column(key="cause", heading=_("cause"), values=[row for row, _made in FAULTS.values()], left=True),
+            Column(key="cause", heading=_("cause"), values=list(FAULTS.values()), left=True),
             Column(key="words", heading=_("what is wrong"), values=words, left=True, wrap=True),
         ),
     )
@@ -85,7 +85,7 @@ def fault_words(fault: str) -> str:
     own = {"unbalance": _("unbalance of a shaft"), "lost_weight": _("balance weight lost")}
     if fault in own:
         return own[fault]
-    row = catalogue().rows(Fault).get(FAULTS[fault][0])
+    row = catalogue().rows(Fault).get(FAULTS[fault])
     return _("nothing wrong") if row is None else _(row.fault)
 
 
