@@ -25,17 +25,13 @@ from .rows import TABLES, Grade, JointSize, Row, told
 
 R = TypeVar("R", bound=Row)
 
-NEAR = 3
-"""Names told of where one is not there."""
-
-SHOWN = 6
-"""Grades told of that a name stands for."""
+NEAR = 3  # names told of where one is not there
+SHOWN = 6  # grades told of that a name stands for
 
 STRENGTH = re.compile(r"[sepl](\d{3})(?!\d)")
 """Names of steels that say their yield strength [MPa]: structural, of machines, of pressure vessels, of line pipe."""
 
-STEEL = 7000.0
-"""What metals that count as steel weigh at least [kg/m³]."""
+STEEL = 7000.0  # what metals that count as steel weigh at least [kg/m³]
 
 FILES = ("materials", "joint_types", "example_sizes", "joint_sizes", "norms", "faults")
 """Shipped files, beside this one; rows of one table may stand in several."""
