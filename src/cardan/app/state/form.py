@@ -256,12 +256,8 @@ def _entry(one: Field, table: Mapping[str, Any], path: str) -> Entry:
         default=one.default,
         required=one.required,
         size=size,
-        offered=_offered(one),
+        offered=tuple(catalogue().tables.get(OFFERED.get(one.name, ""), {})),
     )
-
-
-def _offered(one: Field) -> tuple[str, ...]:
-    return tuple(catalogue().tables.get(OFFERED.get(one.name, ""), {}))
 
 
 def _sort(one: Field) -> tuple[Sort, int]:

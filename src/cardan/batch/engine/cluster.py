@@ -245,7 +245,8 @@ class _Link:
                 self._alone = None if self._threads else self._alone or now
             self._looked = time.monotonic()
         if self._alone is not None and now - self._alone > self.patience:
-            raise EngineLostError(_workless(self.address, self.patience))
+            text = _("the scheduler {address} has had no worker for {seconds:g} s")
+            raise EngineLostError(text.format(address=self.address, seconds=self.patience))
         return self._threads
 
     def give(self, told: bytes, chunk: Chunk) -> Any:
@@ -302,10 +303,6 @@ def _lost(address: str, patience: float) -> str:
     return _("the scheduler {address} is gone and did not come back within {seconds:g} s").format(
         address=address, seconds=patience
     )
-
-
-def _workless(address: str, patience: float) -> str:
-    return _("the scheduler {address} has had no worker for {seconds:g} s").format(address=address, seconds=patience)
 
 
 def _odd(where: str, told: Any, here: tuple[tuple[int, ...], str]) -> str:

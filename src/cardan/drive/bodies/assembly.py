@@ -158,8 +158,9 @@ def _shaft(build: Build, k: int) -> None:
         said = _spline_text(build, k) if toothed else _tube_text(build, k)
         where = f"{path}.spline" if toothed else path
         build.add(piece.part, k, where, said, track, surface, role=role, shade=0.0 if toothed else 0.4)
+    axial = {one.position for one in build.drive.supports if one.shaft == k and one.axial}
     for place, thin in necks:
-        if build.drive.supports and thin > 0.0 and _axial_at(build, k, place):
+        if thin > 0.0 and place in axial:
             collars = (
                 placed(washer(0.9 * thin, 1.16 * thin, 0.25 * thin), None, (place + d * 0.75 * thin, 0, 0))
                 for d in (1, -1)
@@ -173,10 +174,6 @@ def _shaft(build: Build, k: int) -> None:
         path = "input" if k == 1 else "output"
         shape = placed(flange(radius, sense), None, (end - 0.05 * sense * radius, 0, 0))
         build.add("flange", k, path, text, track, shape, role=role, shade=0.2)
-
-
-def _axial_at(build: Build, k: int, place: float) -> bool:
-    return any(one.axial for one in build.drive.supports if one.shaft == k and one.position == place)
 
 
 def _tube_text(build: Build, k: int) -> Text:

@@ -179,7 +179,7 @@ class Build:
             track=self.ends[k] if driving else self.starts[k],
             turn=BACK if driving else None,
             reach=self.reach(i, driving=driving),
-            body=self.end_radius(k, driving=driving),
+            body=self.profiles[k][1 if driving else 0],
             thickest=self.body_radius(k),
         )
 
@@ -194,10 +194,6 @@ class Build:
     def body_radius(self, k: int) -> float:
         """Return the radius of shaft k, from 1, where it is thickest [m]."""
         return self.sizes.bodies[k - 1]
-
-    def end_radius(self, k: int, *, driving: bool) -> float:
-        """Return the radius of shaft k, from 1, where the hub of its driving or driven yoke ends [m]."""
-        return self.profiles[k][1 if driving else 0]
 
 
 def name_of(joint: Joint, i: int) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -179,15 +179,8 @@ def refuse_kinds(drive: Drive, question: str, key: str = "cross") -> None:
 
     question: what was asked, in words; key: the same as a key of `cardan.drive.joints.joint.REFUSALS`.
     """
-    check(refused_kinds(drive.joints, question, key))
-
-
-def refused_kinds(joints: Sequence[Joint], question: str, key: str) -> Iterator[Problem]:
-    """Yield a problem for every joint that does not answer a question."""
-    for i, joint in enumerate(joints):
-        why = joint.refusal(key)
-        if why:
-            yield kind_problem(i, joint, question, why)
+    whys = ((i, joint, joint.refusal(key)) for i, joint in enumerate(drive.joints))
+    check(kind_problem(i, joint, question, why) for i, joint, why in whys if why)
 
 
 def kind_problem(i: int, joint: Joint, question: str, why: str) -> Problem:

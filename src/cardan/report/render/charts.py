@@ -71,13 +71,8 @@ def _of_curves(panel: Panel) -> bool:
         all(isinstance(one, Curve | Rule | Note | Band | Shape) for one in panel.series)
         and any(isinstance(one, Curve) and np.size(one.x) > 1 for one in panel.series)
         and all(not one.label and len(one.x) <= OUTLINE for one in marks)
-        and all(axis.log or _says_numbers(axis) for axis in (panel.x, panel.y))
+        and all(axis.log or axis.numeric or not any(axis.texts) for axis in (panel.x, panel.y))
     )
-
-
-def _says_numbers(axis: Axis) -> bool:
-    """Tell whether the texts at the ticks are their numbers."""
-    return axis.numeric or not any(axis.texts)
 
 
 def _of_bars(panel: Panel) -> bool:

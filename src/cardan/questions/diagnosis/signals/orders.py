@@ -324,7 +324,8 @@ def order_spectrum(
         order=order,
         amplitude=amplitude,
         coherent=mean / begins.size,
-        floor=_floor(amplitude, used),
+        # the running median over two orders, which lines do not lift
+        floor=np.asarray(scipy.ndimage.median_filter(amplitude, size=2 * used + 1, mode="nearest")),
         resolution=line_width(window) / used,
         window=window,
         turns=used,
@@ -408,11 +409,6 @@ def order_map(
 def _kept(highest: float, used: int, per_turn: int) -> int:
     """Return how many lines reach up to an order."""
     return min(math.floor(highest * used + 1e-6), used * per_turn // 2) + 1
-
-
-def _floor(amplitude: Array, turns: int) -> Array:
-    """Return the running median over two orders, which lines do not lift."""
-    return np.asarray(scipy.ndimage.median_filter(amplitude, size=2 * turns + 1, mode="nearest"))
 
 
 # Amplitude and phase of some orders of a signal while the speed changes.
