@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from cardan.answers.answer import Answer, Column, Remark, Table
+from cardan.cli.shared.options import argument
 from cardan.cli.shared.output import check_common
 from cardan.cli.shared.source import AsCsv, AsJson
 from cardan.cli.shared.tell import tell
@@ -15,17 +14,11 @@ from cardan.io.keys import FileKey, file_keys, written_in_examples
 from cardan.texts import _, plural
 from cardan.units import nearest
 
-FEW = 40
-"""As many keys are told with an example of each."""
+FEW = 40  # as many keys are told with an example of each
 
 
 def keys(
-    path: Annotated[
-        str | None,
-        typer.Argument(
-            metavar="PATH", help=_("Table or key, as duty, joints.cross or shafts.outer_mm."), show_default=False
-        ),
-    ] = None,
+    path: Annotated[str | None, argument("PATH", _("Table or key, as duty, joints.cross or shafts.outer_mm."))] = None,
     json: AsJson = False,
     csv: AsCsv = False,
 ) -> int:
@@ -82,7 +75,7 @@ def _many(found: tuple[FileKey, ...]) -> Table:
         columns=(
             Column(key="", heading=_("key"), values=[key.path for key in found], left=True),
             Column(key="", heading=_("meaning"), values=[_meaning(key) for key in found], left=True, wrap=True),
-        ),
+        )
     )
 
 

@@ -4,22 +4,19 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from cardan.answers.answer import Answer, Column, Remark, Table
+from cardan.cli.shared.options import argument
 from cardan.cli.shared.output import check_common
 from cardan.cli.shared.source import AsJson
 from cardan.cli.shared.tell import tell
 from cardan.cli.shared.words import finds
 from cardan.texts import _
 
-SHOWN = 12
-"""Finds of each sort that are told."""
+SHOWN = 12  # finds of each sort that are told
 
 
 def lookup(
-    word: Annotated[str, typer.Argument(metavar="WORD", help=_("Word of the trade, as stress or phasing."))],
-    json: AsJson = False,
+    word: Annotated[str, argument("WORD", _("Word of the trade, as stress or phasing."))], json: AsJson = False
 ) -> int:
     """Find commands, checks, keys and formulas by a word of the trade."""
     check_common(json=json, csv=False)
