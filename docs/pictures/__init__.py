@@ -13,6 +13,7 @@ MODULES = (
     "conventions",
     "theory",
     "constant_velocity",
+    "steering",
     "couplings",
     "joint_gallery",
     "movements",

@@ -15,6 +15,7 @@ from .pose import Pose
 from .settings import Settings
 from .shaft import Shaft
 from .station import Station
+from .steering import Steering
 from .support import Support
 
 Form: TypeAlias = Literal["points", "angles", "slopes"]
@@ -54,6 +55,7 @@ class Described:
     stations: tuple[Station, ...] = plain((), doc="masses that turn with the shafts, beside those of the shafts")
     duty: Duty = plain(Duty(), doc="what the drive does")
     limits: Limits = plain(Limits(), doc="limits over the built-in ones")
+    steering: Steering | None = plain(None, doc="what the drive is to do as a steering column")
     movements: tuple[Movement, ...] = plain((), doc="how the points of the drive move")
     poses: tuple[Pose, ...] = plain((), doc="standing variants of the drive")
 

@@ -24,6 +24,7 @@ from cardan.drive.pose import Pose
 from cardan.drive.settings import Settings
 from cardan.drive.shaft import Layup, Notch, Ply, PointMass, Segment, Shaft, Spline, Unbalance
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
+from cardan.drive.steering import Steering
 from cardan.drive.support import Support
 from cardan.mechanism.mechanism import Mechanism, Pair
 from cardan.reading.fields import WORD_OR_FLAG, Field, fields_of
@@ -206,6 +207,7 @@ def sections() -> tuple[tuple[str, type], ...]:
         *((f'`motor`, `load` or `[[duty.torques]]` with `kind = "{name}"`', cls) for name, cls in LAWS.items()),
         ("`run_up` of the duty", RunUp),
         ("`[limits]`", Limits),
+        ("`[steering]`", Steering),
         *((f'`[[movements]]` with `kind = "{name}"`', cls) for name, cls in MOVEMENTS.items()),
         ("`spectrum` of a random movement", Spectrum),
         ("`[[poses]]`", Pose),

@@ -17,7 +17,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.accuracy.as_made import as_made
 from cardan.questions.motion.kinds import steep
-from cardan.questions.phases.answer import CALM, UTMOST, excess
+from cardan.questions.phases.answer import CALM, UTMOST, excess, steers, wants_fluctuation
 from cardan.questions.phases.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg
@@ -63,7 +63,11 @@ def _limits(pages: Sequence[Page]) -> Page | None:
 
 
 def uniformity(on: Subject) -> Words:
-    """Return a sentence on how uniformly the drive turns."""
+    """Return a sentence on how uniformly the drive turns; of a steering column on its ratio from lock to lock."""
+    for steering in steers(on.drive, on.phasing):
+        as_wanted = steering.tone == "good"
+        bad = any(steep_joints(on.drive, on.joint_angle))
+        return Words(text=steering.text, tone="failed" if bad else "good" if as_wanted else "warning")
     share = Quantity(on.fluctuation, "share", 3)
     posed, pose = _in_poses(on)
     made = _as_made(on)
@@ -169,7 +173,13 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
         yield uniformity(on)
     yield from steep_joints(on.drive, on.joint_angle)
     fluctuating = not on.rounding(min(on.fluctuation, on.phasing.speed_fluctuation_min))
-    if on.joints > 1 and fluctuating and not on.phasing.feasible and on.phasing.limiting_joint is not None:
+    if (
+        on.joints > 1
+        and fluctuating
+        and not wants_fluctuation(on.drive)
+        and not on.phasing.feasible
+        and on.phasing.limiting_joint is not None
+    ):
         why: Text = _("Joints tied by fixed yokes act as one whose joint angle is too large for the others.")
         if len(on.phasing.limiting_joints) == 1:
             limiting = on.phasing.limiting_joint - 1
@@ -202,6 +212,10 @@ def steep_joints(drive: Drive, joint_angles: Array) -> Iterator[Words]:
 def changes(on: Subject) -> Table | Words:
     """Return the changes that help most, with their effect, at most three."""
     drawn = _("This concerns the drive as drawn, standing still.") if on.drive.movements else ""
+    steering = [one.text for one in steers(on.drive, on.phasing)]
+    if steering:
+        as_wanted = _("Nothing needs to be changed for the speed ratio wanted.")
+        return Words(text=Joined(steering[1:], between=" ") if len(steering) > 1 else as_wanted)
     if on.even or on.rounded:
         return Words(text=_nothing_as_drawn(on))
     now = on.fluctuation

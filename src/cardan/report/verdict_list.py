@@ -140,7 +140,8 @@ def settings(on: Subject) -> tuple[Applicable, ...]:
     found = _phasing(on)
     if found is None:
         return ()
-    several = (*found.settings, *found.spline_settings[:SHOWN], *found.pose_settings)
+    steered = (one.setting for one in found.steering[1:])
+    several = (*found.settings, *found.spline_settings[:SHOWN], *found.pose_settings, *steered)
     return tuple(_of(one, on) for one in several)
 
 

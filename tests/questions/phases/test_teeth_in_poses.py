@@ -5,13 +5,14 @@ from itertools import product
 
 import numpy as np
 import pytest
+import scipy
 
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import pose_drives
 from cardan.drive.pose import Pose
 from cardan.drive.shaft import Shaft, Spline
 from cardan.questions.motion.equivalence import equivalent_joint
-from cardan.questions.phases import phases as module
+from cardan.questions.phases import spline_pitch as module
 from cardan.questions.phases.phases import phases
 from cardan.units import deg
 
@@ -52,3 +53,32 @@ def test_the_best_on_teeth_are_those_of_all(every, monkeypatch):
         assert got == pytest.approx((worst, mean), rel=1e-9)
     assert got[0] >= worst * (1 - 1e-9)
     assert got[1] >= mean * (1 - 1e-9)
+
+
+def test_yokes_without_teeth_are_turned_anew_for_every_setting_on_teeth():
+    plain = drive()
+    mixed = replace(plain, shafts=(plain.shafts[0], replace(plain.shafts[1], spline=None), *plain.shafts[2:]))
+    poses = pose_drives(mixed)
+
+    def worst(angles):
+        uneven = []
+        for posed in poses:
+            shafts = [replace(shaft, yoke_angle=angle) for shaft, angle in zip(posed.shafts[1:-1], angles, strict=True)]
+            whole = replace(posed, shafts=(posed.shafts[0], *shafts, posed.shafts[-1]))
+            uneven.append(float(equivalent_joint(whole).speed_fluctuation))
+        return max(uneven)
+
+    best = min(
+        scipy.optimize.minimize_scalar(
+            lambda free, k=k: worst((free, k * 2 * np.pi / 10)),
+            bounds=bounds,
+            method="bounded",
+            options={"xatol": 1e-9},
+        ).fun
+        for k in range(10)
+        for bounds in np.linspace((0.0, 0.3), (2.9, 3.2), 11)
+    )
+    found = phases(mixed).pose_settings[2]
+    assert float(np.max(found.pose_speed_fluctuation)) == pytest.approx(best, rel=1e-6)
+    turned = (found.yoke_angle[1] - mixed.shafts[2].yoke_angle) / (np.pi / 5)
+    assert turned == pytest.approx(round(turned), abs=1e-9)

@@ -106,6 +106,7 @@ def parts(tree: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
             yield f"{name}[{k}]", _titled(title.format(number=k + 1), table)
     yield "duty", _("Duty")
     yield "limits", _("Limits")
+    yield "steering", _("Steering")
     yield "settings", _("Surroundings")
     for name, title in (("movements", _("Movement {number}")), ("poses", _("Pose {number}"))):
         for k, table in enumerate(tables(tree, name)):

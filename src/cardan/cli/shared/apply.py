@@ -11,7 +11,7 @@ from cardan.cli.shared.output import SUFFIXES, check_new, check_target
 from cardan.cli.shared.source import STDIN
 from cardan.drive.drive import Drive
 from cardan.errors import refuse
-from cardan.questions.phases.answer import every_setting
+from cardan.questions.phases.answer import advised, every_setting
 from cardan.questions.phases.phases import Phasing
 from cardan.questions.phases.setting import YokeSetting, values_of
 from cardan.texts import _
@@ -25,7 +25,7 @@ def written(
     label: which setting to write; the first suggested one by default.
     out: where to write it, TOML or JSON; also: what else changes in the file, by paths with units.
     """
-    best = (*found.pose_settings, *found.settings, found.as_built)[0]
+    best = (*advised(found), found.as_built)[0]
     chosen = best if label is None else named(every_setting(found), label)
     values = dict(also) | values_of(chosen, drive)
     write_changed(drive, text, values, out)

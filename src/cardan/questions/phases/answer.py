@@ -29,6 +29,7 @@ from .figure import phasing_figures
 from .phases import Phasing
 from .phases import phases as ask
 from .setting import YokeSetting
+from .steering import SteeringColumn
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
@@ -50,6 +51,9 @@ PITCHED = 3
 LITTLE = 0.01
 """A speed fluctuation below which what the yokes leave is called little."""
 
+LEVEL = 5e-5
+"""Speed ratios of a steering column that differ by less than this are told as the same."""
+
 SIDES = 8
 """So many sides of the phase polygon are told."""
 
@@ -67,6 +71,7 @@ def answer(drive: Drive, result: Phasing, *, fixed: Mapping[int, float] | None =
     nearest: whether the goal was the least change of the present yokes.
     """
     shown = (result.as_built, *result.settings, *result.spline_settings[:PITCHED], *result.pose_settings)
+    shown += tuple(one.setting for one in result.steering[1:])
     several = len(drive.joints) > 1
     return Answer(
         name="phasing",
@@ -78,6 +83,7 @@ def answer(drive: Drive, result: Phasing, *, fixed: Mapping[int, float] | None =
             *((settings_table(drive, shown),) if several else ()),
             *((_poses(result, shown),) if result.poses else ()),
             *((_costs(drive, result),) if several and result.settings else ()),
+            *((_steering(result),) if result.steering else ()),
         ),
         remarks=tuple(_remarks(drive, result, fixed or {}, nearest)),
         keys=tuple(_keys(drive, result)),
@@ -94,7 +100,13 @@ def is_uniform(drive: Drive, share: float) -> bool:
 
 def every_setting(found: Phasing) -> tuple[YokeSetting, ...]:
     """Return all settings of an answer, the one as specified first."""
-    return (found.as_built, *found.settings, *found.spline_settings, *found.pose_settings)
+    steered = (one.setting for one in found.steering[1:])
+    return (found.as_built, *found.settings, *found.spline_settings, *found.pose_settings, *steered)
+
+
+def advised(found: Phasing) -> tuple[YokeSetting, ...]:
+    """Return the settings worth writing into the file, the first choice first."""
+    return (*(one.setting for one in found.steering[1:]), *found.pose_settings, *found.settings)
 
 
 def _sentence(drive: Drive, found: Phasing) -> Say:
@@ -276,7 +288,7 @@ def _remarks(drive: Drive, found: Phasing, fixed: Mapping[int, float], nearest: 
         text = _("Warning: the search was stopped; these are the best settings so far.")
         yield Remark(text=text, tone="warning")
     yield Remark(text=_proof(drive, found), depth="full")
-    if not found.feasible:
+    if not found.feasible and not wants_fluctuation(drive):
         yield from _limits(drive, found)
     if meaning := letters(found, nearest=nearest):
         yield Remark(text=meaning)
@@ -292,11 +304,124 @@ def _remarks(drive: Drive, found: Phasing, fixed: Mapping[int, float], nearest: 
     if found.spline_refusal:
         yield Remark(text=_("Warning: splines: {reason}.").format(reason=found.spline_refusal), tone="warning")
     yield from steep_joints(drive)
-    writable = (*found.pose_settings, *found.settings)
-    if writable and np.max(np.abs(writable[0].change)) > WORTH:
+    yield from steers(drive, found)
+    writable = advised(found)
+    if writable and turns(drive, writable[0]) > WORTH:
         text = _("Write setting {label} into a copy of the file:").format(label=writable[0].label)
         parts = command(fixed, "--apply", writable[0].label, "-o", "better.toml", nearest=nearest)
         yield Remark(text=text, command=parts, tone="next")
+
+
+def wants_fluctuation(drive: Drive) -> bool:
+    """Tell whether a drive is a steering column whose ratio straight ahead is to be another than elsewhere."""
+    return drive.steering is not None and drive.steering.centre_ratio != 1.0
+
+
+def turns(drive: Drive, one: YokeSetting) -> float:
+    """Return by how much a setting turns the yoke that it turns most, that of the input among them [rad]."""
+    first = 0.0 if one.start_phase is None else abs(math.sin(one.start_phase - drive.input.start_phase))
+    return max(first, float(np.max(np.abs(one.change), initial=0.0)))
+
+
+def _steering(found: Phasing) -> Table:
+    """Return how a steering column hands on the turn of its wheel in each setting."""
+    every = found.steering
+
+    def ratios(key: str, heading: str, values: Iterable[float]) -> Column:
+        return Column(key=key, heading=heading, values=list(values), decimals=4)
+
+    phases = [one.setting.start_phase for one in every[1:]]
+    return Table(
+        name="steering",
+        title=_("As a steering column: speed ratio of output to wheel, from lock to lock"),
+        records=True,
+        columns=(
+            Column(key="setting", heading=_("setting"), values=[one.setting.label for one in every], left=True),
+            Column(
+                key="start_phase",
+                heading=_("first yoke ψ₁"),
+                values=[float(found.as_built.initial_phase[0]), *phases],
+                dimension="angle",
+                decimals=2,
+            ),
+            ratios("centre_ratio", _("straight ahead"), (one.centre_ratio for one in every)),
+            ratios("least_ratio", _("least"), (one.least for one in every)),
+            ratios("greatest_ratio", _("greatest"), (one.greatest for one in every)),
+            ratios("asymmetry", _("left less right, up to"), (one.asymmetry for one in every)),
+            Column(
+                key="torque_ripple", heading=_("torque ripple"), values=[one.ripple for one in every], dimension="share"
+            ),
+            *(
+                column
+                for k, name in enumerate(found.poses)
+                for column in (
+                    ratios(
+                        f"pose_{name}_centre_ratio",
+                        _("straight ahead, {pose}").format(pose=name),
+                        (float(one.pose_centre_ratio[k]) for one in every),
+                    ),
+                    ratios(
+                        f"pose_{name}_asymmetry",
+                        _("left less right, {pose}").format(pose=name),
+                        (float(one.pose_asymmetry[k]) for one in every),
+                    ),
+                )
+            ),
+        ),
+        note=_(
+            "Torque ripple: of the torque at the wheel, peak to peak, under a steady one at the output; no friction."
+        ),
+    )
+
+
+def steers(drive: Drive, found: Phasing) -> Iterator[Remark]:
+    """Yield what a steering column does as specified, what the best setting makes of it, and what stands in the way."""
+    if drive.steering is None or len(found.steering) < 2:
+        return
+    now, best = found.steering[:2]
+    torque = drive.duty.torque
+
+    def ripple(one: SteeringColumn) -> Text:
+        share = Quantity(one.ripple, "share", 3)
+        return (
+            share if torque is None else say("{share}, {torque}", share=share, torque=_newton(one.ripple * abs(torque)))
+        )
+
+    wanted = Quantity(drive.steering.centre_ratio, decimals=4)
+    text = _(
+        "As a steering column: straight ahead the speed ratio is {now}, wanted is {wanted}; to the left and to the "
+        "right it differs by up to {asymmetry}; the torque at the wheel ripples by {ripple}."
+    )
+    if now.asymmetry < LEVEL:
+        text = _(
+            "As a steering column: straight ahead the speed ratio is {now}, wanted is {wanted}; it is the same to the "
+            "left and to the right; the torque at the wheel ripples by {ripple}."
+        )
+    values = {"now": Quantity(now.centre_ratio, decimals=4), "wanted": wanted, "ripple": ripple(now)}
+    as_wanted = now.asymmetry < LEVEL and abs(now.centre_ratio - drive.steering.centre_ratio) < LEVEL
+    said = say(text, **values, asymmetry=Quantity(now.asymmetry, decimals=4))
+    yield Remark(text=said, tone="good" if as_wanted else "plain")
+    if as_wanted:
+        return
+    text = _(
+        "Setting {label}, with the first yoke at ψ₁ = {phase} straight ahead: {best} there, the same to both locks; "
+        "the torque at the wheel ripples by {ripple}."
+    )
+    phase = Quantity(best.setting.start_phase or 0.0, "angle", decimals=2)
+    there = Quantity(best.centre_ratio, decimals=4)
+    yield Remark(text=say(text, label=best.setting.label, phase=phase, best=there, ripple=ripple(best)))
+    if abs(best.centre_ratio - drive.steering.centre_ratio) > LEVEL:
+        text = _("The ratio wanted straight ahead, {wanted}, is beyond what the yokes reach: {best} is the nearest.")
+        if drive.steering.centre_ratio == 1.0:
+            text = _(
+                "The yokes do not make the drive uniform, and a ratio of 1 straight ahead cannot be symmetric then: "
+                "{best} is the nearest."
+            )
+        yield Remark(text=say(text, wanted=wanted, best=there), tone="warning")
+
+
+def _newton(torque: float) -> Quantity:
+    return Quantity(torque, "torque", 3)
 
 
 def command(fixed: Mapping[int, float], *more: str, nearest: bool) -> tuple[str, ...]:
@@ -501,6 +626,12 @@ def _keys(drive: Drive, found: Phasing) -> Iterator[KeyFigure]:
         place = say(_("in the pose {name}"), name=found.poses[int(foremost(posed))])
         value = Quantity(float(np.max(posed)), "share")
         yield KeyFigure(name="pose_speed_fluctuation", title=title, place=place, value=value)
+    for one in found.steering[:1]:
+        ripple = Quantity(one.ripple, "share")
+        yield KeyFigure(name="torque_ripple", title=_("torque ripple at the steering wheel"), value=ripple)
+        difference = Quantity(one.asymmetry, decimals=4)
+        title = _("difference of the steering ratio between left and right")
+        yield KeyFigure(name="steering_asymmetry", title=title, value=difference)
 
 
 def _uniformity(drive: Drive, found: Phasing) -> tuple[str, Tone]:
@@ -514,6 +645,8 @@ def _uniformity(drive: Drive, found: Phasing) -> tuple[str, Tone]:
         return _("uniform but for rounding"), "good"
     if share < CALM:
         return _("nearly uniform"), "plain"
+    if wants_fluctuation(drive):
+        return "", "plain"
     if found.feasible or is_rounding(drive, found.speed_fluctuation_min, length):
         return _("can be made uniform"), "warning"
     return _("cannot be uniform"), "warning"
@@ -534,8 +667,24 @@ def _facts(drive: Drive, found: Phasing) -> dict[str, Any]:
         "shafts": list(range(2, len(drive.joints) + 1)),
         "poses": list(found.poses),
         "settings": [setting_facts(one) for one in every_setting(found)],
+        **({"steering": [_steering_facts(one) for one in found.steering]} if found.steering else {}),
         "spline_refusal": found.spline_refusal,
         "complete": found.complete,
+    }
+
+
+def _steering_facts(one: SteeringColumn) -> dict[str, Any]:
+    return {
+        "label": one.setting.label,
+        "yoke_angle": Quantity(np.asarray(one.setting.yoke_angle, dtype=float), "angle"),
+        "start_phase": Quantity(one.setting.start_phase, "angle"),
+        "centre_ratio": one.centre_ratio,
+        "least_ratio": one.least,
+        "greatest_ratio": one.greatest,
+        "asymmetry": one.asymmetry,
+        "torque_ripple": Quantity(one.ripple, "share"),
+        "pose_centre_ratio": one.pose_centre_ratio.tolist(),
+        "pose_asymmetry": one.pose_asymmetry.tolist(),
     }
 
 

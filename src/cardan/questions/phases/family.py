@@ -164,16 +164,17 @@ class Blocks:
             whole[..., k] = self.between[k] - turn
         return whole
 
-    def closed(self, aims: Sequence[float] | None = None) -> Array:
+    def closed(self, aims: Sequence[float] | None = None, *, end: float | None = None) -> Array:
         """Return every way to fold the polygon over given diagonals: mirror images in pairs, array (s, n-1) [rad].
 
+        end: how far from its start it ends, as near as it can when not given.
         The first of a pair has its first bent corner on the negative side. A stretched polygon is given once.
         """
         corners = len(self.free)
         if not corners:
             return self.yoke_angle[None]
         trial = 1.0 - 2.0 * np.eye(corners + 1, corners, k=-1)
-        turns = self._turns(trial, aims)
+        turns = self._turns(trial, aims, end)
         bent = [k for k in range(corners) if abs(np.sin(turns[k][k + 1] - turns[k][0])) > STRETCHED]
         if len(bent) > MOST_FOLDS:
             plus = np.ones((1, corners))
@@ -182,7 +183,7 @@ class Blocks:
             plus = np.ones((len(ways), corners))
             plus[:, bent[1:]] = ways
         folds = np.stack((-plus, plus), axis=1).reshape(-1, corners) if bent else plus[:1]
-        return self.yokes(self._turns(folds, aims))
+        return self.yokes(self._turns(folds, aims, end))
 
     def mirrored(self, yoke_angle: Array) -> Array:
         """Return the yoke angles (n-1,) [rad] of the polygon's mirror image, which ends as far from its start."""
@@ -209,10 +210,10 @@ class Blocks:
         turns = polygon.close(sides, aims=aims, folds=folds, keep=self.keep).turns
         return self.yokes([np.broadcast_to(turn, (count,)) for turn in turns])
 
-    def _turns(self, folds: Array, aims: Sequence[float] | None) -> list[Array]:
+    def _turns(self, folds: Array, aims: Sequence[float] | None, end: float | None) -> list[Array]:
         sides = [(np.asarray(a), np.asarray(b)) for a, b in self.sides]
         columns = [np.ones(len(folds)), *folds.T]
-        turns = polygon.close(sides, aims=aims, folds=columns, keep=self.keep).turns
+        turns = polygon.close(sides, end=end, aims=aims, folds=columns, keep=self.keep).turns
         return [np.broadcast_to(turn, (len(folds),)) for turn in turns]
 
 

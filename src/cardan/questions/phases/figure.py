@@ -11,7 +11,7 @@ from cardan.answers.quantity import Quantity, say
 from cardan.drive.bodies.solids import solids
 from cardan.figures.axes import axis, clear_way, steps, written
 from cardan.figures.drive import views_figure
-from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Series
+from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series
 from cardan.figures.palette import dash_of, shaft
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
@@ -30,8 +30,8 @@ FLAT = 1e-6
 def phasing_figures(found: Phasing) -> tuple[Figure, ...]:
     """Return the figures of a phasing."""
     if not found.settings:
-        return (polygon_figure(found),)
-    made = [polygon_figure(found)]
+        return (polygon_figure(found), *((steering_figure(found),) if found.steering else ()))
+    made = [polygon_figure(found), *((steering_figure(found),) if found.steering else ())]
     if max(one.speed_fluctuation for one in _compared(found)) > SYNCHRONOUS:
         made.append(settings_figure(found))
     if float(np.max(found.settings[0].one_off)) > FLAT:
@@ -215,6 +215,39 @@ def settings_figure(found: Phasing) -> Figure:
             ),
         ),
         legend=False,
+    )
+
+
+def steering_figure(found: Phasing) -> Figure:
+    """Return the speed ratio of a steering column from lock to lock, as specified and in its best setting.
+
+    found: what the yoke angles can do, of a steering column.
+    """
+    shown = found.steering[:2]
+    looks = (("muted", "dashed", 1.4), ("accent", "solid", 2.0))
+    turn = shown[0].angle / deg
+    curves = tuple(
+        Curve(x=turn, y=one.ratio, role=role, dash=dash, width=width, label=one.setting.label)
+        for one, (role, dash, width) in zip(shown, looks, strict=False)
+    )
+    across = axis(_("Turn of the wheel from straight ahead"), "deg", [turn], dimension="angle", margin=0.0)
+    upright = axis(_("Speed ratio, output to wheel"), "", [one.ratio for one in shown], include=(1.0,), least=1e-3)
+    best = shown[-1]
+    return Figure(
+        name="steering",
+        title=_("Speed ratio of the steering column from lock to lock"),
+        sentence=say(
+            _("In setting {label} the ratio is {ratio} straight ahead, and the same to both sides."),
+            label=best.setting.label,
+            ratio=Quantity(best.centre_ratio, decimals=4),
+        ),
+        source=_("i = cos α/(1 − sin² α cos²(φ + ψ)) of the joint that turns like the column; exact"),
+        rows=(
+            Row(
+                panels=(Panel(series=(Rule(value=0.0, upright=True, role="faint"), *curves), x=across, y=upright),),
+                height=1.8,
+            ),
+        ),
     )
 
 

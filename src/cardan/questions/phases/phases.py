@@ -24,7 +24,8 @@ from cardan.texts import _
 
 from .family import STRETCHED, Blocks, best_member, blocks, distinct
 from .setting import NEAREST, SYNCHRONOUS, Choice, Goal, LeastIntermediate, YokeSetting, settings, turned, with_yokes
-from .spline_pitch import TIE, best_pitched, steps
+from .spline_pitch import EVERY, TIE, best_pitched, on_teeth, steps
+from .steering import SteeringColumn, columns
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -60,6 +61,8 @@ class Phasing:
     pose_settings : tuple of YokeSetting
         The setting with the least speed fluctuation in the worst pose, and that with the least mean over the poses'
         shares of time; empty when there are no poses.
+    steering : tuple of SteeringColumn
+        A steering column as specified, then in its best settings; empty where the drive is none.
     complete : bool
         False when ``progress`` stopped the search; what was found by then is kept.
     """
@@ -80,6 +83,7 @@ class Phasing:
     limiting_joints: tuple[int, ...] = ()
     poses: tuple[str, ...] = ()
     pose_settings: tuple[YokeSetting, ...] = ()
+    steering: tuple[SteeringColumn, ...] = ()
     complete: bool = True
 
     @property
@@ -158,17 +162,18 @@ def phases(
     rows = _optima(figure, choice, goal, family=low == 0.0 and len(free) > 2)
     teeth = _teeth(drive, free)
     pitched, refusal = _pitched(choice, start, teeth, [k for k in free if k not in teeth])
-    names, chains, share = _poses(drive, poses)
+    names, drives, chains, share = _poses(drive, poses)
     posed, complete = _posed(chains, share, start, free, rows, progress)
     if len(posed) and teeth:
-        posed = np.concatenate((posed, best_on_teeth(stacked(chains), share, start, teeth, posed)))
+        posed = np.concatenate((posed, best_on_teeth(stacked(chains), share, start, teeth, free, posed)))
     limiting = () if feasible else figure.joints[int(foremost(figure.lengths))]
 
     def evaluated(yokes: Array, labels: Sequence[str]) -> tuple[YokeSetting, ...]:
         return settings(whole, yokes, labels, as_built, chains) if len(labels) else ()
 
+    present = evaluated(as_built[None], [_("as specified")])[0]
     return Phasing(
-        as_built=evaluated(as_built[None], [_("as specified")])[0],
+        as_built=present,
         feasible=feasible,
         speed_fluctuation_min=2.0 * math.sinh(low),
         speed_fluctuation_max=2.0 * math.sinh(high),
@@ -184,6 +189,7 @@ def phases(
         limiting_joints=tuple(i + 1 for i in limiting),
         poses=names,
         pose_settings=evaluated(posed, _pose_labels(teeth, len(posed))),
+        steering=columns(drive, whole, figure, present, teeth=teeth, poses=chains, posed=drives),
         complete=complete,
     )
 
@@ -247,8 +253,8 @@ def _spline_labels(teeth: Mapping[int, int], count: int) -> list[str]:
     return [first, *(_("{name}, no. {rank}").format(name=first, rank=rank) for rank in range(2, count + 1))][:count]
 
 
-def _poses(drive: Drive, poses: Mapping[str, Drive] | None) -> tuple[tuple[str, ...], list[Chain], Array]:
-    """Return names, kinematics and shares of the poses."""
+def _poses(drive: Drive, poses: Mapping[str, Drive] | None) -> tuple[tuple[str, ...], list[Drive], list[Chain], Array]:
+    """Return names, drives, kinematics and shares of the poses."""
     if poses is None and drive.poses:
         given = list(zip((pose.name for pose in drive.poses), pose_drives(drive), strict=True))
         said = [pose.share for pose in drive.poses]
@@ -271,6 +277,7 @@ def _poses(drive: Drive, poses: Mapping[str, Drive] | None) -> tuple[tuple[str, 
     even = np.ones(len(said)) / max(1, len(said))
     return (
         tuple(name for name, _one in given),
+        [one for _name, one in given],
         [nearly_turning_chain(one, _("yoke angles")) for _name, one in given],
         weight / weight.sum() if weight.sum() > 0 else even,
     )
@@ -331,8 +338,8 @@ __all__ = ["NEAREST", "SYNCHRONOUS", "Phasing", "YokeSetting", "phases"]
 # A drive that is synchronous in one pose is not so in another. The yokes are the same in all: sought are those with the
 # smallest speed fluctuation in the worst pose, and those with the smallest mean over the poses by their share of time.
 
-EVERY = 1 << 14
-"""Up to so many settings on teeth are looked at in every pose."""
+TRIALS = 32
+"""Angles of the yokes without teeth tried for each setting on teeth."""
 
 SAMPLES = 2048
 """Settings looked at before the search."""
@@ -407,28 +414,35 @@ def best_for_poses(
     return answers[0], answers[1], True
 
 
-def best_on_teeth(poses: Chain, share: Array, yoke_angle: Array, teeth: Mapping[int, int], found: Array) -> Array:
+def best_on_teeth(
+    poses: Chain, share: Array, yoke_angle: Array, teeth: Mapping[int, int], free: Sequence[int], found: Array
+) -> Array:
     """Return the settings that splines allow with the least worst and the least mean speed_fluctuation over the poses.
 
     poses (p, n): the drive in its poses; share (p,): shares of time, summing to one.
     yoke_angle (n-1,) [rad]: present yoke angles, from which the teeth count.
-    teeth: index 0 … n-2 of a yoke angle -> teeth of the spline there.
-    found (2, n-1) [rad]: the best without teeth, whose other yoke angles are kept.
-    Returns (2, n-1) [rad]: of all settings where there are at most `EVERY`, else of those a tooth beside the best
-    without teeth.
+    teeth: index 0 … n-2 of a yoke angle -> teeth of the spline there; free: indices of all that may be turned.
+    found (2, n-1) [rad]: the best without teeth.
+    Returns (2, n-1) [rad]: of all settings on teeth where they can be looked at one by one, see `on_teeth`; free yokes
+    without teeth are turned anew for the best of them.
     """
-    every = math.prod(steps(z) for z in teeth.values()) <= EVERY
+    loose = [k for k in free if k not in teeth]
+    random = np.random.default_rng(len(free))
     rows = []
-    for judge, base in zip((_worst, _mean), found, strict=True):
-        places = []
-        for k, z in sorted(teeth.items()):
-            pitch = np.pi / steps(z)
-            near = round(float(base[k] - yoke_angle[k]) / pitch)
-            places.append(yoke_angle[k] + pitch * (np.arange(steps(z)) if every else near + np.arange(-1, 2)))
-        grid = np.stack([one.ravel() for one in np.meshgrid(*places, indexing="ij")], axis=-1)
-        some = np.repeat(base[None], len(grid), axis=0)
-        some[:, sorted(teeth)] = grid
+    for judge, search, base in zip((_worst, _mean), (_min_max, _least_mean), found, strict=True):
+        some = on_teeth(base, yoke_angle, teeth)
+        if loose:
+            count = max(1, min(TRIALS, EVERY // len(some)))
+            trials = np.repeat(some[:, None], 1 + count, axis=1)
+            trials[:, 1:, loose] = random.uniform(0.0, np.pi, (count, len(loose)))
+            cost = judge(speed_fluctuations(poses, trials), share)
+            some = np.take_along_axis(trials, np.argmin(cost, axis=1)[:, None, None], axis=1)[:, 0]
         cost = judge(speed_fluctuations(poses, some), share)
+        if loose:
+            near = np.argsort(cost, kind="stable")[: 2 * STARTS]
+            least = max(float(cost[near[0]]), 1e-9)
+            some = np.concatenate((some[near], [search(poses, share, one, loose, least) for one in some[near]]))
+            cost = judge(speed_fluctuations(poses, some), share)
         away = np.sum(np.abs(np.sin(some - yoke_angle)), axis=-1)
         alike = np.flatnonzero(cost <= np.min(cost) + TIE)
         rows.append(some[alike[int(np.argmin(np.round(away[alike], 9)))]])

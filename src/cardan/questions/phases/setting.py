@@ -45,6 +45,8 @@ class YokeSetting:
         Turn from the yoke angles as built, in (-π/2, π/2].
     pose_speed_fluctuation : array (p,)
         δ in each pose; empty when the drive has none.
+    start_phase : float or None [rad]
+        ψ_1 that goes with it; None where it stays as in the file.
     """
 
     label: str
@@ -57,6 +59,7 @@ class YokeSetting:
     vertex: Array
     change: Array
     pose_speed_fluctuation: Array = field(default_factory=lambda: np.zeros(0))
+    start_phase: float | None = None
 
 
 STEP = 1e-9
@@ -73,10 +76,15 @@ def values_of(setting: YokeSetting, drive: Drive) -> dict[str, float]:
     >>> values_of(phases(drive).settings[0], drive)
     {'shafts[1].yoke_angle_deg': 0.0}
     """
+    present = {f"shafts[{shaft.number - 1}].yoke_angle_deg": shaft.yoke_angle for shaft in drive.shafts[1:-1]}
+    wanted = dict(zip(present, setting.yoke_angle, strict=True))
+    if setting.start_phase is not None:
+        present["input.start_phase_deg"] = drive.input.start_phase
+        wanted["input.start_phase_deg"] = setting.start_phase
     return {
-        f"shafts[{shaft.number - 1}].yoke_angle_deg": round(float(np.rad2deg(angle)), 12) + 0.0
-        for shaft, angle in zip(drive.shafts[1:-1], setting.yoke_angle, strict=True)
-        if abs(np.sin(angle - shaft.yoke_angle)) > STEP
+        key: round(float(np.rad2deg(angle)), 12) + 0.0
+        for key, angle in wanted.items()
+        if abs(np.sin(angle - present[key])) > STEP
     }
 
 

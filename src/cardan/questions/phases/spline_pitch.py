@@ -31,6 +31,9 @@ DIRECT = 1 << 18
 LIMIT = 1 << 20
 """Most points of one half, and most settings where yokes to be set freely stand between."""
 
+EVERY = 1 << 16
+"""Up to so many settings on teeth are looked at one by one where a formula cannot tell which are the best."""
+
 TIE = 1e-12
 """SpeedFluctuations nearer than this are equal; the setting nearer to the present one comes first."""
 
@@ -38,6 +41,24 @@ TIE = 1e-12
 def steps(teeth: int) -> int:
     """Return how many different yoke angles a spline of ``teeth`` teeth allows."""
     return teeth // 2 if teeth % 2 == 0 else teeth
+
+
+def on_teeth(base: Array, yoke_angle: Array, teeth: Mapping[int, int]) -> Array:
+    """Return the settings that splines allow, array (s, n-1) [rad]: all, or those a tooth beside one where too many.
+
+    base (n-1,) [rad]: a setting whose yoke angles without teeth are kept; yoke_angle (n-1,) [rad]: present yoke
+    angles, from which the teeth count; teeth: index 0 … n-2 of a yoke angle -> teeth of the spline there.
+    """
+    every = math.prod(steps(z) for z in teeth.values()) <= EVERY
+    places = []
+    for k, z in sorted(teeth.items()):
+        pitch = np.pi / steps(z)
+        near = round(float(base[k] - yoke_angle[k]) / pitch)
+        places.append(yoke_angle[k] + pitch * (np.arange(steps(z)) if every else near + np.arange(-1, 2)))
+    grid = np.stack([one.ravel() for one in np.meshgrid(*places, indexing="ij")], axis=-1) if places else base[None, :0]
+    rows = np.repeat(base[None], len(grid), axis=0)
+    rows[:, sorted(teeth)] = grid
+    return rows
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
