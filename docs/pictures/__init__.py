@@ -14,6 +14,7 @@ MODULES = (
     "theory",
     "constant_velocity",
     "steering",
+    "accuracy",
     "couplings",
     "joint_gallery",
     "movements",

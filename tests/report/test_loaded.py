@@ -34,7 +34,7 @@ WITH = {
     "two-piece-rubber-bearing": {"assembly", "bending", "balance"},
     "pto-spline-thrust": {"mobility", "forces", "losses"},
     "instrument-joint": {"mobility", "forces", "losses", "accuracy"},
-    "overconstrained-pump": {"mobility", "forces", "losses", "assembly", "bending"},
+    "overconstrained-pump": {"accuracy", "mobility", "forces", "losses", "assembly", "bending"},
     "truck-power-unit": {"torsion", "balance"},
     "pto-flywheel": {"torsion", "run-up", "bending", "balance"},
     "pto-flywheel-absorber": {"torsion", "run-up", "bending", "balance"},

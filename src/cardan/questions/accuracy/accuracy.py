@@ -310,12 +310,15 @@ def _given(
             if tuple(one.shape[-2:]) != (joints, 5)
         )
         return arrays[0], arrays[1]
-    if errors is None:
-        rows = [joint.error for joint in drive.joints] if isinstance(drive, Drive) else [None] * joints
-    else:
-        rows = per_joint("errors", errors, joints)
-    turned, shifted = error_arrays(rows)
+    turned, shifted = given_errors(drive, joints, errors)
     return real(turned, xp), real(shifted, xp)
+
+
+def given_errors(drive: Drive | Drives | Chain, joints: int, errors: Errors) -> tuple[Array, Array]:
+    """Return errors by name, those of the drive where none are given, as `error_arrays` does."""
+    if errors is not None:
+        return error_arrays(per_joint("errors", errors, joints))
+    return error_arrays([joint.error for joint in drive.joints] if isinstance(drive, Drive) else [None] * joints)
 
 
 def _on(direction: tuple[Array, Array], angle: Array, xp: Any) -> tuple[Array, Array]:

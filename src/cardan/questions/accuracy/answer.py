@@ -18,17 +18,19 @@ from cardan.drive.accuracy import Error
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint
 from cardan.maths.arrays import Array
-from cardan.maths.ties import largest
+from cardan.maths.ties import foremost, largest
 from cardan.texts import _, mark
 from cardan.units import arcmin, deg, mm
 
 from .accuracy import TransmissionError, course, transmission_error
 from .allocation import SQUARES, Allocation, Of
+from .cross_play import CrossPlay, cross_play, loop_slides
 from .figure import (
     ANGLE,
     SHIFT,
     Side,
     band_figure,
+    cross_figure,
     error_figure,
     pareto_figure,
     sides,
@@ -65,6 +67,7 @@ class Accuracy:
     # what the tolerances leave open, as asked; None without any, or where the joints cannot be assembled
     band: ToleranceBand | None = None
     worst: ToleranceBand | None = None  # the same in the worst case
+    crosses: tuple[CrossPlay, ...] = ()  # how the cross of each joint moves; empty without errors of length
 
     @property
     def closes(self) -> bool:
@@ -95,11 +98,12 @@ def ask(
     if not found.closes:
         return found
     if not any(joint.tolerance is not None for joint in drive.joints):
-        shifts = _shifts(drive)
-        return found if any(_largest(_curve(known, side)) > 0.0 for side in (ANGLE, SHIFT)[: 1 + shifts]) else None
+        shifts, moves = _shifts(drive), cross_play(drive, None)
+        acts = moves or any(_largest(_curve(known, side)) > 0.0 for side in (ANGLE, SHIFT)[: 1 + shifts])
+        return replace(found, crosses=moves) if acts else None
     band = tolerance(drive, method=method, progress=progress)
     worst = band if isinstance(method, WorstCase) else tolerance(drive, method=WorstCase())
-    return Accuracy(known=known, band=band, worst=worst)
+    return Accuracy(known=known, band=band, worst=worst, crosses=cross_play(drive, band))
 
 
 def otherwise(_drive: Drive) -> str:
@@ -127,7 +131,7 @@ def answer(drive: Drive, result: Accuracy) -> Answer:
         sentence=_sentence(drive, result),
         tables=tuple(_tables(drive, result)),
         remarks=tuple(_remarks(drive, result)),
-        keys=tuple(_keys(result)),
+        keys=(*_keys(drive, result), *_cross_key(result)),
         figures=lambda: _figures(drive, result),
         facts=_facts(result),
         full=lambda: _bounds(result),
@@ -165,9 +169,11 @@ def _band_of(found: ToleranceBand, side: Side) -> Band:
 
 def _figures(drive: Drive, result: Accuracy) -> tuple[Any, ...]:
     shifts = _shifts(drive)
-    if result.band is None:
-        return (error_figure(result.known, shifts=shifts),)
-    return band_figure(result.band, shifts=shifts), pareto_figure(result.band, shifts=shifts)
+    angle = np.asarray(result.known.angle if result.band is None else result.band.angle)
+    moves = (cross_figure(angle, result.crosses),) if result.crosses else ()
+    if result.band is not None:
+        return band_figure(result.band, shifts=shifts), pareto_figure(result.band, shifts=shifts), *moves
+    return (*((error_figure(result.known, shifts=shifts),) if _shown(drive, result) else ()), *moves)
 
 
 def _way(method: Method) -> str:
@@ -179,7 +185,14 @@ def _way(method: Method) -> str:
 
 def _sentence(drive: Drive, result: Accuracy) -> Say:
     if result.band is None or result.worst is None:
-        side = _shown(drive, result)[0]
+        if not (shown := _shown(drive, result)):
+            most = max(result.crosses, key=lambda one: one.play)
+            text = _(
+                "known errors do nothing to the output; over a turn they move the cross of joint {number} by {way} in "
+                "its {yoke} yoke."
+            )
+            return say(text, number=most.joint, way=SHIFT.quantity(most.play), yoke=_yokes()[most.yoke])
+        side = shown[0]
         curve = _curve(result.known, side)
         text = _("known errors make an angle error of up to {size} at the output; over a turn it changes by {change}.")
         if side is SHIFT:
@@ -205,18 +218,45 @@ def _sentence(drive: Drive, result: Accuracy) -> Say:
 
 
 def _tables(drive: Drive, result: Accuracy) -> Iterator[Table]:
-    *first, last = (_effects(result, side) for side in _shown(drive, result))
-    yield from first
     text = _(
         "95 %: of the drives; 1× and 2×: once and twice a turn. Setting the output up once takes the constant part "
         "away."
     )
-    yield replace(last, note=text)
+    effects = [_effects(result, side) for side in _shown(drive, result)]
+    yield from (replace(one, note=text if one is effects[-1] else "") for one in effects)
+    if result.crosses:
+        yield _moves(result)
     if result.band is not None:
         *first, last = (_parts(side, one) for side, one in _open(drive, result.band))
         yield from first
         yield replace(last, note=_("Shares are of the variance over a turn."))
     yield checks(list(_checks(drive, result)))
+
+
+def _yokes() -> dict[str, str]:
+    return {"driving": _("driving"), "driven": _("driven")}
+
+
+def _moves(result: Accuracy) -> Table:
+    """Return the table of how the crosses move along their journals."""
+    rows, names = result.crosses, _yokes()
+    ends = [one.ends for one in rows]
+    return Table(
+        name="cross",
+        title=_("How the crosses move along their journals over a turn"),
+        records=True,
+        columns=(
+            Column(key="joint", heading=_("joint"), values=[one.joint for one in rows]),
+            Column(key="", heading=_("in the yoke"), values=[names[one.yoke] for one in rows], left=True),
+            Column(key="yoke", values=[one.yoke for one in rows], depth="data"),
+            Column(key="", heading=_("cross"), values=[_("slides") if one.free else _("held") for one in rows]),
+            Column(key="slides", values=[one.free for one in rows], depth="data"),
+            _column(SHIFT, "lowest", [low for low, _high in ends], _("from")),
+            _column(SHIFT, "highest", [high for _low, high in ends], _("to")),
+            _column(SHIFT, "play", [one.play for one in rows], _("play needed")),
+        ),
+        note=_("Known errors and tolerances together; the play is the change over a turn, with the cross set once."),
+    )
 
 
 def _effects(result: Accuracy, side: Side) -> Table:
@@ -286,6 +326,13 @@ def _parts(side: Side, band: Band) -> Table:
 
 
 def _remarks(drive: Drive, result: Accuracy) -> Iterator[Remark]:
+    if (most := _tightest(result)) is not None:
+        text = _(
+            "The cross of joint {number} needs a play of {play} along its journals in the {yoke} yoke; with less it "
+            "binds, and the misalignment tells what loads it."
+        )
+        play = SHIFT.quantity(most.play)
+        yield Remark(text=say(text, number=most.joint, play=play, yoke=_yokes()[most.yoke]))
     band = result.band
     if band is None:
         return
@@ -324,7 +371,23 @@ def goal(size: float, side: Side) -> str:
     return f"{size / mm:.10g}mm" if side is SHIFT else f"{size / arcmin:.10g}arcmin"
 
 
-def _keys(result: Accuracy) -> Iterator[KeyFigure]:
+def _tightest(result: Accuracy) -> CrossPlay | None:
+    """Return the held cross that needs the largest play."""
+    held = [one for one in result.crosses if not one.free and one.play > 0.0]
+    return held[int(foremost(np.asarray([one.play for one in held])))] if held else None
+
+
+def _cross_key(result: Accuracy) -> Iterator[KeyFigure]:
+    """Yield the largest play that a held cross needs."""
+    if (most := _tightest(result)) is not None:
+        place = say(_("joint {number}, {yoke} yoke"), number=most.joint, yoke=_yokes()[most.yoke])
+        title = _("play that the journals need over a turn")
+        yield KeyFigure(name="cross_play", title=title, place=place, value=SHIFT.quantity(most.play), better="less")
+
+
+def _keys(drive: Drive, result: Accuracy) -> Iterator[KeyFigure]:
+    if ANGLE not in _shown(drive, result) and result.band is None:
+        return
     if result.band is None or result.worst is None:
         largest = _largest(_curve(result.known, ANGLE))
         yield KeyFigure(name="angle_error", title=_("angle error of the output"), value=ANGLE.quantity(largest, 4))
@@ -347,13 +410,21 @@ def _checks(drive: Drive, result: Accuracy) -> Iterator[Checked]:
             left=_largest(np.asarray(known.error) - first) / _largest(first),
             allowed=CURVED,
         )
-    elif band is None:
+    elif band is None and _shifts(drive):
         shift = np.asarray(known.shift_linear)[..., -1, :]
         yield Checked(
             what=_("known shift"),
             how=_("exact loops less first order, over the largest shift"),
             left=_largest(np.asarray(known.output_shift) - shift) / max(_largest(shift), 1e-300),
             allowed=CURVED,
+        )
+    shifts = np.asarray(known.shift)
+    if result.crosses and _largest(shifts):
+        yield Checked(
+            what=_("ways of the crosses"),
+            how=_("shifts of the loops that they close, less those of the known errors, over the largest"),
+            left=_largest(loop_slides(drive)[:, 2] + shifts) / _largest(shifts),
+            allowed=1e-9,
         )
     if band is None or result.worst is None or not band.output.contributions:
         return
@@ -431,6 +502,12 @@ def _bounds(result: Accuracy) -> Table:
     else:
         keys = ("centre", "lower", "upper", "lower_95", "upper_95", "deviation")
         curves = [(side, key, getattr(one, key)) for side, one in sides(band) for key in keys]
+    for one in result.crosses:
+        ways = {"known": one.known} | ({} if band is None else {"reach": one.reach})
+        columns += [
+            Column(key=f"joint_{one.joint}_{one.yoke}_{key}", values=values, dimension=SHIFT.dimension, unit=SHIFT.unit)
+            for key, values in ways.items()
+        ]
     for side, key, values in curves:
         name = f"{'shift' if side is SHIFT else 'error'}_{key}"
         columns.append(Column(key=name, values=np.asarray(values), dimension=side.dimension, unit=side.unit))

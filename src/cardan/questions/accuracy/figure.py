@@ -16,6 +16,7 @@ from cardan.texts import _
 from cardan.units import arcmin, deg, mm
 
 from .accuracy import TransmissionError
+from .cross_play import CrossPlay
 from .sampling import MonteCarlo
 from .tolerance import Band, Contribution, ToleranceBand, WorstCase
 
@@ -252,6 +253,44 @@ def error_figure(found: TransmissionError, *, shifts: bool = True) -> Figure:
             "Every joint a closed loop of four axes, exactly; first order Kozhevnikov & Perfil'ev (1978), "
             "eq. 171, 180, chained"
         ),
+        rows=tuple(rows),
+    )
+
+
+def cross_figure(angle: Array, found: Sequence[CrossPlay]) -> Figure:
+    """Return how the crosses move along their journals over a turn, in each yoke.
+
+    angle (p,) [rad]: input angles; found: the crosses in both their yokes.
+    """
+    turn = _round(angle, 2.0 * np.pi) / deg
+    titles = {"driving": _("Cross along its driving journals"), "driven": _("Cross along its driven journals")}
+
+    def closed(values: Array) -> Array:
+        return np.append(values, values[0]) / SHIFT.size
+
+    rows = []
+    for name, title in titles.items():
+        some = [one for one in found if one.yoke == name]
+        series: list[Series] = [Rule(value=0.0, dash="solid", role="faint")]
+        ends: list[Array] = []
+        for one in some:
+            role, label = shaft(one.joint + 1), _("joint {number}").format(number=one.joint) if not rows else ""
+            low, high = closed(one.known - one.reach), closed(one.known + one.reach)
+            ends += [low, high]
+            if float(np.max(one.reach)) > 0.0:
+                x, y = np.concatenate((turn, turn[::-1])), np.concatenate((low, high[::-1]))
+                series.append(Shape(x=x, y=y, role=role, opacity=0.2, label=label))
+                label = ""
+            if float(np.max(np.abs(one.known))) > 0.0:
+                series.append(Curve(x=turn, y=closed(one.known), role=role, width=1.6, label=label))
+        upright = axis(title, SHIFT.unit, ends, dimension=SHIFT.dimension, include=(0.0,), least=1e-6, count=4)
+        panel = Panel(series=tuple(series), x=across(turn, named=len(rows) == 1), y=upright)
+        rows.append(Row(panels=(panel,), height=1.4))
+    return Figure(
+        name="cross",
+        title=_("How the crosses move along their journals"),
+        sentence="",
+        source=_("Slides s₂ and s₃ of the loop of every joint, Kozhevnikov & Perfil'ev (1978), Fig. 74, eq. 171"),
         rows=tuple(rows),
     )
 

@@ -228,8 +228,6 @@ def _stacked(part: _Part, power: int) -> Band:
     half = stacked(flat, power)
     deviation = stacked(_flat(part.table * part.deviations), 2)
     mean, orders = _orders(flat)
-    coarse = flat[:: max(1, len(flat) // 120)]
-    change = max(float(np.max(stacked(coarse - row, power))) for row in coarse)
     return Band(
         centre=part.centre,
         lower=part.centre - half,
@@ -240,9 +238,15 @@ def _stacked(part: _Part, power: int) -> Band:
         mean=float(stacked(mean, power)),
         first=_amplitude(orders[0], power),
         second=_amplitude(orders[1], power),
-        peak_to_peak=change,
+        peak_to_peak=change(flat, power),
         contributions=contributions(part.table, part.limits, part.deviations, part.names),
     )
+
+
+def change(flat: Array, power: int) -> float:
+    """Return by how much parts (p, m) over a turn can differ between two positions, stacked as `stacked` does."""
+    coarse = flat[:: max(1, len(flat) // 120)]
+    return max(float(np.max(stacked(coarse - row, power))) for row in coarse)
 
 
 def _from_sample(part: _Part, sample: Sample) -> Band:
