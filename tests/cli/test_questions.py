@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from cardan import io as files
+from cardan.drive.fields.paths import pose_drives
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.motion import motion
 from cardan.units import deg, mm, rpm
@@ -245,6 +246,34 @@ def test_layout_moves_a_joint_within_its_box(cardan, drive_file, tmp_path):
     done = cardan("phasing", path, "--layout", "--fix", "2=90")
     assert done.code == 0
     assert "90.00" in done.out
+
+
+BOXED = """
+format = 1
+input.point_mm = [-500, 0, 0]
+output.point_mm = [2000, 0, -450]
+[[joints]]
+centre_mm = [0, 0, 0]
+[[joints]]
+centre_mm = [1000, 0, -150]
+move_within_mm = [[1000, 1000], [0, 0], [-300, -50]]
+[[poses]]
+name = "low"
+share_percent = 40
+set = { "output.point_mm" = [2000, 0, -700] }
+"""
+
+
+def test_layout_over_poses_writes_its_own_yokes(cardan, drive_file, tmp_path):
+    path = drive_file(BOXED)
+    said = cardan("phasing", path, "--layout", "--over", "mean", "-o", "moved.toml", "--json").content
+    assert said["over"] == "mean"
+    assert [one["condition"] for one in said["conditions"]] == ["as drawn", "pose low"]
+    moved = files.load(tmp_path / "moved.toml")
+    each = [float(equivalent_joint(one).speed_fluctuation) for one in (moved, pose_drives(moved)[0])]
+    told = [one["speed_fluctuation_percent"] for one in said["conditions"]]
+    assert told == pytest.approx(np.multiply(each, 100.0), abs=1e-6)  # angles are written with 12 decimals
+    assert "belongs to --layout" in cardan("phasing", path, "--over", "mean").err
 
 
 def test_settings_of_many_shafts_run_downwards(cardan, drive_file):

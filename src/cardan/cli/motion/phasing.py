@@ -21,6 +21,7 @@ from cardan.questions.phases import layout_answer
 from cardan.questions.phases.answer import answer, ask, every_setting, with_applied
 from cardan.questions.phases.layout import Layout
 from cardan.questions.phases.layout import layout as moved
+from cardan.questions.phases.layout_conditions import Over
 from cardan.questions.phases.phases import NEAREST, SYNCHRONOUS, Phasing
 from cardan.texts import _
 
@@ -50,6 +51,17 @@ def phasing(
             _("Also move the joint centres within their limits (move_within), for the smallest joint angles."),
         ),
     ] = False,
+    over: Annotated[
+        Over | None,
+        option(
+            "--over",
+            "WHAT",
+            _(
+                "Of what --layout makes the fluctuation least where there are poses, movements or spline teeth: of the "
+                "worst condition or of their mean over the time."
+            ),
+        ),
+    ] = None,
     apply: Annotated[
         str | None, option("--apply", "SETTING", _("Which setting (A, B …) -o writes; the first by default."))
     ] = None,
@@ -65,12 +77,14 @@ def phasing(
     """Tell which yoke angles make the output uniform, or how uniform it can be."""
     check_common(json=json, csv=csv, plot=plot)
     held, nearest = held_yokes(fix or ()), goal == "nearest"
+    if over is not None and not layout:
+        raise refuse("--over", _("belongs to --layout"))
     if out is not None:
         check_copy(out, file, force=force)
     drive, text = read_with_text(file)
     changed: dict[str, Any] = {}
     if layout:
-        place = _with_layout(drive, held, goal)
+        place = _with_layout(drive, held, goal, over or "worst")
         found, changed = place.phasing, layout_answer.values(place)
         said: Answer = layout_answer.answer(drive, place, fixed=held, nearest=nearest)
     else:
@@ -116,7 +130,7 @@ def _ask(drive: Drive, held: dict[int, float], goal: Goal) -> Phasing:
         raise error.renamed(_as_option) from error
 
 
-def _with_layout(drive: Drive, held: dict[int, float], goal: Goal) -> Layout:
+def _with_layout(drive: Drive, held: dict[int, float], goal: Goal, over: Over) -> Layout:
     check(
         Problem("--fix", _("shaft {number} has no two yokes to set").format(number=k))
         for k in held
@@ -128,7 +142,7 @@ def _with_layout(drive: Drive, held: dict[int, float], goal: Goal) -> Layout:
     )
     wish = NEAREST if goal == "nearest" else SYNCHRONOUS
     with watching(_("searching joint centres")) as progress:
-        return moved(replace(drive, shafts=shafts), goal=wish, progress=progress)
+        return moved(replace(drive, shafts=shafts), goal=wish, over=over, progress=progress)
 
 
 def _as_option(field: str) -> str:

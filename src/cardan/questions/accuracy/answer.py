@@ -186,12 +186,12 @@ def _way(method: Method) -> str:
 def _sentence(drive: Drive, result: Accuracy) -> Say:
     if result.band is None or result.worst is None:
         if not (shown := _shown(drive, result)):
-            most = max(result.crosses, key=lambda one: one.play)
+            way = max(result.crosses, key=lambda one: one.play)
             text = _(
                 "known errors do nothing to the output; over a turn they move the cross of joint {number} by {way} in "
                 "its {yoke} yoke."
             )
-            return say(text, number=most.joint, way=SHIFT.quantity(most.play), yoke=_yokes()[most.yoke])
+            return say(text, number=way.joint, way=SHIFT.quantity(way.play), yoke=_yokes()[way.yoke])
         side = shown[0]
         curve = _curve(result.known, side)
         text = _("known errors make an angle error of up to {size} at the output; over a turn it changes by {change}.")

@@ -268,7 +268,7 @@ def cross_figure(angle: Array, found: Sequence[CrossPlay]) -> Figure:
     def closed(values: Array) -> Array:
         return np.append(values, values[0]) / SHIFT.size
 
-    rows = []
+    rows: list[Row] = []
     for name, title in titles.items():
         some = [one for one in found if one.yoke == name]
         series: list[Series] = [Rule(value=0.0, dash="solid", role="faint")]

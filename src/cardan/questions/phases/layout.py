@@ -11,15 +11,17 @@ from typing import Any
 import numpy as np
 import scipy
 
+from cardan.answers.quantity import Text
 from cardan.drive.drive import Drive
 from cardan.drive.fields.validity import axis_points
-from cardan.drive.models.geometry import geometry, geometry_from_points
+from cardan.drive.models.geometry import Geometry, geometry, geometry_from_points
 from cardan.drive.models.kinematics_model import Chain, refuse_kinds
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames, mobius
 from cardan.texts import _
 
+from .layout_conditions import CLOSED, ConditionSearch, Over, best_in_conditions, placed
 from .phases import Phasing, phases
 from .setting import SYNCHRONOUS, Goal
 
@@ -57,6 +59,12 @@ class Layout:
     status : Status
         CONVERGED; INFEASIBLE when no layout in the boxes can be synchronous (the most even one is returned);
         CANCELLED when ``progress`` stopped the search (the best so far is returned).
+    conditions : tuple of ConditionAfter
+        What becomes of every pose and instant of a movement; empty where the drive has neither.
+    over : str
+        Of what the least was sought in them, ``"worst"`` or ``"mean"``.
+    kept : tuple of int
+        Numbers of the joints with a box that some pose puts elsewhere by itself.
     """
 
     drive: Drive
@@ -70,6 +78,21 @@ class Layout:
     feasible: bool
     phasing: Phasing
     status: Status
+    conditions: tuple[ConditionAfter, ...] = ()
+    over: Over = "worst"
+    kept: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConditionAfter:
+    """What the layout makes of one condition."""
+
+    name: Text
+    share: float  # of the time, in the mean
+    speed_fluctuation_before: float  # δ with joints and yokes as described
+    speed_fluctuation: float
+    joint_angle_before: float  # [rad]: largest of the joints
+    joint_angle: float  # [rad]
 
 
 def layout(
@@ -78,9 +101,12 @@ def layout(
     weights: Sequence[float] | None = None,
     shortest: float | None = None,
     goal: Goal = SYNCHRONOUS,
+    over: Over = "worst",
     progress: Callable[[float], object] | None = None,
 ) -> Layout:
     """Return the joint centres within ``move_within`` that allow a synchronous drive with the smallest bends.
+
+    Of a drive with poses, movements or spline teeth they are those with the least speed fluctuation in all of these.
 
     Parameters
     ----------
@@ -93,6 +119,9 @@ def layout(
         Least distance between neighbouring points [m]; by default a fifth of what it is as described.
     goal : Goal
         What to choose where synchronism leaves a choice of yoke angles.
+    over : str
+        Whether the speed fluctuation is to be least in the ``"worst"`` pose and instant of the movements, or in their
+        ``"mean"`` over the time.
     progress : function, optional
         Called with the share done; answering "stop" ends the search.
 
@@ -103,8 +132,8 @@ def layout(
     Raises
     ------
     InputError
-        The drive is not given by points, no joint has a box, ``weights`` has the wrong length, or no drive
-        fits the boxes.
+        The drive is not given by points, no joint has a box, ``weights`` has the wrong length or stands beside poses,
+        movements or teeth, or no drive fits the boxes.
 
     See Also
     --------
@@ -114,7 +143,9 @@ def layout(
     -----
     Sought are the smallest joint angles under L_i ≤ Σ L_j of the others, L = -ln cos α, for every joint i (joints with
     held yokes between them count as one): the exact condition of `phases`. Sequential quadratic programming from
-    several starts, always the same ones; the answer is a minimum near one of them.
+    several starts, always the same ones; the answer is a minimum near one of them. With poses, movements or teeth
+    joint centres and yoke angles are sought together, for the least speed fluctuation first, then for the smallest
+    largest joint angle in any condition; a centre that a pose sets stays there in that pose.
 
     Examples
     --------
@@ -132,6 +163,21 @@ def layout(
     shorts = 0.2 * before.length if shortest is None else np.full(len(drive.joints) + 1, shortest)
     yokes = np.asarray([shaft.yoke_angle for shaft in drive.shafts[1:-1]], dtype=float)
     free = tuple(k for k, shaft in enumerate(drive.shafts[1:-1]) if not shaft.yoke_fixed)
+    teeth = {k: drive.shafts[k + 1].spline.teeth for k in free if drive.shafts[k + 1].spline}  # type: ignore[union-attr]
+    teeth = {k: z for k, z in teeth.items() if z is not None}
+    if drive.poses or drive.movements or teeth:
+        check(_beside_conditions(weights))
+        conditions = ConditionSearch(
+            conditions=placed(drive),
+            low=low,
+            high=high,
+            shortest=shorts,
+            yoke_angle=yokes,
+            free=free,
+            teeth=teeth,  # type: ignore[arg-type]
+            over=over,
+        )
+        return _in_conditions(drive, before, conditions, progress)
     search = Search(
         points=np.asarray(axis_points(drive), dtype=float),
         low=low,
@@ -143,13 +189,8 @@ def layout(
     )
     points, complete = best_points(search, progress)
     if complete and not search.possible(points):
-        text = _("nowhere within the boxes does every joint angle less than 90° and every shaft have its least length")
-        raise refuse("joints", text)
-    joints = tuple(
-        replace(joint, centre=tuple(float(x) for x in centre))  # type: ignore[arg-type]
-        for joint, centre in zip(drive.joints, points[1:-1], strict=True)
-    )
-    moved = replace(drive, joints=joints)
+        raise _nowhere()
+    moved = _moved(drive, points[1:-1])
     phasing = phases(moved, goal=goal, poses={})
     if phasing.settings:
         best = phasing.settings[0]
@@ -174,6 +215,78 @@ def layout(
         phasing=phasing,
         status=ended if complete else Status.CANCELLED,
     )
+
+
+def _beside_conditions(weights: Sequence[float] | None) -> list[Problem]:
+    text = _("weights of the joint angles cannot be given beside poses, movements or spline teeth")
+    return [] if weights is None else [Problem("weights", text)]
+
+
+def _in_conditions(
+    drive: Drive, before: Geometry, search: ConditionSearch, progress: Callable[[float], object] | None
+) -> Layout:
+    """Return the layout that is best in all poses, instants of movements and places of the teeth."""
+    drawn = np.where(search.loose, search.high - search.low, 1.0)
+    drawn = np.clip((before.points[1:-1] - search.low) / drawn, 0.0, 1.0)[search.loose]
+    x, yokes, complete = best_in_conditions(search, drawn, progress)
+    if complete and not search.possible(x):
+        raise _nowhere()
+    shafts = tuple(
+        replace(shaft, yoke_angle=float(yokes[k])) if (k := shaft.number - 2) in search.free else shaft
+        for shaft in drive.shafts
+    )
+    moved = replace(_moved(drive, search.centres(x)), shafts=shafts)
+    after = geometry(moved)
+    phasing = phases(moved)
+    chosen = replace(phasing.as_built, label=_("layout"))
+    ways = zip(search.fluctuations(drawn, search.yoke_angle), search.fluctuations(x, yokes), strict=True)
+    steep = [np.arccos(1.0 - np.max(search.measured(one)[0], axis=-1)) for one in (drawn, x)]
+    every = tuple(
+        ConditionAfter(
+            name=one.name,
+            share=one.share,
+            speed_fluctuation_before=float(was),
+            speed_fluctuation=float(now),
+            joint_angle_before=float(steep[0][k]),
+            joint_angle=float(steep[1][k]),
+        )
+        for k, (one, (was, now)) in enumerate(zip(search.conditions, ways, strict=True))
+    )
+    feasible = all(one.speed_fluctuation <= CLOSED for one in every)
+    return Layout(
+        drive=moved,
+        points=after.points,
+        joint_angle_before=before.joint_angle,
+        joint_angle=after.joint_angle,
+        length_before=before.length,
+        length=after.length,
+        moved=np.linalg.norm(after.points - before.points, axis=-1)[1:-1],
+        speed_fluctuation=chosen.speed_fluctuation,
+        feasible=feasible,
+        phasing=replace(phasing, settings=(chosen,), spline_settings=(), pose_settings=(), steering=()),
+        status=(Status.CONVERGED if feasible else Status.INFEASIBLE) if complete else Status.CANCELLED,
+        conditions=every,
+        over=search.over,
+        kept=tuple(
+            i + 1
+            for i in range(len(drive.joints))
+            if any(bool(np.any(search.loose[i] & ~one.follows[i])) for one in search.conditions)
+        ),
+    )
+
+
+def _moved(drive: Drive, centres: Array) -> Drive:
+    """Return a drive with other joint centres (n, 3) [m]."""
+    joints = tuple(
+        replace(joint, centre=tuple(float(x) for x in centre))  # type: ignore[arg-type]
+        for joint, centre in zip(drive.joints, centres, strict=True)
+    )
+    return replace(drive, joints=joints)
+
+
+def _nowhere() -> Exception:
+    text = _("nowhere within the boxes does every joint angle less than 90° and every shaft have its least length")
+    return refuse("joints", text)
 
 
 def _boxes(drive: Drive) -> tuple[Array, Array]:
