@@ -22,7 +22,7 @@ from cardan.errors import InputError
 from cardan.maths.ties import alike
 from cardan.texts import _
 
-from .accuracy.as_made import as_made
+from .accuracy.as_made import made
 from .motion.standing import steepest, still
 
 WORSE: tuple[Tone, ...] = ("good", "plain", "next", "warning", "failed")
@@ -111,9 +111,9 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
     remarks = [Remark(text=_(question.without[aspect]), code=f"without_{aspect}") for aspect in left]
     keys: list[KeyFigure] = []
     if has(drive)["error"] and "error" not in (*question.gathered, *question.without):
-        for figure, remark in _as_made(drive):
-            keys.append(figure)
-            remarks.append(remark)
+        figures, remark = _as_made(drive)
+        keys += figures
+        remarks.append(remark)
     every = ways(question, drive)
     if len(every) < 2:
         if not remarks:
@@ -176,23 +176,23 @@ def _worst(keys: Sequence[KeyFigure], count: int) -> Iterator[Remark]:
         yield Remark(text=say(text, count=Quantity(float(count), trim=True), figures=Joined(said, between="; ")))
 
 
-def _as_made(drive: Drive) -> Iterator[tuple[KeyFigure, Remark]]:
-    """Yield what the errors of the joints as made add to the motion; nothing where it cannot be told."""
-    try:
-        found = as_made(drive)
-    except InputError:
-        found = None
-    if found is None:
-        return
+def _as_made(drive: Drive) -> tuple[tuple[KeyFigure, ...], Remark]:
+    """Return what the errors of the joints as made add to the motion, or why that is not told."""
+    found = made(drive)
+    if isinstance(found, str):
+        text = _("The errors of its joints as made are not in this: {why}.")
+        return (), Remark(text=say(text, why=found), code="as_made")
     share, angle_error = Quantity(found.fluctuation, "share"), Quantity(found.angle_error, "angle")
     text = _(
         "With the errors of its joints as made the speed fluctuation is {share}, "
         "the angle error of the output ±{angle_error}."
     )
-    figure = KeyFigure(
-        name="speed_fluctuation_as_made", title=_("speed fluctuation δ with the errors as made"), value=share
+    titles = _("speed fluctuation δ with the errors as made"), _("angle error with the errors as made, ±")
+    figures = (
+        KeyFigure(name="speed_fluctuation_as_made", title=titles[0], value=share),
+        KeyFigure(name="angle_error_as_made", title=titles[1], value=angle_error),
     )
-    yield figure, Remark(text=say(text, share=share, angle_error=angle_error), code="as_made")
+    return figures, Remark(text=say(text, share=share, angle_error=angle_error), code="as_made")
 
 
 def _called(name: Text) -> Text:

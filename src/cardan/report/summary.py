@@ -12,10 +12,9 @@ from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.answers.reader import half_turn
 from cardan.drive.drive import Drive
 from cardan.drive.fields.plausibility import doubts
-from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
-from cardan.questions.accuracy.as_made import as_made
+from cardan.questions.accuracy.as_made import made
 from cardan.questions.motion.kinds import steep
 from cardan.questions.phases.answer import CALM, UTMOST, excess, steers, wants_fluctuation
 from cardan.questions.phases.setting import YokeSetting
@@ -67,20 +66,20 @@ def uniformity(on: Subject) -> Words:
     for steering in steers(on.drive, on.phasing):
         as_wanted = steering.tone == "good"
         bad = any(steep_joints(on.drive, on.joint_angle))
-        return Words(text=steering.text, tone="failed" if bad else "good" if as_wanted else "warning")
+        said = Joined([steering.text, *_errors_told(on)], between=" ")
+        return Words(text=said, tone="failed" if bad else "good" if as_wanted else "warning")
     share = Quantity(on.fluctuation, "share", 3)
     posed, pose = _in_poses(on)
-    made = _as_made(on)
-    text, tone = _as_specified(on, posed, made)
+    text, tone = _as_specified(on, posed)
     parts: list[Text] = [
         say(
             text,
             name=on.drive.name or _("The drive"),
             share=share,
-            made=_share(made),
             least=_share(on.best.speed_fluctuation if on.best else 0.0),
         )
     ]
+    parts += _errors_told(on)
     limit = on.drive.limits.speed_fluctuation
     if on.fluctuation < (CALM if limit is None else min(CALM, limit)):
         tone = "good"
@@ -99,30 +98,37 @@ def uniformity(on: Subject) -> Words:
     )
 
 
-def _as_made(on: Subject) -> float:
-    """Return the speed fluctuation with the errors of the joints as made; 0 without errors, or where none is told."""
-    if not any(joint.error is not None for joint in on.drive.joints):
-        return 0.0
-    try:
-        found = as_made(on.drive)
-    except InputError:
-        return 0.0
-    return 0.0 if found is None else found.fluctuation
+def _errors_told(on: Subject) -> Iterator[Text]:
+    """Yield what the errors of the joints as made leave, where there are any and it can be told."""
+    found = made(on.drive) if _errs(on) else ""
+    if not isinstance(found, str):
+        text = _("With the errors of its joints as made the speed fluctuation is {share}.")
+        yield say(text, share=Quantity(found.fluctuation, "share"))
 
 
-def _as_specified(on: Subject, posed: float, made: float) -> tuple[str, Tone]:
+def _errs(on: Subject) -> bool:
+    return any(joint.error is not None for joint in on.drive.joints)
+
+
+def _as_specified(on: Subject, posed: float) -> tuple[str, Tone]:
     """Return what is said of the drive as specified, with its tone."""
+    if _errs(on) and (on.even or on.rounded):
+        return _("{name} is uniform as specified but for the errors of its joints as made."), "good"
     if on.even:
         if on.moving is not None:
             return _("{name} is uniform as drawn, standing still."), "good"
         if posed > UTMOST:
             return _("{name} is uniform as drawn."), "good"
-        if made > UTMOST:
-            return _("{name} is uniform as specified; the errors of its joints as made leave {made}."), "good"
         return _("{name} is uniform as specified: the output turns at exactly constant speed."), "good"
     if on.rounded:
         return _("{name} is uniform as specified but for the rounding of its figures, which leaves {share}."), "good"
     if on.curable and on.best is not None:
+        if _errs(on):
+            text = _(
+                "{name} has {share} speed fluctuation as specified; with its yokes re-phased it is uniform but for the "
+                "errors of its joints as made."
+            )
+            return text, "warning"
         if on.phasing.feasible:
             text = _(
                 "{name} has {share} speed fluctuation as specified; with its yokes re-phased it is exactly uniform."
@@ -263,6 +269,8 @@ def _nothing_as_drawn(on: Subject) -> Text:
         return _("The yokes are phased right; what is left comes from joint angles that differ while the drive moves.")
     if posed > little:
         return _("The yokes are phased right; what is left comes from joint angles that differ in the poses.")
+    if _errs(on):
+        return _("The yokes are phased right; what is left comes from the errors of the joints as made.")
     return _("Nothing needs to be changed for a uniform output.")
 
 

@@ -53,11 +53,11 @@ def test_an_even_drive_with_errors_is_nowhere_told_to_be_exactly_even():
     drive = made((10.0, 10.0), alpha1=0.2 * deg)
     question = QUESTIONS["motion"]
     told = gather(question, drive, question.answer(drive, question.ask(drive)))
-    assert told.sentence.told(Reader()).endswith("The errors of its joints as made are not in this.")
+    assert told.sentence.told(Reader()).endswith("uniform but for the errors of its joints as made.")
     (figure,) = [key for key in told.keys if key.name == "speed_fluctuation_as_made"]
     assert figure.value.value == as_made(drive).fluctuation
     first = uniformity(subject(drive)).text
-    assert "the errors of its joints as made leave 0.123 %" in first
+    assert "With the errors of its joints as made the speed fluctuation is 0.1231 %" in first
     assert "exactly" not in first
 
 

@@ -390,7 +390,8 @@ def _keys(drive: Drive, result: Accuracy) -> Iterator[KeyFigure]:
         return
     if result.band is None or result.worst is None:
         largest = _largest(_curve(result.known, ANGLE))
-        yield KeyFigure(name="angle_error", title=_("angle error of the output"), value=ANGLE.quantity(largest, 4))
+        title, place = _("angle error of the output"), _("against the perfect drive")
+        yield KeyFigure(name="angle_error", title=title, place=place, value=ANGLE.quantity(largest, 4))
         return
     ways = {"angle_error": result.band, "angle_error_worst": result.worst}
     for name, found in ways.items():

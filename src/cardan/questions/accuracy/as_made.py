@@ -7,8 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from cardan.drive.drive import Drive
+from cardan.errors import InputError
 from cardan.maths.curves.extremes import peak
 from cardan.questions.motion.motion import motion
+from cardan.texts import _
 
 from .accuracy import transmission_error
 
@@ -42,3 +44,15 @@ def as_made(drive: Drive) -> AsMade | None:
         fluctuation=float(peak(ratio) + peak(-ratio)),
         angle_error=0.5 * float(peak(angle_error) + peak(-angle_error)),
     )
+
+
+def made(drive: Drive) -> AsMade | str:
+    """Return how a drive turns with the errors of its joints as made, or why that is not told.
+
+    drive: with measured errors.
+    """
+    try:
+        found = as_made(drive)
+    except InputError as error:
+        return error.problems[0].message
+    return _("with them a joint cannot be assembled at every position") if found is None else found

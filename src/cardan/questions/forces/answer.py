@@ -255,9 +255,16 @@ def balanced(found: Forces) -> Remark:
 
 def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
     """Yield what was left out because the file does not say."""
-    if any(joint.error is not None for joint in drive.joints) and int(found.status) != Determinacy.INDETERMINATE:
-        text = _("Errors of the joints as made load nothing here: the supports give way to them, or there are none.")
-        yield Remark(text=text, code="without_error")
+    if any(joint.error is not None for joint in drive.joints):
+        if int(found.status) == Determinacy.INDETERMINATE:
+            yield Remark(
+                text=_("Errors of length of the joints as made load the supports here, those of angles do not.")
+            )
+        else:
+            text = _(
+                "Errors of the joints as made load nothing here: the supports give way to them, or there are none."
+            )
+            yield Remark(text=text, code="without_error")
     names = [joint.name for joint in drive.joints]
     crossed = [i for i, joint in enumerate(drive.joints, 1) if "cross" not in joint.foreign]
     bare = [i for i in crossed if not np.all(np.isfinite(found.journals.size[i - 1]))]

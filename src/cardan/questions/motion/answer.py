@@ -72,9 +72,13 @@ def sentence(drive: Drive, each: Evenness) -> Say:
     '2 joints; equivalent joint angle 16.12°, speed fluctuation δ = 8.023 %.'
     """
     share = float(each.speed_fluctuation[-1])
-    even = is_rounding(drive, share)
+    even, erring = is_rounding(drive, share), any(joint.error is not None for joint in drive.joints)
     text = _("{count}; equivalent joint angle {angle}, speed fluctuation δ = {share}.")
-    if each_uniform(drive):
+    if even and erring:
+        text = _("{count}; by design the joints cancel each other: uniform but for the errors of its joints as made.")
+        if each_uniform(drive):
+            text = _("{count}; by design every joint turns uniformly; the errors of its joints as made remain.")
+    elif each_uniform(drive):
         text = _("{count}; every joint turns uniformly by itself, and so does the output.")
     elif share < SYNCHRONOUS:
         text = _("{count}; synchronous: the joints cancel each other, and the output turns exactly uniformly.")
@@ -86,8 +90,6 @@ def sentence(drive: Drive, each: Evenness) -> Say:
         text = _("one joint at a joint angle of {angle}, speed fluctuation δ = {share}.")
     if even and drive.movements:
         text = f"{text} {_('This concerns the drive as drawn, standing still.')}"
-    if even and any(joint.error is not None for joint in drive.joints):
-        text = f"{text} {_('The errors of its joints as made are not in this.')}"
     return say(
         text,
         count=plural("{n} joint", "{n} joints", len(drive.joints)).format(n=len(drive.joints)),

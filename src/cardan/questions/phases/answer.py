@@ -111,8 +111,16 @@ def advised(found: Phasing) -> tuple[YokeSetting, ...]:
 
 def _sentence(drive: Drive, found: Phasing) -> Say:
     now, least = found.as_built.speed_fluctuation, found.speed_fluctuation_min
+    erring = any(joint.error is not None for joint in drive.joints)
     if len(drive.joints) == 1:
         text = _("one joint, speed fluctuation δ = {now}; a single joint has no yokes to phase.")
+    elif erring and is_uniform(drive, now):
+        text = _("{count}; the yokes are phased right, uniform but for the errors of its joints as made.")
+    elif erring and found.feasible:
+        text = _(
+            "{count}; speed fluctuation δ = {now} as specified, with other yoke angles uniform but for the errors of "
+            "its joints as made."
+        )
     elif each_uniform(drive):
         text = _("{count}; every joint turns uniformly by itself, the yokes may stand anyhow.")
         elsewhere = drive.movements or drive.poses
@@ -637,7 +645,7 @@ def _keys(drive: Drive, found: Phasing) -> Iterator[KeyFigure]:
 def _uniformity(drive: Drive, found: Phasing) -> tuple[str, Tone]:
     """Return verdict and tone of the speed fluctuation."""
     share, length = float(found.as_built.speed_fluctuation), closure(drive).length
-    if share < SYNCHRONOUS and any(joint.error is not None for joint in drive.joints):
+    if is_uniform(drive, share) and any(joint.error is not None for joint in drive.joints):
         return _("uniform but for the errors as made"), "good"
     if share < SYNCHRONOUS:
         return _("exactly uniform"), "good"
