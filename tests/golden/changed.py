@@ -6,12 +6,16 @@ WORST = "the largest loads and joint angles of poses and movements count, not th
 
 MORE = "the best settings on spline teeth over all poses stand beside those without teeth"
 
+PLANES = "unbalance is judged per tolerance plane, with the shares of ISO 21940-11; the static part is told by itself"
+
 NUMBERS: tuple[tuple[str, str, str], ...] = (
     (
         r"select examples/(pto-hitch|rolling-mill-(lower|upper)-spindle|truck-rear-axle)\.toml --torque-Nm",
         r"(need|sizes|types)\..*",
         WORST,
     ),
+    (r"balance examples/car-propshaft", r"shafts\.unbalance_g_mm", PLANES),
+    (r"balance examples/two-piece-rubber-bearing", r"shafts\.allowed_plane_g_mm", PLANES),
     (r"phases examples/truck-rear-axle\.toml", r"settings\..*", MORE),
     (r"strength examples/pto-hitch\.toml --size joint", r"(limits|limits_as_made|tried)\..*", WORST),
 )

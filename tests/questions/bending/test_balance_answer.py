@@ -28,8 +28,9 @@ def column(table, key):
 
 def test_limits_and_corrections_are_those_of_the_analysis():
     said, found = of(CAR), balance(CAR)
-    limits, fixes = said.tables
+    limits, planes, fixes = said.tables
     assert column(limits, "allowed") == [one.allowed for one in found.shafts]
+    assert column(planes, "utilisation") == [plane.utilisation for one in found.shafts for plane in one.planes]
     assert column(fixes, "mass") == [fix.mass for one in found.shafts for fix in one.corrections]
     assert (said.tone, said.code) == ("good", 0)
     assert page(said, USUAL).answer == "Balanced well enough for 4\u202f000 rpm."
@@ -40,7 +41,9 @@ def test_too_much_unbalance_is_a_failure():
     much = tuple(replace(one, amount=10.0 * one.amount) for one in tube.unbalance)
     said = of(replace(CAR, shafts=(CAR.shafts[0], replace(tube, unbalance=much), *CAR.shafts[2:])))
     assert (said.tone, said.code) == ("failed", 1)
-    assert told(said.sentence, USUAL) == "too much unbalance on shaft 2 at 4\u202f000 rpm."
+    assert told(said.sentence, USUAL) == (
+        "too much unbalance on shaft 2 at 4\u202f000 rpm: 554 g·mm in a plane that may have 279 g·mm."
+    )
 
 
 def test_an_assumed_grade_is_told():

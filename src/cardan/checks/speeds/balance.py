@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.catalogue.rows import BalanceGrade, BalanceNorm
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.strength.section import modulus, sections
 from cardan.checks.verdict import Verdict
+from cardan.drive.body import body_length, weight
+from cardan.drive.fields.parts import known_lengths
 from cardan.drive.yokes import with_yokes
 from cardan.maths.arrays import Array
-from cardan.questions.bending.balance import SLOW, allowed_unbalance
+from cardan.maths.ties import foremost
+from cardan.questions.bending.balance import SLOW, allowed_unbalance, in_planes, plane_shares, tolerance_planes
 from cardan.texts import _, mark
 
 
@@ -25,6 +30,8 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
     lacking = [] if shaft.unbalance else [f"shafts[{k}].unbalance"]
     if not grade and not norm:
         lacking.append("duty.balance_grade")
+    if shaft.unbalance and _length(design, k) is None:
+        lacking.append(f"shafts[{k}].length")
     mass = _mass(design, k)
     if grade:
         lacking += design.unmoved
@@ -32,30 +39,38 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
     if lacking:
         yield Verdict(missing=tuple(lacking))
         return
-    amount = _amount(design, k)
+    amounts, shares, planes = _planes(design, k)
+    worst = foremost(amounts / shares)
+    value, share = (
+        np.take_along_axis(one + 0.0 * amounts, worst[..., None], axis=-1)[..., 0] for one in (amounts, shares)
+    )
     design_variables = tuple(f"shafts[{k}].unbalance[{j}].amount" for j in range(len(shaft.unbalance)))
     slow = design.top_speed is not None and bool(np.all(np.asarray(design.top_speed) < SLOW))
+    note: Text = _("below 500 rpm makers do not balance") if slow else ""
+    if not note and amounts.ndim == 1:
+        note = say(_("in the plane at {place}"), place=Quantity(float(planes[int(worst)]), "length", 3))
     if grade:
         row = design.known.row(BalanceGrade, grade, field="duty.balance_grade")
         top = np.maximum(np.asarray(design.top_speed, dtype=float), 1e-9)
         yield Verdict(
-            value=amount,
-            limit=allowed_unbalance(mass, top, row.speed).whole,
+            value=value,
+            limit=allowed_unbalance(mass, top, row.speed).whole * share,
             source=_("ISO 21940-11, grade {grade}: {row}").format(grade=grade, row=row.source),
             confidence=row.confidence,
             design_variables=(*design_variables, *design.speed_design_variables),
-            note=_("below 500 rpm makers do not balance") if slow else "",
+            note=note,
             advice=slow,
         )
     if norm:
         limit = design.known.row(BalanceNorm, norm, field="duty.balance_class")
         yield Verdict(
             title=_("unbalance of shaft {number}, permissible by Kozhevnikov and Perfil'ev (1978)"),
-            value=amount,
-            limit=limit.max_unbalance,
+            value=value,
+            limit=limit.max_unbalance * share,
             source=f"{limit.source}, {limit.note}",
             confidence=limit.confidence,
             design_variables=design_variables,
+            note="" if slow else note,
         )
 
 
@@ -74,19 +89,32 @@ def _mass(design: Design, k: int) -> Array | None:
     return mass if np.all(mass > 0.0) else None
 
 
-def _amount(design: Design, k: int) -> Array:
-    """Return the unbalance that counts: the resultant, or twice that of the worst plane where there are several."""
-    planes = design.drive.shafts[k].unbalance
-    path = f"shafts[{k}].unbalance"
-    amounts = [np.asarray(design.value(f"{path}[{j}].amount"), dtype=float) for j in range(len(planes))]
-    angles = [np.asarray(design.value(f"{path}[{j}].angle"), dtype=float) for j in range(len(planes))]
-    whole: Array = np.hypot(
-        sum(u * np.cos(a) for u, a in zip(amounts, angles, strict=True)),
-        sum(u * np.sin(a) for u, a in zip(amounts, angles, strict=True)),
-    )
-    for one in amounts if len(amounts) > 1 else ():
-        whole = np.maximum(whole, 2.0 * one)
-    return whole
+def _length(design: Design, k: int) -> float | None:
+    """Return the length of the body of a shaft as drawn [m]; None where the drive does not say it."""
+    return body_length(design.drive.shafts[k], known_lengths(design.drive).get(k + 1))
+
+
+def _planes(design: Design, k: int) -> tuple[Array, Array, tuple[Any, Any]]:
+    """Return the unbalance in both tolerance planes (..., 2) [kg m], their shares of the limit, and the planes [m]."""
+    shaft, path = with_yokes(design.drive).shafts[k], f"shafts[{k}].unbalance"
+    drawn, length = _length(design, k), design.length(k)
+    length = drawn if length is None or not 0 < k < design.joints else length
+    rows = range(len(shaft.unbalance))
+
+    def column(key: str) -> Array:
+        return np.stack(
+            np.broadcast_arrays(*(np.asarray(design.value(f"{path}[{j}].{key}"), dtype=float) for j in rows)), -1
+        )
+
+    centre = design.value(f"shafts[{k}].centre_of_mass") if f"shafts[{k}].centre_of_mass" in design.varied else None
+    if centre is None:
+        centre = weight(shaft, drawn).centre
+        # A body keeps the place of its centre of mass over its length.
+        centre = centre if centre is None or not drawn else centre * np.asarray(length) / drawn
+    ends = tolerance_planes(k + 1, length)
+    assert ends is not None
+    there = in_planes(ends, column("position"), column("amount") * np.exp(1j * column("angle")))
+    return np.abs(there), plane_shares(ends, centre), ends
 
 
 CHECK = Check(

@@ -5,6 +5,9 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
 
 from cardan.catalogue import Catalogue, catalogue, filled
 from cardan.catalogue.rows import BalanceGrade, BalanceNorm
@@ -17,8 +20,16 @@ from cardan.drive.shaft import Shaft
 from cardan.drive.yokes import with_yokes
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike, floats
+from cardan.maths.ties import foremost_of
 from cardan.texts import _
 from cardan.units import rpm
+
+LEAST, BETWEEN, OUTSIDE = 0.3, 0.7, 1.3
+"""Shares of the permissible unbalance in a tolerance plane, ISO 21940-11: the least; the most where the centre of mass
+lies between the planes, and where it lies outside."""
+
+ROUNDING = 1e-9
+"""Share of what is allowed by which rounding may exceed it."""
 
 USUAL = "G16"
 """Grade for universal-joint shafts where the duty names none, ISO 21940-11."""
@@ -35,35 +46,59 @@ class Correction:
 
 
 @dataclass(frozen=True, kw_only=True)
+class PlaneBalance:
+    """Unbalance of a shaft in one of its tolerance planes."""
+
+    position: float  # [m]: of the plane, along the power flow from the joint before; nan where the length is not known
+    allowed: float  # [kg m]: permissible residual unbalance of the plane; nan where it is not known
+    unbalance: float  # [kg m]: what was measured, resolved into the two planes; nan where none was measured
+
+    @property
+    def utilisation(self) -> float:
+        """Unbalance over what is allowed."""
+        return self.unbalance / self.allowed
+
+
+@dataclass(frozen=True, kw_only=True)
 class ShaftBalance:
     """Balance of a shaft between two joints; nan where the drive does not say enough."""
 
     number: int
     mass: float  # [kg]
-    allowed: float  # allowed, allowed_plane [kg m]: unbalance that the grade allows: in all, and in each of two planes
-    allowed_plane: float  # [kg m]
+    allowed: float  # [kg m]: unbalance of the whole shaft that the grade allows
     eccentricity: float  # [m]: of the centre of mass, that the grade allows
-    norm: float  # [kg m]: upper limit of the book's norm
-    # [kg m]: what is there: the resultant, or twice that of the worst plane; nan where none was measured
-    unbalance: float
-    # [N]: of that unbalance at the highest speed, turning with the shaft; of what the grade allows where none was
+    norm: float  # [kg m]: upper limit of the book's norm, for the whole shaft
+    unbalance: float  # [kg m]: static part of what was measured, the resultant; nan where none was measured
+    couple: float  # [kg m²]: couple part, the moment of what was measured about the centre of mass
+    # [N]: of the static part at the highest speed, turning with the shaft; of what the grade allows where none was
     # measured
     force: float
     joint_forces: tuple[float, ...] = ()  # [N]: turning forces on the joints at both ends of what was measured
+    planes: tuple[PlaneBalance, ...] = ()  # the tolerance planes, and what was measured there
     corrections: tuple[Correction, ...] = ()  # masses at both ends of the tube that cancel what was measured
     missing: tuple[str, ...] = ()  # paths of the drive file without which the grade does not tell
 
     @property
     def limit(self) -> float:
-        """The smaller of grade and norm [kg m]."""
+        """The smaller of grade and norm, of the whole shaft [kg m]."""
         return min((one for one in (self.allowed, self.norm) if not math.isnan(one)), default=math.nan)
 
     @property
+    def allowed_plane(self) -> float:
+        """Permissible residual unbalance of the tolerance plane that may have least [kg m]."""
+        return min(one.allowed for one in self.planes)
+
+    @property
+    def worst(self) -> PlaneBalance | None:
+        """The tolerance plane with the highest utilisation; None where none was measured or nothing limits it."""
+        known = [one for one in self.planes if not math.isnan(one.utilisation)]
+        return foremost_of(known, lambda one: one.utilisation) if known else None
+
+    @property
     def balanced(self) -> bool | None:
-        """Whether what was measured keeps grade and norm; None where one is not known."""
-        if math.isnan(self.limit) or math.isnan(self.unbalance):
-            return None
-        return self.unbalance <= self.limit
+        """Whether what was measured keeps grade and norm in every plane; None where one is not known."""
+        worst = self.worst
+        return None if worst is None else worst.unbalance <= worst.allowed * (1.0 + ROUNDING)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,8 +166,11 @@ def balance(
 
     Notes
     -----
-    ISO 21940-11: e Ω = G, half of U = m e for each of two planes. Vectors of unbalance u_j at x_j are the same as
-    Σ u_j (b - x_j)/(b - a) in plane a and Σ u_j (x_j - a)/(b - a) in plane b; the opposite cancels them.
+    ISO 21940-11: e Ω = G, U = m e, split between the tolerance planes at both ends of the shaft by the place of the
+    centre of mass, each getting 0.3 to 0.7 of it (up to 1.3 where the centre of mass lies outside). Vectors of
+    unbalance u_j at x_j are the same as Σ u_j (b - x_j)/(b - a) in plane a and Σ u_j (x_j - a)/(b - a) in plane b: each
+    is judged, as static and couple part add up in one plane and cancel in the other; the opposite cancels them.
+    The book's norm of a vehicle is split the same way.
 
     Examples
     --------
@@ -170,36 +208,41 @@ def _of_shaft(
     shaft: Shaft, length: float | None, grade: BalanceGrade | None, norm: BalanceNorm | None, speed: float
 ) -> ShaftBalance:
     nan = math.nan
-    mass = weight(shaft, body_length(shaft, length)).mass
-    allowed = plane = eccentricity = nan
+    whole = body_length(shaft, length)
+    heavy = weight(shaft, whole)
+    mass, centre = heavy.mass, heavy.centre
+    allowed = eccentricity = nan
     missing: tuple[str, ...] = ()
     if grade is not None and mass:
         found = allowed_unbalance(mass, speed, grade.speed)
-        allowed, plane, eccentricity = float(found.whole), float(found.plane), float(found.eccentricity)
+        allowed, eccentricity = float(found.whole), float(found.eccentricity)
     elif grade is not None:
         missing = (f"shafts[{shaft.number - 1}].mass",)
-    limit = nan if norm is None else norm.max_unbalance
+    if shaft.unbalance and whole is None:
+        missing = (*missing, f"shafts[{shaft.number - 1}].length")
+    norm_limit = nan if norm is None else norm.max_unbalance
+    limit = min((one for one in (allowed, norm_limit) if not math.isnan(one)), default=nan)
+    ends = tolerance_planes(shaft.number, whole)
     vectors = [(one.position, cmath.rect(one.amount, one.angle)) for one in shaft.unbalance]
-    if not vectors:
-        force = speed**2 * min((one for one in (allowed, limit) if not math.isnan(one)), default=nan)
-        return ShaftBalance(
-            number=shaft.number, mass=mass or nan, allowed=allowed, allowed_plane=plane, eccentricity=eccentricity,
-            norm=limit, unbalance=nan, force=force, missing=missing,
-        )  # fmt: skip
-    resultant = abs(sum(vector for _place, vector in vectors))
-    worst = max(abs(vector) for _place, vector in vectors)
-    ends = _resolved(vectors, length)
+    places, sizes = (np.asarray([one[k] for one in vectors]) for k in (0, 1))
+    there = np.full(2, nan) if ends is None or not vectors else in_planes(ends, places, sizes)
+    resultant = abs(complex(np.sum(sizes)))
+    fixes = vectors if ends is None or not vectors else list(zip(ends, map(complex, there), strict=True))
     radius = 0.5 * shaft.outer if shaft.outer is not None else nan
     return ShaftBalance(
         number=shaft.number,
         mass=mass or nan,
         allowed=allowed,
-        allowed_plane=plane,
         eccentricity=eccentricity,
-        norm=limit,
-        unbalance=max(resultant, 2.0 * worst) if len(vectors) > 1 else resultant,
-        force=speed**2 * resultant,
-        joint_forces=tuple(speed**2 * abs(vector) for _place, vector in ends),
+        norm=norm_limit,
+        unbalance=resultant if vectors else nan,
+        couple=abs(complex(np.sum(sizes * (places - centre)))) if vectors and centre is not None else nan,
+        force=speed**2 * (resultant if vectors else limit),
+        joint_forces=tuple(speed**2 * abs(vector) for _place, vector in fixes),
+        planes=tuple(
+            PlaneBalance(position=place, allowed=float(limit * share), unbalance=float(abs(vector)))
+            for place, share, vector in zip(ends or (nan, nan), plane_shares(ends, centre), there, strict=True)
+        ),
         corrections=tuple(
             Correction(
                 position=place,
@@ -207,19 +250,54 @@ def _of_shaft(
                 angle=cmath.phase(-vector) % (2.0 * math.pi),
                 mass=abs(vector) / radius,
             )
-            for place, vector in ends
+            for place, vector in fixes
         ),
         missing=missing,
     )
 
 
-def _resolved(vectors: list[tuple[float, complex]], length: float | None) -> list[tuple[float, complex]]:
-    """Return unbalances put together in the planes at both ends of a shaft; as they are where it has no length."""
+# Tolerance planes of a shaft: where they are, their shares of what is allowed, and what is there.
+
+
+def tolerance_planes(number: int, length: Any) -> tuple[Any, Any] | None:
+    """Return where the tolerance planes of a shaft are, at its ends (...) [m]; None where its length is not known.
+
+    number: of the shaft; on the first one places count from its end.
+    """
     if length is None:
-        return vectors
-    first = sum(vector * (1.0 - place / length) for place, vector in vectors)
-    last = sum(vector * place / length for place, vector in vectors)
-    return [(0.0, complex(first)), (length, complex(last))]
+        return None
+    return (-length, 0.0) if number == 1 else (0.0, length)
+
+
+def plane_shares(ends: tuple[Any, Any] | None, centre: Any) -> Array:
+    """Return the shares of the permissible unbalance in the tolerance planes, array (..., 2).
+
+    ends (...) [m]: places of the planes, halves where None; centre (...) [m]: of mass; amid the planes where None.
+    ISO 21940-11: in inverse proportion to the distances of the centre of mass; not below 0.3, and not above 0.7 where
+    it lies between the planes, 1.3 where it lies outside.
+
+    >>> plane_shares((0.0, 1.0), 0.4).tolist(), plane_shares((0.0, 1.0), 0.1).tolist()
+    ([0.6, 0.4], [0.7, 0.3])
+    """
+    if ends is None:
+        return np.full(2, 0.5)
+    first, last = floats(*ends)
+    behind = np.full_like(last - first, 0.5) if centre is None else (np.asarray(centre) - first) / (last - first)
+    most = np.where((behind >= 0.0) & (behind <= 1.0), BETWEEN, OUTSIDE)
+    return np.stack([np.clip(np.abs(share), LEAST, most) for share in (1.0 - behind, behind)], axis=-1)
+
+
+def in_planes(ends: tuple[Any, Any], places: Array, vectors: Array) -> Array:
+    """Return what unbalances are together in the tolerance planes, complex array (..., 2).
+
+    ends (...) [m]: places of the planes; places (..., u) [m], vectors (..., u) [kg m], complex: the unbalances.
+
+    >>> in_planes((0.0, 2.0), np.array([0.5, 1.0]), np.array([4.0, 2.0j])).tolist()
+    [(3+1j), (1+1j)]
+    """
+    first, last = (np.asarray(one, dtype=float)[..., None] for one in ends)
+    behind = (places - first) / (last - first)
+    return np.stack([np.sum(vectors * (1.0 - behind), axis=-1), np.sum(vectors * behind, axis=-1)], axis=-1)
 
 
 # Balance of shafts: the unbalance that a grade allows, and the force it leaves.

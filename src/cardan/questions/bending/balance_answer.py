@@ -46,7 +46,7 @@ def answer(drive: Drive, result: Balance) -> Answer:
         title=_("Balance"),
         sentence=_sentence(result),
         tone=tone,
-        tables=(_shafts(drive, result), *_corrections(result)),
+        tables=(_shafts(drive, result), *_planes(result), *_corrections(result)),
         remarks=tuple(_remarks(result)),
         facts=_facts(result),
         full=lambda: _shafts(drive, result, name=""),
@@ -57,9 +57,12 @@ def answer(drive: Drive, result: Balance) -> Answer:
 def _sentence(result: Balance) -> Text:
     speed = Quantity(result.speed, "angular_speed")
     if result.balanced is not None:
-        bad = [one.number for one in result.shafts if one.balanced is False]
+        bad = [one for one in result.shafts if one.balanced is False and one.worst is not None]
         if bad:
-            return say(_("too much unbalance on shaft {which} at {speed}."), which=listed(bad), speed=speed)
+            most = foremost_of(bad, lambda one: one.worst.utilisation if one.worst else 0.0)
+            text = _("too much unbalance on shaft {which} at {speed}: {amount} in a plane that may have {limit}.")
+            amount, limit = (Quantity(getattr(most.worst, key), "unbalance", 3) for key in ("unbalance", "allowed"))
+            return say(text, which=listed([one.number for one in bad]), speed=speed, amount=amount, limit=limit)
         return say(_("balanced well enough for {speed}."), speed=speed)
     limits = [one for one in result.shafts if not math.isnan(one.limit)]
     if not limits:
@@ -94,11 +97,36 @@ def _shafts(drive: Drive, result: Balance, name: str = "") -> Table:
             column("allowed", _("allowed"), "allowed", "unbalance"),
             column("plane", _("allowed per plane"), "allowed_plane", "unbalance"),
             column("standard", _("vehicle standard"), "norm", "unbalance"),
-            column("unbalance", _("measured"), "unbalance", "unbalance"),
+            column("unbalance", _("static part"), "unbalance", "unbalance"),
+            column("couple", _("couple part"), "couple", "inertia"),
             column("force", _("rotating force"), "force", "force"),
             Column(key="state", heading="", values=[states[one.balanced] for one in shafts], left=True),
         ),
     )
+
+
+def _planes(result: Balance) -> Iterator[Table]:
+    """Yield what was measured in the tolerance planes, beside what may be there."""
+    rows = [(one.number, plane) for one in result.shafts for plane in one.planes if one.corrections]
+    if rows:
+        planes = [plane for _number, plane in rows]
+
+        def column(key: str, heading: str, field: str, dimension: str, **more: Any) -> Column:
+            return Column(
+                key=key, heading=heading, values=[getattr(one, field) for one in planes], dimension=dimension, **more
+            )
+
+        yield Table(
+            title=_("Tolerance planes"),
+            columns=(
+                Column(key="shaft", heading=_("shaft"), values=[number for number, _plane in rows]),
+                column("position", _("position"), "position", "length"),
+                column("unbalance", _("measured"), "unbalance", "unbalance"),
+                column("allowed", _("allowed"), "allowed", "unbalance"),
+                column("utilisation", _("utilisation"), "utilisation", "share", digits=3),
+            ),
+            note=_("Measured unbalances are resolved into the planes at both ends; each plane is judged by itself."),
+        )
 
 
 def _corrections(result: Balance) -> Iterator[Table]:
@@ -182,6 +210,16 @@ def _facts(result: Balance) -> dict[str, Any]:
                 "eccentricity": Quantity(one.eccentricity, "length"),
                 "standard": Quantity(one.norm, "unbalance"),
                 "unbalance": Quantity(one.unbalance, "unbalance"),
+                "couple": Quantity(one.couple, "inertia"),
+                "planes": [
+                    {
+                        "position": Quantity(plane.position, "length"),
+                        "allowed": Quantity(plane.allowed, "unbalance"),
+                        "unbalance": Quantity(plane.unbalance, "unbalance"),
+                        "utilisation": plane.utilisation,
+                    }
+                    for plane in one.planes
+                ],
                 "force": Quantity(one.force, "force"),
                 "joint_forces": Quantity(list(one.joint_forces), "force"),
                 "balanced": one.balanced,
@@ -213,7 +251,7 @@ def _mass(drive: Drive) -> tuple[float]:
 def _column_values(found: Balance) -> tuple[float, float, float]:
     limits = [one.limit for one in found.shafts if not math.isnan(one.limit)]
     loads = [one.force for one in found.shafts if not math.isnan(one.force)]
-    used = [one.unbalance / one.limit for one in found.shafts if one.balanced is not None]
+    used = [one.worst.utilisation for one in found.shafts if one.worst is not None]
     return (min(limits, default=math.nan), max(loads, default=math.nan), max(used, default=math.nan))
 
 
@@ -240,7 +278,10 @@ COLUMNS = (
                 unit="N",
                 text=mark("largest rotating force of unbalance, of the permissible one where none was measured"),
             ),
-            OutputColumn(name="unbalance_used", text=mark("largest measured unbalance over the permissible one")),
+            OutputColumn(
+                name="unbalance_used",
+                text=mark("largest measured unbalance of a tolerance plane over the permissible one"),
+            ),
         ),
         of_result=_column_values,
     ),
