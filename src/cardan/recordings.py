@@ -5,6 +5,8 @@ from .questions.diagnosis.examination import Examination as Examination
 from .questions.diagnosis.examination import examine as examine
 from .questions.diagnosis.expected import Expected as Expected
 from .questions.diagnosis.expected import expected_orders as expected_orders
+from .questions.diagnosis.field_balance import FieldBalance as FieldBalance
+from .questions.diagnosis.field_balance import field_balance as field_balance
 from .questions.diagnosis.findings import Finding as Finding
 from .questions.diagnosis.findings import diagnose as diagnose
 from .questions.diagnosis.signals.orbit import Orbit as Orbit

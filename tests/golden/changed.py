@@ -14,6 +14,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         r"(need|sizes|types)\..*",
         WORST,
     ),
+    (r"check examples/car-propshaft", r"verdicts\.utilisation", PLANES),
     (r"balance examples/car-propshaft", r"shafts\.unbalance_g_mm", PLANES),
     (r"balance examples/two-piece-rubber-bearing", r"shafts\.allowed_plane_g_mm", PLANES),
     (r"phases examples/truck-rear-axle\.toml", r"settings\..*", MORE),

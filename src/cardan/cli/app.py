@@ -208,6 +208,12 @@ COMMANDS = {
             "cardan simulate-fault truck.toml unbalance --snr-db 3 -o run.csv",
         ),
     ),
+    "field-balance": Entry(
+        "diagnosis.field_balance",
+        DIAGNOSIS,
+        _("Which masses balance a shaft in its drive, by runs with trial masses."),
+        ("cardan field-balance run0.csv --trial run1.csv=60,250,0 --trial run2.csv=1090,250,0 --radius-mm 38",),
+    ),
     "sweep": Entry(
         "sweep.sweep",
         QUESTIONS,
