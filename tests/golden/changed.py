@@ -8,6 +8,8 @@ MORE = "the best settings on spline teeth over all poses stand beside those with
 
 PLANES = "unbalance is judged per tolerance plane, with the shares of ISO 21940-11; the static part is told by itself"
 
+HALVES = "a splined shaft is two bodies: each half's weight along it is held on its own side of the spline"
+
 NUMBERS: tuple[tuple[str, str, str], ...] = (
     (
         r"select examples/(pto-hitch|rolling-mill-(lower|upper)-spindle|truck-rear-axle)\.toml --torque-Nm",
@@ -17,6 +19,12 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
     (r"check examples/car-propshaft", r"verdicts\.utilisation", PLANES),
     (r"balance examples/car-propshaft", r"shafts\.unbalance_g_mm", PLANES),
     (r"balance examples/two-piece-rubber-bearing", r"shafts\.allowed_plane_g_mm", PLANES),
+    (
+        r"forces examples/(truck-supports|two-piece-rubber-bearing)\.toml",
+        r"(forces|forces_sliding_back|joints|supports)\..*",
+        HALVES,
+    ),
+    (r"losses examples/truck-supports\.toml", r".*(heat|power|efficiency|torque|journals).*", HALVES),
     (r"phases examples/truck-rear-axle\.toml", r"settings\..*", MORE),
     (r"strength examples/pto-hitch\.toml --size joint", r"(limits|limits_as_made|tried)\..*", WORST),
 )

@@ -18,7 +18,7 @@ from cardan.drive.models.dynamics_model import Train, spline_grip, train, train_
 from cardan.drive.models.geometry import points_from_angles
 from cardan.drive.models.kinematics_model import Chain
 from cardan.drive.settings import Settings
-from cardan.drive.shaft import Shaft, Spline
+from cardan.drive.shaft import PointMass, Shaft, Spline
 from cardan.drive.support import Support
 from cardan.maths.kernel import frames
 from cardan.questions.forces.forces import kinetostatics
@@ -201,6 +201,14 @@ def test_a_cross_that_slides_one_way_passes_no_force_on_along_it() -> None:
     assert found.moment_left.max() < 1e-12
 
 
+HELD_BOTH = (
+    Support(shaft=1, position=-0.25, axial=True),
+    Support(shaft=1, position=-0.05),
+    Support(shaft=3, position=0.05),
+    Support(shaft=3, position=0.25, axial=True),
+)
+
+
 def splined(*, axial: bool, spline: Spline | None = None, **parts: object) -> Drive:
     last = Support(shaft=3, position=0.3, axial=axial)
     drive = Drive.from_points(PARALLEL, yoke_angles=[0.4], start_phase=0.3)
@@ -246,6 +254,40 @@ def test_spline_friction_pushes_the_shafts_apart() -> None:
     only = forces(splined(axial=True, spline=replace(spline, sliding="in")), angle=ANGLE)
     assert only.reverse is None
     np.testing.assert_allclose(only.spline_thrust[0], thrust)
+
+
+@pytest.mark.parametrize("off", [-0.0017, 0.0, 0.0017])
+def test_a_splined_tube_hangs_with_each_half_on_its_own_side(off: float) -> None:
+    """A steep tube of 14 kg with its spline in the middle: half its weight along it on each thrust bearing, whichever
+    side of its middle the spline is; with the flange at one end, on that side."""
+    steep = [(0.0, 0.0, -0.3), (0.0, 0.0, 0.0), (0.05, 0.0, 1.2), (0.05, 0.0, 1.5)]
+    tube = Shaft(number=2, outer=0.076, wall=0.00318, spline=Spline(position=0.6 + off))
+    loads = []
+    for shaft in (tube, replace(tube, masses=(PointMass(position=1.15, mass=2.0),))):
+        drive = Drive.from_points(steep)
+        one = replace(drive, shafts=(shaft,), supports=HELD_BOTH, duty=Duty(torque=0.0))
+        found = forces(one, angle=[0.3])
+        loads.append([float(np.sum(found.axial[k : k + 2, 0])) for k in (0, 2)])
+        assert found.force_left.max() < 1e-12
+        assert found.moment_left.max() < 1e-12
+    length = np.hypot(0.05, 1.2)
+    whole = 7850 * np.pi / 4 * (0.076**2 - 0.06964**2) * length * 9.80665
+    (first, last), flanged = loads
+    assert first + last == pytest.approx(whole, rel=1e-9)
+    assert first == pytest.approx(whole * (0.6 + off) / length, rel=4e-3)  # the tube leans by 2.4°
+    assert flanged[0] == pytest.approx(first, rel=1e-2)
+    assert flanged[1] - last == pytest.approx(2.0 * 9.80665, rel=1e-2)
+
+
+def test_a_spline_rubs_by_the_torque_that_comes_to_it() -> None:
+    """Behind the part before it: a uniform shaft that gains speed leaves the share before the spline there."""
+    spline = Spline(position=0.2, mean_diameter=0.05, friction=0.12)
+    base = splined(axial=True, spline=spline)
+    length = np.hypot(0.7, 0.2)
+    shafts = (base.shafts[0], replace(base.shafts[1], inertia=0.4, mass=6.0), base.shafts[2])
+    found = forces(replace(base, shafts=shafts, duty=Duty(torque=100.0, speed=150.0, acceleration=80.0)), angle=ANGLE)
+    at_spline = found.shaft_torque[1] - 0.4 * (0.2 / length) * found.acceleration[1]
+    np.testing.assert_allclose(-found.spline_thrust[0], spline_grip(0.12, 0.05) * np.abs(at_spline), rtol=1e-12)
 
 
 def test_steeper_teeth_push_more() -> None:

@@ -76,7 +76,11 @@ def test_reactions_are_the_rate_of_momentum_of_the_whole_drive() -> None:
     found = forces(one, angle=ANGLE, movement=MOVE)
     place = geometry(one)
     path = moving_path(place.points, (MOVE,))
-    masses, axial, across = (3.0, 8.0, 5.0), (0.02, 0.03, 0.2), (0.05, 0.5, 0.04)
+    length = place.length[1]
+    # The splined shaft is two uniform halves, the second of which keeps its place from joint 2: shaft, mass, point that
+    # its place counts from, place. Inertia across is about the centre of the halves.
+    bodies = ((0, 3.0, 1, -0.2), (1, 4.0, 1, 0.25 * length), (1, 4.0, 2, -0.25 * length), (2, 5.0, 2, 0.1))
+    axial, across = (0.02, 0.03, 0.2), (0.05, 0.5 - 8.0 * (0.25 * length) ** 2, 0.04)
     base = np.asarray(POINTS[1])
 
     def momentum(times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -84,12 +88,12 @@ def test_reactions_are_the_rate_of_momentum_of_the_whole_drive() -> None:
         p = np.zeros((times.size, 3))
         h = np.zeros((times.size, 3))
         e, rate = now.shafts.axis, now.shafts.axis_rate
-        ahead = (-0.2, 0.5 * place.length[1], 0.1)
-        for k, start in enumerate((1, 1, 2)):
-            at = now.points[0][:, start] + ahead[k] * e[:, k]
-            v = now.points[1][:, start] + ahead[k] * rate[:, k]
-            p += masses[k] * v
-            h += np.cross(at - base, masses[k] * v)
+        for k, mass, start, ahead in bodies:
+            at = now.points[0][:, start] + ahead * e[:, k]
+            v = now.points[1][:, start] + ahead * rate[:, k]
+            p += mass * v
+            h += np.cross(at - base, mass * v)
+        for k in range(3):
             h += axial[k] * now.spins.spin[:, k, None] * e[:, k] + across[k] * np.cross(e[:, k], rate[:, k])
         return p, h
 
@@ -105,13 +109,35 @@ def test_reactions_are_the_rate_of_momentum_of_the_whole_drive() -> None:
         (found.reaction[k], now.points[0][:, 1 if k < 2 else 2] + x * e[:, 0 if k < 2 else 2])
         for k, x in enumerate((-0.3, -0.1, 0.1, 0.3))
     ]
-    for k, start in enumerate((1, 1, 2)):
-        at = now.points[0][:, start] + (-0.2, 0.5 * place.length[1], 0.1)[k] * e[:, k]
-        pulls.append((np.broadcast_to(masses[k] * np.asarray([0, 0, -9.80665]), at.shape), at))
+    for k, mass, start, ahead in bodies:
+        at = now.points[0][:, start] + ahead * e[:, k]
+        pulls.append((np.broadcast_to(mass * np.asarray([0, 0, -9.80665]), at.shape), at))
     whole = sum(pull for pull, _at in pulls)
     turn = sum(np.cross(at - base, pull) for pull, at in pulls) + found.input_torque[:, None] * e[:, 0]
     np.testing.assert_allclose(whole, force, atol=1e-6 * np.abs(force).max())
     np.testing.assert_allclose(turn, moment, atol=1e-6 * np.abs(moment).max())
+
+
+def test_what_slides_behind_a_spline_is_thrown_along_the_shaft() -> None:
+    """The axial force of the half behind the spline is its mass times L̈ - (L - x)|ȧ|², in closed form; both halves."""
+    one = replace(
+        drive(duty=Duty(torque=0.0, speed=200.0)),
+        joints=tuple(replace(j, cross=None) for j in drive().joints),
+        settings=replace(drive().settings, gravity=(0.0, 0.0, 0.0)),
+        shafts=(drive().shafts[1],),
+    )
+    found = forces(one, angle=ANGLE, movement=MOVE)
+    place = geometry(one)
+    now = moving_centres(moving_path(place.points, (MOVE,)), ANGLE / 200.0, yoke_angle=[0.3], speed=200.0)
+    axis, swing = now.shafts.axis[:, 1], np.sum(now.shafts.axis_rate[:, 1] ** 2, axis=-1)
+    first, last = (np.sum(now.points[2][:, k] * axis, axis=-1) for k in (1, 2))
+    far = 0.25 * place.length[1]
+    along = np.sum(found.joint_force * axis, axis=-1)
+    # Each half is pulled by the joint at its own end alone: the spline passes no force along.
+    np.testing.assert_allclose(along[0], 4.0 * (first - far * swing), rtol=1e-9, atol=1e-9 * np.abs(along).max())
+    np.testing.assert_allclose(-along[1], 4.0 * (last + far * swing), rtol=1e-9, atol=1e-9 * np.abs(along).max())
+    sliding = now.shafts.length_acceleration[:, 1] - now.shafts.length[:, 1] * swing
+    np.testing.assert_allclose(last - first, sliding, rtol=1e-9, atol=1e-9 * np.abs(sliding).max())
 
 
 def test_the_spline_rubs_against_its_sliding() -> None:

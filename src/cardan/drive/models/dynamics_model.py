@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from cardan.drive.accuracy import Error
-from cardan.drive.body import body_length, softness, weight
+from cardan.drive.body import body_length, pieces, softness, weight
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.joints import Joint
@@ -67,6 +67,9 @@ class Train:
     splines: tuple[int, ...] = ()  # shafts with a spline, counted from 0
     cut: Array | None = None  # (..., number of splines) [m]: places of the splines from the beginning of their shafts
     grip: Array | None = None  # (..., number of splines) [1/m]: thrust over torque, 2 μ/d
+    # (..., number of splines, 3) [kg, m, kg m²]: of the part of each shaft behind its spline: mass, place of its centre
+    # of mass as drawn, inertia about the axis; a splined shaft is one body when not given
+    behind: Array | None = None
     # (..., number of splines): +1 where friction pushes the parts apart, as when the shaft grows shorter, -1 where it
     # pulls them together
     sliding: Array | None = None
@@ -142,6 +145,13 @@ def train(drive: Drive, *, kinds: bool = False) -> Train:
     offset = [length[0], *[0.0] * len(drive.joints)]
     centre = [0.0 if body[3] is None else body[3] + start for body, start in zip(bodies, offset, strict=True)]
     splined = [shaft for shaft in drive.shafts if shaft.spline is not None]
+    behind = np.asarray([_behind(shaft, length[shaft.number - 1]) for shaft in splined]).reshape(-1, 3)
+    for shaft, (heavy, far, _own) in zip(splined, behind, strict=True):
+        # Both parts are moved by themselves, so what they add to the inertia across by their distance does not count.
+        k = shaft.number - 1
+        near = mass[k] - heavy
+        if near > 0.0:
+            across[k] -= mass[k] * heavy / near * (far - centre[k]) ** 2
     crosses = [joint.cross for joint in drive.joints]
     cross_inertia = np.asarray([cross.inertia if cross else (0.0, 0.0, 0.0) for cross in crosses])
     cross_mass = np.asarray([cross.mass if cross else 0.0 for cross in crosses])
@@ -167,6 +177,7 @@ def train(drive: Drive, *, kinds: bool = False) -> Train:
         splines=tuple(shaft.number - 1 for shaft in splined),
         cut=np.asarray([_cut(shaft, length[shaft.number - 1]) for shaft in splined]),
         grip=np.asarray([_grip(shaft) for shaft in splined]),
+        behind=behind if splined else None,
         sliding=np.asarray([SLIDING[shaft.spline.sliding] for shaft in splined if shaft.spline is not None]),
         stiffness=np.asarray([_stiffness(support) for support in drive.supports]),
         offset=np.asarray([support.offset for support in drive.supports]),
@@ -217,6 +228,37 @@ def _slides(along: bool | str) -> tuple[bool, bool]:
 def _cut(shaft: Shaft, length: float) -> float:
     given = shaft.spline.position if shaft.spline else None
     return 0.5 * length if given is None else given
+
+
+def _behind(shaft: Shaft, length: float) -> tuple[float, float, float]:
+    """Return mass [kg], centre of mass [m] and inertia [kg m²] of a shaft behind its spline, parts it carries included.
+
+    A stretch that the spline parts counts on both sides. Where mass and centre of mass are given, or no body, each part
+    is uniform, and both together have them.
+    """
+    cut, whole = _cut(shaft, length), weight(shaft, length)
+    lumps = [one for one in shaft.masses if one.position >= cut]
+    body = [
+        (one, max(one.start, cut), one.start + one.length)
+        for one in pieces(shaft, length)
+        if one.start + one.length > cut
+    ]
+    if body and shaft.centre_of_mass is None:
+        total = sum(one.mass for one in pieces(shaft, length))
+        scale = 1.0 if shaft.mass is None else shaft.mass / total
+        parts = [(scale * one.mass * (end - start) / one.length, 0.5 * (start + end)) for one, start, end in body]
+    else:
+        bare = weight(replace(shaft, masses=()), length)
+        mass, centre = bare.mass or 0.0, 0.5 * length if bare.centre is None else bare.centre
+        far = min(max((2.0 * centre - cut) / length, 0.0), 1.0)
+        parts = [(far * mass, 0.5 * (cut + length) if 0.0 < far < 1.0 else centre)]
+    parts += [(one.mass, one.position) for one in lumps]
+    mass = sum(part for part, _place in parts)
+    centre = sum(part * place for part, place in parts) / mass if mass else length
+    bare_inertia = (whole.inertia or 0.0) - sum(one.polar_inertia for one in shaft.masses)
+    weighing = (whole.mass or 0.0) - sum(one.mass for one in shaft.masses)
+    share = (mass - sum(one.mass for one in lumps)) / weighing if weighing else 0.5
+    return mass, centre, share * bare_inertia + sum(one.polar_inertia for one in lumps)
 
 
 def _grip(shaft: Shaft) -> float:

@@ -443,7 +443,7 @@ def forces_from(
     found, output = carried
     n = whole.joints
     shape = found.shaft_torque.shape[:-1]
-    push = thrusts(whole, found, sense)
+    push = thrusts(whole, stand, found, sense)
     joint_force = reaction = turn = force_left = moment_left = None
     status = xp.zeros(shape[:-1], dtype=xp.int64)
     equations = unknowns = 0

@@ -38,6 +38,7 @@ class Load:
     shaft: int  # which one, counted from 0
     force: Array  # (..., p or 1, 3) [N]
     place: Array  # (..., p or 1) [m]: where, from the beginning of the shaft
+    behind: bool | None = None  # whether on the part of its shaft behind the spline; by its place where None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -107,7 +108,8 @@ def weights(train: Train, frame: Frame, stand: KinematicState, acceleration: Arr
     frame: where the points lie.
     acceleration (p, n+2, 3) [m/s²]: of the points; None where they stand still.
     The weight of a cross counts on its driving shaft, at the joint; a shaft's mass stays at its place from the joint
-    before it, on the input shaft from joint 1.
+    before it, on the input shaft from joint 1. A splined shaft is two bodies: the one behind its spline keeps its
+    place from the joint behind it, where its acceleration along the shaft is L̈ - (L - L0)|ȧ|² more.
     """
     xp = namespace(frame.points)
     loads: list[Load] = []
@@ -115,16 +117,26 @@ def weights(train: Train, frame: Frame, stand: KinematicState, acceleration: Arr
         return loads
     gravity = xp.asarray(train.gravity)
     if train.mass is not None and train.centre_of_mass is not None:
+        drawn = frames.norm(train.points[..., 1:, :] - train.points[..., :-1, :])
         for i in range(train.joints + 1):
-            place = train.centre_of_mass[..., None, i]
-            pull = gravity
-            if acceleration is not None:
-                if stand.axis_acceleration is None:
-                    raise AssertionError
-                start = 1 if i == 0 else i
-                ahead = place - frame.acting.length[..., 0] if i == 0 else place
-                pull = gravity - acceleration[..., start, :] - ahead[..., None] * stand.axis_acceleration[..., i, :]
-            loads.append(Load(shaft=i, force=train.mass[..., None, i, None] * pull, place=place))
+            mass, centre = train.mass[..., None, i], train.centre_of_mass[..., None, i]
+            parts: list[tuple[Array, Array, bool | None]] = [(mass, centre, None)]
+            if i in train.splines and train.behind is not None:
+                heavy, far, _inertia = (train.behind[..., None, train.splines.index(i), k] for k in range(3))
+                left = mass - heavy
+                near = xp.where(left > 0.0, (mass * centre - heavy * far) / xp.where(left > 0.0, left, 1.0), centre)
+                parts = [(left, near, False), (heavy, far, True)]
+            for amount, place, behind in parts:
+                start, ahead = (1 if i == 0 else i), (place - drawn[..., None, 0] if i == 0 else place)
+                if behind:
+                    start, ahead = i + 1, place - drawn[..., None, i]
+                where = frame.acting.length[..., i] + ahead if behind else place
+                pull = gravity
+                if acceleration is not None:
+                    if stand.axis_acceleration is None:
+                        raise AssertionError
+                    pull = gravity - acceleration[..., start, :] - ahead[..., None] * stand.axis_acceleration[..., i, :]
+                loads.append(Load(shaft=i, force=amount[..., None] * pull, place=where, behind=behind))
     if train.cross_mass is not None:
         for i in range(train.joints):
             pull = gravity if acceleration is None else gravity - acceleration[..., i + 1, :]
@@ -133,16 +145,21 @@ def weights(train: Train, frame: Frame, stand: KinematicState, acceleration: Arr
     return loads
 
 
-def thrusts(train: Train, couples: Couples, sense: Array | None = None) -> Array:
+def thrusts(train: Train, stand: KinematicState, couples: Couples, sense: Array | None = None) -> Array:
     """Return the friction thrust of every spline, array (..., p, number of splines) [N]; positive pushes apart.
 
-    2 μ|τ|/d with the torque that enters the shaft, Book (123).
+    2 μ|τ|/d, Book (123), with the torque at the spline: what enters the shaft, less what turns the part before it; a
+    torque that resists the shaft counts behind it.
     """
     xp = namespace(couples.shaft_torque)
     if train.grip is None or train.sliding is None or not train.splines:
         return xp.zeros((*couples.shaft_torque.shape[:-1], 0), dtype=xp.float64)
     way = train.sliding[..., None, :] if sense is None else sense
     torque = xp.stack([couples.shaft_torque[..., s] for s in train.splines], axis=-1)
+    if train.inertia is not None and train.behind is not None:
+        whole = xp.stack([train.inertia[..., s] for s in train.splines], axis=-1)
+        gain = xp.stack([stand.acceleration[..., s] for s in train.splines], axis=-1)
+        torque = torque - (whole - train.behind[..., 2])[..., None, :] * gain
     return way * train.grip[..., None, :] * xp.abs(torque)
 
 
@@ -165,7 +182,7 @@ def right_side(frame: Frame, secondary: Array, loads: list[Load], thrust: Array)
             moment = moment + load.place[..., None] * frames.cross(e + 0.0 * load.force, load.force)
             along = frames.dot(load.force, e)
             if s in acting.cut:
-                before = load.place < acting.cut[s]
+                before = load.place < acting.cut[s] if load.behind is None else xp.asarray(not load.behind)
                 first = first + xp.where(before, along, 0.0)
                 second = second + xp.where(before, 0.0, along)
             else:
