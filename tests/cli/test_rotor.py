@@ -6,6 +6,8 @@ import io
 import pytest
 
 from cardan import load, rotor_response
+from cardan.questions.bending.line_whirl import line_whirl
+from cardan.units import rpm
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import widest
 
@@ -108,5 +110,30 @@ def test_a_crack_that_contradicts_itself_is_told_with_its_key(cardan, drive_file
     assert [one["field"] for one in done.complaint["problems"]] == [
         "shafts[1].crack",
         "shafts[1].crack.losses",
-        "shafts[1].crack.depth_ratio",
     ]
+
+
+def test_the_whole_line_is_told_with_all_its_shafts_and_supports(cardan):
+    rubber = EXAMPLES / "two-piece-rubber-bearing.toml"
+    said = cardan("rotor", rubber, "--line", "--json").content
+    found = line_whirl(load(rubber))
+    size, speed, place = found.peak()
+    assert (said["peak_um"], said["peak_at_rpm"], said["peak_place_mm"]) == pytest.approx(
+        (1e6 * size, speed / rpm, 1e3 * place)
+    )
+    assert len(said["shafts"]["whirl_um"]) == 2
+    assert said["supports"]["support"] == ["1 centre bearing"]
+    damped = cardan("rotor", rubber, "--line", "--damping", 0.1, "--speeds", "1500:1550:10", "--json").content
+    assert damped["peak_um"] < 0.6 * said["peak_um"]
+    done = cardan("rotor", rubber, "--line", "--shaft", 2)
+    assert (done.code, "goes without --shaft" in done.err) == (2, True)
+
+
+def test_a_cracked_tube_whirls_by_its_depth_in_the_line_alone(cardan, drive_file):
+    text = CAR.read_text()
+    sound = cardan("rotor", CAR, "--line", "--json").content
+    cracked = drive_file(text.replace("runout_mm = 0.2", "crack = { depth_ratio = 0.7, position_mm = 500 }"))
+    assert cardan("rotor", cracked, "--line", "--json").content["peak_um"] > 2.0 * sound["peak_um"]
+    done = cardan("rotor", cracked)
+    assert done.code == 2
+    assert "rotor --line" in done.err

@@ -16,9 +16,14 @@ class ShaftCrack:
     )
     depth_ratio: float | None = plain(
         None,
-        doc="depth over the radius of a solid shaft, in place of `losses`; taken along the whole shaft",
+        doc="depth over the radius, in place of `losses`; where one shaft is a mass on a spring, taken along all of it",
         above=0.0,
         below=2.0,
+    )
+    position: float | None = quantity(
+        "length",
+        None,
+        doc="place along the power flow from the joint before, on shaft 1 from joint 1; amid the shaft when not given",
     )
     breathing: int = plain(
         1, doc="power of the law of breathing: 0 is always open, 1 is Mayes' law, more opens for a shorter time", low=0

@@ -23,6 +23,15 @@ class Support:
     axial: bool = plain(False, doc="whether it holds the shaft lengthwise, both ways")
     tilt: bool = plain(False, doc="whether it holds the slope of the shaft too, as a fixed end does")
     stiffness: float | None = quantity("stiffness", None, doc="radial stiffness", above=0.0)
+    side_stiffness: float | None = quantity(
+        "stiffness",
+        None,
+        doc="radial stiffness sideways, where `stiffness` is that up and down; counts in the whirl of the whole line",
+        above=0.0,
+    )
+    damping: float | None = quantity(
+        "damping", None, doc="radial damping; counts in the whirl of the whole line", low=0.0
+    )
     axial_stiffness: float | None = quantity("stiffness", None, doc="axial stiffness", above=0.0)
     tilt_stiffness: float | None = quantity("turning_stiffness", None, doc="stiffness against tilting", above=0.0)
     bore: float | None = quantity("length", None, doc="diameter at which its friction acts", above=0.0)

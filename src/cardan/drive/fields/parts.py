@@ -104,9 +104,6 @@ def _crack(shaft: Shaft, path: str) -> Iterator[Problem]:
         yield Problem(f"{path}.crack.losses", _("needs two shares, along the crack and across it"), "inconsistent")
     if any(not 0.0 <= one < 1.0 for one in crack.losses):
         yield Problem(f"{path}.crack.losses", _("needs to be at least 0 and below 1"), "out_of_range")
-    if crack.depth_ratio is not None and (shaft.inner or shaft.wall or any(one.inner for one in shaft.segments)):
-        text = _("is of a solid shaft; a tube needs its losses")
-        yield Problem(f"{path}.crack.depth_ratio", text, "inconsistent")
 
 
 def _spline(shaft: Shaft, length: float | None, path: str) -> Iterator[Problem]:

@@ -284,6 +284,12 @@ def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
         )
         which = Joined([str(number) for number in result.held], last=_(" and "))
         yield Remark(text=say(text, which=which))
+    for k, one in enumerate(drive.supports, 1):
+        if one.side_stiffness is not None:
+            text = _(
+                "Support {number} counts with its stiffness up and down; cardan rotor --line counts the other, too."
+            )
+            yield Remark(text=text.format(number=k))
     light = unweighed(drive)
     if light:
         text = plural(

@@ -9,6 +9,7 @@ import numpy as np
 
 from cardan.answers.quantity import Quantity, Say, numbered, say
 from cardan.answers.reader import significant
+from cardan.drive.drive import Drive
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
 from cardan.figures.palette import DASHES, dash_of, shaft
@@ -20,6 +21,7 @@ from cardan.units import mm, rpm
 from .bending import CriticalSpeedMap, CriticalSpeeds, Part, Running
 from .cracked_run import CrackedRun
 from .cracked_shafts import CrackedShafts
+from .line_whirl import LineWhirl
 from .rotor import RotorResponse
 
 SHOWN = 6
@@ -369,6 +371,37 @@ def response_figure(found: RotorResponse) -> Figure:
         title=_("Whirling of shaft {number} over the speed").format(number=found.rotor.shaft),
         sentence="",
         source=_("lowest mode of bending as one mass; orders of the cracked rotor, exact"),
+        rows=(Row(panels=(panel,), height=2.6),),
+    )
+
+
+def line_figure(drive: Drive, found: LineWhirl) -> Figure:
+    """Return the largest whirl of every shaft of the line over the speed, with the speeds of running."""
+    speed, whirl = found.speed / rpm, found.whirl / MICRO
+    names = {one.number: one.name for one in drive.shafts}
+    rows = {int(number): np.max(whirl[:, found.shaft == number], axis=-1) for number in np.unique(found.shaft)}
+    top = max(float(np.max(row)) for row in rows.values()) or 1.0
+    series: list[Series] = []
+    if found.used is not None and found.used[1] > found.used[0]:
+        low, high = (one / rpm for one in found.used)
+        series.append(Band(low=low, high=high, upright=True, text=_("in use"), role="accent", opacity=0.08))
+    for k, (number, row) in enumerate(rows.items()):
+        label = names.get(number) or _("shaft {number}").format(number=number)
+        series.append(
+            Curve(
+                x=speed, y=np.maximum(row, LOWEST * top), role=shaft(number), dash=DASHES[k % len(DASHES)], label=label
+            )
+        )
+    panel = Panel(
+        series=tuple(series),
+        x=axis(_("speed"), "rpm", [speed], dimension="angular_speed", margin=0.0, count=8),
+        y=_rotor_decades(_("Largest whirl"), list(rows.values()), LOWEST * top),
+    )
+    return Figure(
+        name="line",
+        title=_("Whirl of the whole line over the speed"),
+        sentence="",
+        source=_("Timoshenko beams on damped supports; unbalances, secondary couples, weight and cracks"),
         rows=(Row(panels=(panel,), height=2.6),),
     )
 

@@ -194,6 +194,11 @@ def _crack(shaft: Shaft) -> tuple[Crack, float]:
         return UNCRACKED, 0.0
     if given.losses:
         xi, eta = given.losses
+    elif shaft.inner or shaft.wall or any(one.inner for one in shaft.segments):
+        text = _(
+            "of a tube counts in the whole line alone, rotor --line; one shaft as a mass on a spring needs its losses"
+        )
+        raise refuse(f"shafts[{shaft.number - 1}].crack.depth_ratio", text, "inconsistent")
     else:
         section = crack_section(0.5, given.depth_ratio or 0.0)
         xi, eta = float(section.loss_x), float(section.loss_y)

@@ -273,6 +273,8 @@ def _remarks(result: RotorResponse) -> Iterator[Remark]:
     yield _checked(float(steady.residual[known].max(initial=0.0)), _("power and multipliers agree"))
     command = ("cardan", "rotor", FILE, "--plot", "rotor.svg")
     yield Remark(text=_("Orders over the speed, and orbits:"), command=command, tone="next")
+    text = _("This is one shaft in one mode; all shafts on their supports:")
+    yield Remark(text=text, command=("cardan", "rotor", FILE, "--line"), tone="next")
 
 
 def _checked(residual: float, what: str) -> Remark:

@@ -24,6 +24,10 @@ SAME = 2e-4
 """Places nearer than this share of a shaft are one: a beam between them would only cost digits."""
 
 
+SHORT = 2e-3
+"""Length of the beam behind a crack, over that of its shaft."""
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class WhirlLine:
     """The shafts of a drive end to end, straightened out."""
@@ -137,8 +141,10 @@ def _row(drive: Drive, shaft: Shaft, known: float | None) -> _Row:
         assumed = (f"shafts[{shaft.number - 1}].{'segments' if drive.form == 'points' else 'length'}",)
     origin = length if shaft.number == 1 else 0.0
     body = pieces(shaft, length)
+    # The beam behind a crack turns with its jump but for its inertia: a short one.
+    cracks = [crack_place(shaft, length) + origin + more * SHORT * length for more in (0, 1)] if shaft.crack else []
     wanted = [0.0, length, *(one.start for one in body)]
-    wanted += [position + origin for _k, position in held] + [lump.position + origin for lump in shaft.masses]
+    wanted += cracks + [position + origin for _k, position in held] + [lump.position + origin for lump in shaft.masses]
     place = _apart(wanted, length)
 
     def node(position: float) -> int:
@@ -170,6 +176,12 @@ def _row(drive: Drive, shaft: Shaft, known: float | None) -> _Row:
         supports=tuple((k, node(position + origin)) for k, position in held),
         assumed=assumed,
     )
+
+
+def crack_place(shaft: Shaft, length: float) -> float:
+    """Return where the crack of a shaft is, from joint 1 on shaft 1, else from the joint before [m]."""
+    given = shaft.crack.position if shaft.crack is not None else None
+    return (-0.5 if shaft.number == 1 else 0.5) * length if given is None else given
 
 
 def _apart(wanted: list[float], length: float) -> Array:
