@@ -476,11 +476,12 @@ class _Model:
             ahead, back = REACH + n, REACH - n
             if not (np.any(push[:, ahead]) or np.any(push[:, back])):
                 continue
-            pair = [self._dynamic(speed, n), np.conj(self._dynamic(speed, -n))]
+            at = speed if n else speed[:1]  # what stands still is the same at all speeds
+            pair = [self._dynamic(at, n), np.conj(self._dynamic(at, -n))]
             sides = np.stack([push[:, ahead], np.conj(push[:, back])], axis=1)
             if coupled:
                 m = len(apart)
-                matrix = np.zeros((len(speed), 2 * m, 2 * m), dtype=complex)
+                matrix = np.zeros((len(at), 2 * m, 2 * m), dtype=complex)
                 matrix[:, :m, :m], matrix[:, m:, m:] = pair
                 matrix[:, :m, m:] = matrix[:, m:, :m] = apart
                 both = np.linalg.solve(matrix, sides.reshape(len(speed), 2 * m, 1)).reshape(len(speed), 2, m)
