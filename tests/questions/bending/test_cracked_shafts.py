@@ -1,6 +1,7 @@
 """Two shafts joined by a joint: point masses with plain angles and another integrator, and what must come out."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -161,3 +162,21 @@ def test_what_makes_no_pair_of_shafts_is_named(changed, named):
     with pytest.raises(InputError) as caught:
         cracked_shafts(**given | changed)
     assert [problem.field for problem in caught.value.problems] == named
+
+
+def test_the_driven_shaft_may_be_cracked_and_all_angles_count():
+    """Behind a straight joint both discs turn as one: the driven shaft does what the driving one did in its place;
+    behind a bent one the account of energy closes with its crack, its angles and those of the unbalances in it."""
+    sound = WhirlingShaft(mass=0.617, stiffness=18875.0, inertia=6e-4, damping=4.0)
+    bad = replace(
+        sound, crack=Crack(loss_xi=0.2, loss_eta=0.05), crack_angle=0.7, unbalance_mass=4e-3, unbalance_radius=0.01,
+        unbalance_angle=-1.1,
+    )  # fmt: skip
+    how = {"speed": 80.0, "end": 0.4, "drive_stiffness": 120.0, "time": np.linspace(0.0, 0.4, 41)}
+    first, second = cracked_shafts(bad, sound, 0.0, **how), cracked_shafts(sound, bad, 0.0, **how)
+    np.testing.assert_allclose(second.deflection[:, 1], first.deflection[:, 0], atol=1e-9)
+    np.testing.assert_allclose(second.deflection[:, 0], first.deflection[:, 1], atol=1e-9)
+    aside = cracked_shafts(sound, replace(bad, unbalance_angle=1.0), 0.0, **how)
+    assert np.max(np.abs(aside.deflection[:, 1] - second.deflection[:, 1])) > 1e-6
+    bent = cracked_shafts(bad, replace(bad, crack_angle=-0.4), 0.3, phase=0.5, **how)
+    assert bent.residual < 1e-8

@@ -9,7 +9,8 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from cardan.errors import Problem, check
 from cardan.formulas.run_up import Progress, bad_times, instants, negative, not_finite, not_positive
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import mobius
-from cardan.maths.periodic.turning_spring import energy_slope, hump, pull
+from cardan.maths.periodic.turning_spring import energy_slope, pull
 from cardan.texts import _
 
 from .cracked_rotor import GRAVITY, UNCRACKED, Crack
@@ -42,6 +43,12 @@ class WhirlingShaft:
         u.
     unbalance_radius : float [m]
         e, at the angle of the disc.
+    unbalance_angle : float [rad]
+        Of the unbalance from the mark of the disc, its driving yoke.
+    crack : Crack
+        Of the shaft; none by default.
+    crack_angle : float [rad]
+        Of the crack's direction from the mark of the disc.
     """
 
     mass: float
@@ -50,6 +57,9 @@ class WhirlingShaft:
     damping: float = 0.0
     unbalance_mass: float = 0.0
     unbalance_radius: float = 0.0
+    unbalance_angle: float = 0.0
+    crack: Crack = UNCRACKED
+    crack_angle: float = 0.0
 
     @property
     def whole(self) -> float:
@@ -61,6 +71,15 @@ class WhirlingShaft:
         """Mass times radius of the unbalance [kg·m]."""
         return self.unbalance_mass * self.unbalance_radius
 
+    def elastic(self, deflection: Any, edge: Any) -> tuple[Any, Any]:
+        """Return the elastic force [N], complex, and the moment about the axis [N·m] that a turn works against.
+
+        deflection (...) [m], complex: of the disc; edge (...): e^(iθ) of the crack's direction.
+        """
+        opened, slope = self.crack.opening(edge)
+        lateral = self.stiffness * pull(deflection, edge, opened, self.crack.losses)
+        return lateral, self.stiffness * energy_slope(deflection, edge, opened, slope, self.crack.losses)
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CrackedShafts:
@@ -69,7 +88,7 @@ class CrackedShafts:
     joint_angle: float  # [rad]: α
     phase: float  # [rad]: ψ of the driving yoke at the start
     speed: float  # [rad/s]: Ω of the motor
-    crack: Crack  # on the first shaft; open side down where its angle is 0
+    crack: Crack  # on the first shaft; open side down where its angle and that of the crack add up to 0
     time: Array  # (t,) [s]: instants
     angle: Array  # (t, 2) [rad]: θ_1, θ_2 of the discs
     rate: Array  # (t, 2) [rad/s]: their speeds
@@ -101,14 +120,14 @@ def cracked_shafts(
     end: float,
     *,
     phase: float = 0.0,
-    crack: Crack = UNCRACKED,
+    crack: Crack | None = None,
     drive_stiffness: float,
     drive_damping: float = 0.0,
     gravity: float = GRAVITY,
     time: ArrayLike | None = None,
     progress: Progress | None = None,
 ) -> CrackedShafts:
-    """Return the motion of two unbalanced shafts joined by a Hooke joint, the first of them cracked.
+    """Return the motion of two unbalanced shafts joined by a Hooke joint, any of them cracked.
 
     Parameters
     ----------
@@ -123,7 +142,7 @@ def cracked_shafts(
     phase : float [rad]
         ψ, angle of the driving yoke from the plane of the shafts at the start.
     crack : Crack, optional
-        Of the first shaft; none by default.
+        Of the first shaft, in place of its own.
     drive_stiffness : float [N·m/rad]
         K_1T between motor and first disc.
     drive_damping : float [N·m·s/rad]
@@ -162,11 +181,11 @@ def cracked_shafts(
     problems = _problems((first, second), positive, others, joint_angle)
     problems += not_finite({"phase": phase})
     check(problems + ([] if time is None else bad_times(time, end)))
+    first = first if crack is None else replace(first, crack=crack)
     model = _Model(
         shafts=(first, second),
         joint_angle=float(joint_angle),
         phase=float(phase),
-        crack=crack,
         speed=float(speed),
         drive=(float(drive_stiffness), float(drive_damping)),
         gravity=float(gravity),
@@ -175,7 +194,8 @@ def cracked_shafts(
     free = [math.sqrt(one.stiffness / one.whole) for one in (first, second)]
     stiff = [math.sqrt(drive_stiffness / first.inertia), drive_damping / first.inertia]
     stiff += [one.damping / one.whole for one in (first, second)]
-    uneven = speed * max(2.0 / math.cos(joint_angle), math.sqrt(1.0 + crack.breathing))
+    breathing = max(first.crack.breathing, second.crack.breathing)
+    uneven = speed * max(2.0 / math.cos(joint_angle), math.sqrt(1.0 + breathing))
     at = np.sort(instants(time, end, max(*free, speed) / (2.0 * math.pi)))
     grid = np.union1d(0.0, at)
     states, cancelled = followed(
@@ -212,7 +232,6 @@ class _Model:
     shafts: tuple[WhirlingShaft, WhirlingShaft]
     joint_angle: float
     phase: float
-    crack: Crack
     speed: float
     drive: tuple[float, float]
     gravity: float
@@ -220,7 +239,7 @@ class _Model:
     def rates(self) -> Callable[[float, Array], Array]:
         """Return the function from time and state to the rates of the state."""
         (one, two), (spring, damper), g, motor = self.shafts, self.drive, self.gravity, self.speed
-        losses, power = self.crack.losses, self.crack.breathing
+        turned = [(cmath.exp(1j * one.unbalance_angle), cmath.exp(1j * one.crack_angle)) for one in self.shafts]
         a, b = (complex(part) for part in mobius.hooke(np.asarray(self.joint_angle)))
         share, size = b.conjugate() / a.conjugate(), abs(a) ** 2
         start, begin = cmath.exp(2j * self.phase), cmath.phase(1.0 + share * cmath.exp(2j * self.phase))
@@ -236,35 +255,30 @@ class _Model:
             ratio = 1.0 / (size * (kernel.real**2 + kernel.imag**2))
             bent = 4.0 * size * kernel.imag * ratio * ratio
             other = cmath.exp(1j * (theta - cmath.phase(kernel) + begin))
-            opened, slope = hump(unit, power)
+            arm_1, edge_1, arm_2, edge_2 = (
+                at * by for at, pair in zip((unit, other), turned, strict=True) for by in pair
+            )
             square = turning * turning
-            force_1 = (
-                out_1 * square * unit
-                + whole_1 * g
-                - one.damping * v_1
-                - one.stiffness * pull(z_1, unit, opened, losses)
-            )
-            force_2 = (
-                out_2 * square * (ratio * ratio - 1j * bent) * other
-                + whole_2 * g
-                - two.damping * v_2
-                - two.stiffness * z_2
-            )
+            lateral_1, about_1 = one.elastic(z_1, edge_1)
+            lateral_2, about_2 = two.elastic(z_2, edge_2)
+            force_1 = out_1 * square * arm_1 + whole_1 * g - one.damping * v_1 - lateral_1
+            force_2 = out_2 * square * (ratio * ratio - 1j * bent) * arm_2 + whole_2 * g - two.damping * v_2 - lateral_2
             twist, slip = motor * time - theta, motor - turning
             moment = (
                 spring * twist
                 + damper * slip
-                - one.stiffness * energy_slope(z_1, unit, opened, slope, losses)
-                - g * (out_1 * unit.imag + out_2 * ratio * other.imag)
+                - about_1
+                - ratio * about_2
+                - g * (out_1 * arm_1.imag + out_2 * ratio * arm_2.imag)
                 - solid_2 * ratio * bent * square
             )
             # Sideways accelerations, force - out θ̈ along the tangent, put into the balance of moments.
-            along_1 = (force_1 * (1j * unit).conjugate()).real / whole_1
-            along_2 = (force_2 * (1j * other).conjugate()).real / whole_2
+            along_1 = (force_1 * (1j * arm_1).conjugate()).real / whole_1
+            along_2 = (force_2 * (1j * arm_2).conjugate()).real / whole_2
             inertia = solid_1 + (solid_2 - out_2**2 / whole_2) * ratio * ratio
             rise = (moment - out_1 * along_1 - out_2 * ratio * along_2) / inertia
-            a_1 = (force_1 - out_1 * rise * 1j * unit) / whole_1
-            a_2 = (force_2 - out_2 * ratio * rise * 1j * other) / whole_2
+            a_1 = (force_1 - out_1 * rise * 1j * arm_1) / whole_1
+            a_2 = (force_2 - out_2 * ratio * rise * 1j * arm_2) / whole_2
             brought = (
                 (spring * twist + damper * slip) * motor
                 - damper * slip * slip
@@ -283,16 +297,14 @@ class _Model:
         second = theta + angle_error - mobius.angle_error(pair, np.asarray(shift))
         angle, rate = np.column_stack((theta, second)), np.column_stack((turning, ratio * turning))
         z, v = (states[:, k : k + 4 : 2] + 1j * states[:, k + 1 : k + 4 : 2] for k in (2, 6))
-        unit = np.exp(1j * theta)
-        share, _rise = self.crack.opening(unit)
-        bent = [np.real(np.conj(z[:, 0]) * pull(z[:, 0], unit, share, self.crack.losses)), np.abs(z[:, 1]) ** 2]
         kinetic, elastic, weight = np.zeros(time.size), np.zeros(time.size), np.zeros(time.size)
         for k, one in enumerate(self.shafts):
-            arm = np.exp(1j * angle[:, k])
+            arm = np.exp(1j * (angle[:, k] + one.unbalance_angle))
+            lateral, _about = one.elastic(z[:, k], np.exp(1j * (angle[:, k] + one.crack_angle)))
             at_mass = v[:, k] + 1j * one.unbalance_radius * rate[:, k] * arm
             kinetic += 0.5 * one.inertia * rate[:, k] ** 2 + 0.5 * one.mass * np.abs(v[:, k]) ** 2
             kinetic += 0.5 * one.unbalance_mass * np.abs(at_mass) ** 2
-            elastic += 0.5 * one.stiffness * bent[k]
+            elastic += 0.5 * np.real(np.conj(z[:, k]) * lateral)
             weight -= self.gravity * (one.whole * z[:, k].real + one.unbalance * arm.real)
         twist = self.speed * time - theta
         elastic += 0.5 * self.drive[0] * twist**2
@@ -304,7 +316,7 @@ class _Model:
             joint_angle=self.joint_angle,
             phase=self.phase,
             speed=self.speed,
-            crack=self.crack,
+            crack=self.shafts[0].crack,
             time=time,
             angle=angle,
             rate=rate,

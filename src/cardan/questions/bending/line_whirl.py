@@ -222,6 +222,27 @@ def line_whirl(
     return model.steady(at, used, progress)
 
 
+def turning_marks(drive: Drive) -> tuple[Array, Array, Array, Array]:
+    """Return how the shafts of a drive turn, seen across each.
+
+    Returns gravity (s,) [m/s²]: across each shaft; down, ahead (s, 3): X, down across the shaft, and Y 90° ahead in the
+    sense of rotation; mark (s, TURN), complex: direction X + iY of the driving yoke, of the last shaft the driven one,
+    over a turn of the input.
+    """
+    whole = train(drive, kinds=True)
+    place = place_of(whole)
+    stand = standing(whole.chain, place.axis, place.normal, np.arange(TURN) * (2.0 * np.pi / TURN), speed=1.0)
+    axis = np.asarray(place.axis)
+    pull = np.asarray(drive.settings.gravity, dtype=float)
+    across = pull - np.sum(axis * pull, axis=-1)[:, None] * axis
+    gravity = np.linalg.norm(across, axis=-1)
+    steep = gravity <= 1e-9 * max(float(np.linalg.norm(pull)), 1.0)
+    down = frames.unit(np.where(steep[:, None], frames.perpendicular(axis), across))
+    ahead = frames.cross(axis, down)
+    arms = np.concatenate([stand.driving_arm, stand.driven_arm[:, -1:]], axis=1)
+    return gravity, down, ahead, np.sum(arms * down, axis=-1).T + 1j * np.sum(arms * ahead, axis=-1).T
+
+
 class _Model:
     """The line as matrices in its basis, and all that pushes it by orders of the input."""
 
@@ -238,7 +259,7 @@ class _Model:
         size = len(self.at.deflection) + len(self.at.slope)
         self.number = np.full(size, -1)
         self.number[self.at.free] = np.arange(len(self.at.free))
-        self._turning()
+        self.gravity, self.down, self.ahead, self.mark = turning_marks(self.drive)
         found = matrices(self.fine)
         self.inertia, self.gyroscopic = found.inertia, found.gyroscopic
         self._supports(found.stiffness)
@@ -246,21 +267,6 @@ class _Model:
         pushed = [self._unbalance(), self._couples(), self._weight()]
         self.spinning, self.couples, self.weight = pushed
         self._basis(damping_ratio)
-
-    def _turning(self) -> None:
-        """Find X, down across each shaft, Y ahead of it, and the marks of the shafts as they turn, (s, TURN)."""
-        whole = train(self.drive, kinds=True)
-        place = place_of(whole)
-        stand = standing(whole.chain, place.axis, place.normal, np.arange(TURN) * (2.0 * np.pi / TURN), speed=1.0)
-        axis = np.asarray(place.axis)
-        pull = np.asarray(self.drive.settings.gravity, dtype=float)
-        across = pull - np.sum(axis * pull, axis=-1)[:, None] * axis
-        self.gravity = np.linalg.norm(across, axis=-1)
-        steep = self.gravity <= 1e-9 * max(float(np.linalg.norm(pull)), 1.0)
-        self.down = frames.unit(np.where(steep[:, None], frames.perpendicular(axis), across))
-        self.ahead = frames.cross(axis, self.down)
-        arms = np.concatenate([stand.driving_arm, stand.driven_arm[:, -1:]], axis=1)
-        self.mark = np.sum(arms * self.down, axis=-1).T + 1j * np.sum(arms * self.ahead, axis=-1).T
 
     def _orders(self, values: Array) -> Array:
         """Return the orders (N, ...) of what is sampled over a turn (TURN, ...)."""

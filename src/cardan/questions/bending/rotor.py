@@ -21,6 +21,7 @@ from cardan.formulas.run_up import Progress
 from cardan.formulas.unbalance_behind_joint import UnbalanceBehindJoint, unbalance_behind_joint
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.questions.motion.equivalence import equivalent_joint
+from cardan.questions.motion.motion import motion
 from cardan.texts import _
 
 from .balance import balance
@@ -28,6 +29,7 @@ from .bending import CriticalSpeeds, bending_speeds, used_speeds
 from .cracked_rotor import UNCRACKED, Crack, CrackedRotor, crack_section, cracked_rotor
 from .cracked_run import CrackedRun, cracked_run
 from .cracked_shafts import CrackedShafts, WhirlingShaft, cracked_shafts
+from .line_whirl import turning_marks
 
 DAMPING = 0.02
 """Damping ratio of bending where nothing says another; measured drives have 0.01 to 0.05."""
@@ -389,7 +391,7 @@ def joined_rotors(
     damping_ratio: float = DAMPING,
     progress: Progress | None = None,
 ) -> tuple[Rotor, Rotor, CrackedShafts]:
-    """Return the motion in time of the two shafts that a joint joins, the first of them cracked where it has a crack.
+    """Return the motion in time of the two shafts that a joint joins, with their cracks and all angles.
 
     drive: with bodies of both shafts.
     joint: number of the joint, counted from 1; both shafts beside it need bodies.
@@ -418,7 +420,7 @@ def joined_rotors(
         float(place.joint_angle[joint - 1]),
         abs(float(turning)),
         turns * 2.0 * math.pi / abs(float(turning)),
-        crack=first.crack,
+        phase=_yoke_position(drive, joint),
         drive_stiffness=stiffness,
         drive_damping=2.0 * damping_ratio * math.sqrt(stiffness * inertia),
         gravity=first.gravity,
@@ -442,6 +444,7 @@ def _length(drive: Drive, number: int) -> float | None:
 def _whirling(drive: Drive, one: Rotor) -> WhirlingShaft:
     shaft = with_yokes(drive).shafts[one.shaft - 1]
     inertia = weight(shaft, body_length(shaft, _length(drive, one.shaft))).inertia or 0.0
+    start = float(np.angle(turning_marks(drive)[-1][one.shaft - 1, 0]))  # of the driving yoke, from X down
     radius = 0.5 * (shaft.outer or max((part.outer for part in shaft.segments), default=0.1))
     return WhirlingShaft(
         mass=one.mass,
@@ -450,7 +453,15 @@ def _whirling(drive: Drive, one: Rotor) -> WhirlingShaft:
         damping=2.0 * one.damping_ratio * math.sqrt(one.stiffness * one.mass),
         unbalance_mass=one.unbalance / radius,
         unbalance_radius=radius,
+        unbalance_angle=start + one.unbalance_angle,
+        crack=one.crack,
+        crack_angle=start + one.crack_angle,
     )
+
+
+def _yoke_position(drive: Drive, joint: int) -> float:
+    """Return ψ of a joint, its driving yoke from the plane of its shafts at the start [rad]."""
+    return float(np.asarray(motion(drive, [0.0]).yoke_rotation)[joint - 1, 0])
 
 
 def _turning_stiffness(drive: Drive, number: int) -> float:
