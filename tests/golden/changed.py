@@ -25,6 +25,8 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         HALVES,
     ),
     (r"losses examples/truck-supports\.toml", r".*(heat|power|efficiency|torque|journals).*", HALVES),
+    (r"rotor examples/\S+ --joint", r"orders\..*", "the angles of yokes, unbalances and cracks count beside a joint"),
+    (r"joint$", r"kinds\.keys\..*", "a tripod has a key more, the far joint on which its shaft pivots"),
     (r"phases examples/truck-rear-axle\.toml", r"settings\..*", MORE),
     (r"strength examples/pto-hitch\.toml --size joint", r"(limits|limits_as_made|tried)\..*", WORST),
 )

@@ -180,7 +180,7 @@ def _tracta(v: Values) -> Any:
 
 
 @formula(
-    "orbit of the spider of a tripod joint, and ways of its rollers; it turns exactly uniformly",
+    "orbit of the spider of a tripod joint, and ways of its rollers; uniform while its shaft keeps its direction",
     "three rollers in three tracks, in closed form",
     JOINT_ANGLE,
     positive("track_radius_m", "distance of the tracks from the axis of the housing"),
@@ -199,5 +199,7 @@ def _tripod(v: Values) -> Any:
     x, y = tripod.spider_centre(angle, joint_angle, radius)
     length = v.shaft_length
     ahead, orbit = 0.0 * np.asarray(angle, dtype=float), tripod.orbit_radius(joint_angle, radius)
+    if length is not None:
+        ahead = tripod.pivot_error(joint_angle, radius, length) * np.sin(3.0 * np.asarray(angle, dtype=float))
     roller = tripod.roller_reach(angle, joint_angle, radius), tripod.track_travel(angle, joint_angle, radius)
     return ahead, orbit, x, y, *roller, None if length is None else tripod.shaft_tilt(joint_angle, radius, length)

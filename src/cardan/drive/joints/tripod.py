@@ -38,6 +38,10 @@ class Tripod(Joint):
         "length", None, doc="distance of the tracks from their shaft's axis", above=0.0
     )
 
+    pivot: float | None = quantity(
+        "length", None, doc="distance of the joint at the far end of its shaft, which pivots there", above=0.0
+    )
+
     def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the identity, exact while the spider's shaft keeps its direction."""
         return mobius.turn(0.0 * joint_angle)
@@ -48,6 +52,12 @@ class Tripod(Joint):
             text = _("radius of the circle that the spider runs round three times a turn")
             value = float(orbit_radius(joint_angle, self.track_radius))
             yield Inside(key="orbit", meaning=text, value=value, dimension="length")
+            if self.pivot is not None:
+                own = joint_angle, self.track_radius, self.pivot
+                text = _("angle by which its shaft nutates about the joint at its far end")
+                yield Inside(key="nutation", meaning=text, value=float(shaft_tilt(*own)))
+                text = _("angle error of 3rd order, ±, because its shaft pivots there")
+                yield Inside(key="pivot_error", meaning=text, value=float(pivot_error(*own)))
 
     @property
     def own_span(self) -> float | None:
@@ -166,8 +176,24 @@ def shaft_tilt(joint_angle: ArrayLike, radius: ArrayLike, length: ArrayLike) -> 
 
     joint_angle (...) [rad]: α in [0, π/2).
     radius, length (...) [m]: R, and L from the spider to the other joint of its shaft.
-    Returns (...) [rad]: R_B/L. The angle ψ = φ is exact for a shaft that keeps its direction; this tilt is what it
-    leaves out.
+    Returns (...) [rad]: R_B/L. The angle ψ = φ is exact for a shaft that keeps its direction; `pivot_error` is what
+    the tilt makes of it.
     """
     alpha, size, far = floats(joint_angle, radius, length)
     return orbit_radius(alpha, size) / far
+
+
+def pivot_error(joint_angle: ArrayLike, radius: ArrayLike, length: ArrayLike) -> Array:
+    """Return by how much the angle of a shaft that pivots on a far joint errs, three times a turn.
+
+    joint_angle (...) [rad]: α in [0, π/2).
+    radius, length (...) [m]: R, and L from the spider to the other joint of its shaft.
+    Returns (...) [rad]: amplitude (R_B/L) tan(α/2): ψ - φ = (R_B/L) tan(α/2) sin 3φ, φ from where the
+    spider's plane rises toward the far joint. An axis that leans by a small ε
+    across the plane of the joint turns that plane by ε/sin α about one shaft and by ε cos α/sin α about the other.
+
+    >>> print(f"{math.degrees(float(pivot_error(math.radians(20), 0.02, 0.3))):.4f}°")
+    0.0216°
+    """
+    alpha = floats(joint_angle)[0]
+    return shaft_tilt(joint_angle, radius, length) * namespace(alpha).tan(0.5 * alpha)

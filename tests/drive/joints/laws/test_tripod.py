@@ -66,3 +66,46 @@ def test_any_array_library_computes_them():
     for name in ("spider_centre", "roller_reach", "track_travel"):
         found = getattr(tripod, name)
         assert np.array_equal(np.asarray(found(phi, joint_angle, radius)), found([0.3, 0.7], 0.2, 0.02))
+
+
+def pivoting(phi, joint_angle, radius, length):
+    """Return the turn of a spider whose axis ends in a fixed point, seen without twist from its place without orbit.
+
+    Three lines along its arms meet the three tracks: as many equations as the two leans and the turn.
+    """
+    x, y = np.array([np.cos(joint_angle), 0.0, np.sin(joint_angle)]), np.array([0.0, 1.0, 0.0])
+    b = np.cross(x, y)
+
+    def gaps(unknown):
+        axis = b + unknown[0] * x + unknown[1] * y
+        axis /= np.linalg.norm(axis)
+        v = np.cross(b, axis)
+        skew = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+        turn = np.eye(3) + skew + skew @ skew / (1 + b @ axis)
+        found = []
+        for third in THIRDS:
+            angle = phi + unknown[2] + third
+            arm = turn @ (np.cos(angle) * x + np.sin(angle) * y)
+            track = radius * np.array([np.cos(phi + third), np.sin(phi + third), 0.0])
+            found.append((length * (b - axis) - track) @ np.cross([0.0, 0.0, 1.0], arm) / radius)
+        return found
+
+    return least_squares(gaps, np.zeros(3), xtol=1e-15, ftol=1e-15, gtol=1e-15).x[2]
+
+
+@pytest.mark.parametrize(("joint_angle", "length"), [(20 * deg, 0.3), (12 * deg, 0.5)])
+def test_a_shaft_that_pivots_on_a_far_joint_errs_at_order_three(joint_angle, length):
+    """To first order in the orbit over the length: the rest is their square."""
+    turn = np.linspace(0.0, 2 * np.pi, 13)
+    found = [pivoting(phi, joint_angle, 0.02, length) for phi in turn]
+    size = tripod.pivot_error(joint_angle, 0.02, length)
+    np.testing.assert_allclose(found, size * np.sin(3 * turn), atol=2e-3 * size)
+    if length == 0.3:
+        assert size / deg == pytest.approx(0.0216, abs=1e-4)
+
+
+def test_a_drive_file_tells_the_pivot():
+    joint = tripod.Tripod(joint_angle=20 * deg, track_radius=0.02, pivot=0.3)
+    own = {one.key: one.value for one in joint.inside(20 * deg)}
+    assert own["pivot_error"] == pytest.approx(float(tripod.pivot_error(20 * deg, 0.02, 0.3)))
+    assert own["nutation"] == pytest.approx(own["orbit"] / 0.3)
