@@ -1,4 +1,4 @@
-"""Bending critical speeds: one line of forty elements, many of them, and a whole drive exactly."""
+"""Bending critical speeds: one line of forty elements, many of them, a whole drive exactly; and its forced whirl."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from cardan import bending_speeds, example
 from cardan.maths.linear.modes import synchronous
 from cardan.maths.linear.rotor_beams import Line, line, matrices, round_section
 from cardan.maths.linear.transfer import speeds
+from cardan.questions.bending.line_whirl import line_whirl
 
 from .harness import Figure, fastest
 
@@ -17,6 +18,9 @@ ELEMENTS, MODES = 40, 4
 
 AIM = 2.0
 """Aim for four forward critical speeds with assembly, milliseconds."""
+
+FORCED = 0.5
+"""Aim for the forced whirl of a two-piece line at 1,000 speeds, seconds."""
 
 PEER = 1490.0
 """ROSS, on another machine: four forward critical speeds of forty elements, milliseconds, without 80 to build."""
@@ -87,4 +91,13 @@ def figures(quick: bool) -> Iterator[Figure]:
         unit="ms",
         yardstick=f"{1e3 * best['elements']:.3g} ms for one line by elements",
         ratio=whole / best["elements"],
+    )
+    speed = np.linspace(10.0, 400.0, 100 if quick else 1000)
+    whirl = fastest({"line": lambda: line_whirl(drive, speed=speed)}, rounds=1 if quick else 5)["line"]
+    yield Figure(
+        bench=f"forced whirl of the two-piece line at {len(speed)} speeds",
+        value=whirl,
+        unit="s",
+        yardstick=f"aim ≤ {FORCED:g} s",
+        ratio=whirl / FORCED,
     )
