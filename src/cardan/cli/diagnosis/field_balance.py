@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-import typer
 
+from cardan.cli.shared.options import argument, option
 from cardan.cli.shared.output import check_common
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.recording import Pulses, Rate, Reading, Tacho, Titles, recorded
@@ -28,24 +28,16 @@ GMM = 1e-6
 
 
 def field_balance(
-    first: Annotated[
-        Path, typer.Argument(metavar="SIGNAL", help=_("Recording of the run without trial masses."), show_default=False)
-    ],
+    first: Annotated[Path, argument("SIGNAL", _("Recording of the run without trial masses."))],
     trial: Annotated[
         list[str],
-        typer.Option(
+        option(
             "--trial",
-            metavar="SIGNAL=MM,G_MM,DEG",
-            help=_(
-                "Run with a trial mass: place in mm, unbalance in g·mm, angle from the mark in °; once for each mass."
-            ),
-            show_default=False,
+            "SIGNAL=MM,G_MM,DEG",
+            _("Run with a trial mass: place in mm, unbalance in g·mm, angle from the mark in °; once for each mass."),
         ),
     ],
-    radius_mm: Annotated[
-        float | None,
-        typer.Option("--radius-mm", metavar="MM", help=_("Radius at which the masses go."), show_default=False),
-    ] = None,
+    radius_mm: Annotated[float | None, option("--radius-mm", "MM", _("Radius at which the masses go."))] = None,
     tacho: Tacho = None,
     pulses_per_turn: Pulses = 1.0,
     rate: Rate = None,
