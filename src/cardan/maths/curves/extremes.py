@@ -51,6 +51,64 @@ def peaks(function: Callable[[Array], Array], places: Array, values: Array) -> t
     return place, value
 
 
+ALIKE = 1e-6
+"""Tops of samples, by parabolas, that differ by less than this share may be the highest alike: the first counts."""
+
+
+def tops(values: Array) -> Array:
+    """Return each of evenly spaced samples (..., p), where it stands above its neighbours the top of the parabola.
+
+    >>> tops(np.asarray([0.0, 1.0, 1.0, 0.0]))
+    array([0.   , 1.125, 1.125, 0.   ])
+    """
+    table = np.asarray(values, dtype=float)
+    if table.shape[-1] < 3:
+        return table
+    before, most, after = table[..., :-2], table[..., 1:-1], table[..., 2:]
+    with np.errstate(invalid="ignore"):
+        curve = 2.0 * most - before - after
+        inside = (most >= before) & (most >= after) & (curve > 0.0) & np.isfinite(curve)
+        rise = np.where(inside, (after - before) ** 2, 0.0) / (8.0 * np.where(inside, curve, 1.0))
+    found = table.copy()
+    found[..., 1:-1] += rise
+    return found
+
+
+def highest(function: Callable[[Array], Array], places: Array, values: Array) -> tuple[Array, Array]:
+    """Return where each of several curves is highest between two ends, and how high.
+
+    function: from places (m,), none beyond the ends, to the values of all curves there (k, m), nan where there is none.
+    places (p,): evenly spaced, close enough for the tops of parabolas to tell which is the highest.
+    values (k, p): ``function(places)``.
+    Returns place, value (k,): nan where a curve has no value at all.
+
+    >>> x = np.linspace(0.0, 3.0, 31)
+    >>> place, value = highest(lambda x: np.stack((np.sin(x), x)), x, np.stack((np.sin(x), x)))
+    >>> place.round(5), value
+    (array([1.5708, 3.    ]), array([1., 3.]))
+    """
+    table = np.where(np.isnan(values), -np.inf, values)
+    height = tops(table)
+    top = np.max(height, axis=-1, keepdims=True)
+    with np.errstate(invalid="ignore"):
+        best = np.argmax(height >= np.where(np.isfinite(top), top - ALIKE * np.abs(top), top), axis=-1)
+    place = places[best]
+    value = np.take_along_axis(table, best[:, None], axis=-1)[:, 0]
+    step = float(places[1] - places[0]) if places.size > 1 else 0.0
+    curves = np.arange(len(place))
+    for _round in range(ROUNDS if step and len(place) else 0):
+        around = np.clip(place[:, None] + step * np.linspace(-1.0, 1.0, 2 * CLOSER + 1), places[0], places[-1])
+        found = np.asarray(function(around.ravel())).reshape(len(place), *around.shape)[curves, curves]
+        found = np.where(np.isnan(found), -np.inf, found)
+        best = np.argmax(found, axis=-1)
+        better = found[curves, best] > value
+        place = np.where(better, around[curves, best], place)
+        value = np.where(better, found[curves, best], value)
+        step /= CLOSER
+    none = value == -np.inf
+    return np.where(none, np.nan, place), np.where(none, np.nan, value)
+
+
 def brackets(place: Array, value: Array, slope: Array) -> tuple[Array, Array]:
     """Return the steps in which a curve is level about as far from nought as anywhere, by cubics through their ends.
 

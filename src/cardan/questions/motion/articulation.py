@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.errors import JointAngleLimitError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.curves.extremes import highest
 from cardan.maths.curves.paths import Path
 from cardan.maths.ties import foremost_on
 from cardan.texts import _
@@ -29,9 +29,6 @@ from .moving_points import default_times, moving_path, shortest_period, start_ti
 
 SPARSE = 0.25
 """Instants further apart than this share of the shortest period are warned of."""
-
-SHARP = 1e-7
-"""Worst instants are found to this share of the time span; their values are flat there."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -339,40 +336,26 @@ def _warnings(drive: Drive, place: Geometry, found: Instants, splines: Sequence[
 def _worst(ask: Question, found: Instants, splines: Sequence[LengthCompensation], *, refine: bool) -> Iterator[Worst]:
     """Yield the worst instants, sharpened between the instants where there are finer ones to be asked for."""
     n = found.joint_angle.shape[1]
-    wanted: list[tuple[str, int, Callable[[Instants], Array]]] = [
-        *(("joint_angle", i + 1, _joint_angle(i)) for i in range(n)),
-        ("speed_fluctuation", n + 1, lambda some: some.shaft_speed_fluctuation[:, -1]),
-        ("moving_speed_fluctuation", n + 1, lambda some: some.unevenness),
-        ("speed_error", n + 1, lambda some: some.speed_error),
-        ("acceleration", n + 1, lambda some: some.largest_acceleration),
+    names = [
+        *(("joint_angle", i + 1) for i in range(n)),
+        *((what, n + 1) for what in ("speed_fluctuation", "moving_speed_fluctuation", "speed_error", "acceleration")),
     ]
-    for what, number, value in wanted:
-        found_worst = _largest(found, value)
-        if found_worst is None:
-            continue
-        time, most, span = found_worst
-        while refine and span[1] - span[0] > SHARP * (found.times[-1] - found.times[0]):
-            finer = _largest(ask.answer(np.linspace(*span, 17), yokes=False), value, among=np.nanargmax)
-            if finer is None or finer[1] < most:
-                break
-            time, most, span = finer
-        yield Worst(what=what, number=number, time=time, value=most)
+    values = _judged(found)
+    if refine:
+        places, most = highest(lambda times: _judged(ask.answer(times, yokes=False)), found.times, values)
+    else:
+        k = foremost_on(values)
+        places, most = found.times[k], np.take_along_axis(values, k[:, None], axis=-1)[:, 0]
+    for (what, number), time, value in zip(names, places, most, strict=True):
+        if np.isfinite(value):
+            yield Worst(what=what, number=number, time=float(time), value=float(value))
     for one in splines:
         if one.slides:
             yield Worst(what="length_min", number=one.shaft, time=one.time_min, value=one.length_min)
             yield Worst(what="length_max", number=one.shaft, time=one.time_max, value=one.length_max)
 
 
-def _largest(
-    found: Instants, value: Callable[[Instants], Array], *, among: Callable[[Array], Any] = foremost_on
-) -> tuple[float, float, tuple[float, float]] | None:
-    """Return time and value of the largest, and the instants on both sides of it; None when there is no value."""
-    table, times = value(found), found.times
-    if np.all(np.isnan(table)):
-        return None
-    k = int(among(table))
-    return float(times[k]), float(table[k]), (float(times[max(k - 1, 0)]), float(times[min(k + 1, times.size - 1)]))
-
-
-def _joint_angle(i: int) -> Callable[[Instants], Array]:
-    return lambda found: found.joint_angle[:, i]
+def _judged(some: Instants) -> Array:
+    """Return what is to be least at every instant, array (n+4, t): joint angles, then what the output does."""
+    output = some.shaft_speed_fluctuation[:, -1], some.unevenness, some.speed_error, some.largest_acceleration
+    return np.concatenate((some.joint_angle.T, np.stack(output)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -94,7 +95,9 @@ def _sentence(found: Articulation) -> Say:
 
 def _joints(drive: Drive, found: Articulation) -> Table:
     low, high = found.envelope["joint_angle"]
-    when = {one.number: one.time for one in found.worst if one.what == "joint_angle"}
+    worst = {one.number: one for one in found.worst if one.what == "joint_angle"}
+    numbers = range(1, len(drive.joints) + 1)
+    high = [worst[k].value if k in worst else most for k, most in zip(numbers, high, strict=True)]
     return Table(
         name="joints",
         records=True,
@@ -107,7 +110,7 @@ def _joints(drive: Drive, found: Articulation) -> Table:
             Column(
                 key="time",
                 heading=_("at"),
-                values=[when.get(k) for k in range(1, len(drive.joints) + 1)],
+                values=[worst[k].time if k in worst else None for k in numbers],
                 dimension="time",
                 decimals=3,
             ),
@@ -369,8 +372,11 @@ def _spline(drive: Drive, one: LengthCompensation) -> dict[str, Any]:
 
 def _column_values(drive: Drive) -> tuple[float, float, float]:
     found = ask(drive)
-    strokes = [one.stroke for one in found.splines]
-    return (float(np.nanmax(found.joint_angle)), float(np.nanmax(found.speed_fluctuation)), max(strokes, default=0.0))
+    joint_angle, uneven = (
+        max((one.value for one in found.worst if one.what == what), default=math.nan)
+        for what in ("joint_angle", "speed_fluctuation")
+    )
+    return joint_angle, uneven, max((one.stroke for one in found.splines), default=0.0)
 
 
 COLUMNS = (
