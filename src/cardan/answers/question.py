@@ -9,8 +9,9 @@ The module that a question names holds, by these names:
 ``answer(drive, result)``
     What there is to say of it, an `Answer`.
 
-and, where there is need, ``otherwise(drive)``, why nothing can be told although nothing is missing, and ``COLUMNS``,
-what a sweep may ask of it: each a `cardan.answers.sweepable.SweepQuestion`.
+and, where there is need, ``otherwise(drive)``, why nothing can be told although nothing is missing,
+``over_movement(drive)``, its key figures over the instants of a movement as arrays, and ``COLUMNS``, what a sweep may
+ask of it: each a `cardan.answers.sweepable.SweepQuestion`.
 """
 
 from __future__ import annotations

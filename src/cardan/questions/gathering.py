@@ -19,14 +19,30 @@ from cardan.answers.reader import reader
 from cardan.drive.conditions import Condition, conditions, in_poses, load_cases
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
-from cardan.maths.ties import alike
-from cardan.texts import _
+from cardan.later import later
+from cardan.maths.ties import alike, foremost
+from cardan.texts import _, mark
 
 from .accuracy.as_made import made
-from .motion.standing import steepest, still
+from .motion.moving_points import default_times
+from .motion.standing import BESIDE, outermost, still, worst_instants
+
+optimize = later("scipy.optimize")
 
 WORSE: tuple[Tone, ...] = ("good", "plain", "next", "warning", "failed")
 """Tones from the best to the worst."""
+
+OUTERMOST = mark(
+    "Of the movement those instants are looked at where a joint bends most, a shaft is longest or shortest, or a shaft "
+    "turns most unevenly."
+)
+
+LOOKS = 12
+"""Instants of a movement, beside those where the drive lies outermost, at which a quick question is asked."""
+
+CLOSER = 8
+"""Times that a quick question is asked beside the worst of them, by Brent's method: the top of a smooth curve is met to
+a millionth."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +80,7 @@ def ways(question: Question, drive: Drive) -> tuple[Way, ...]:
     """Return the conditions in which a question is to be asked, the drive as drawn first.
 
     question: which leaves out what it gathers by itself or does not depend on.
-    Of a movement the instants at which a joint bends most.
+    Of a movement the instants at which a key figure is worst.
     """
     asks = {aspect for aspect in has(drive) if aspect not in (*question.gathered, *question.without)}
     every: Sequence[Condition] = (Condition(drive=drive, moving=bool(drive.movements)),)
@@ -78,15 +94,74 @@ def ways(question: Question, drive: Drive) -> tuple[Way, ...]:
     for one in every:
         found.append(Way(name=one.name, share=one.share, drive=one.drive))
         if "movement" in asks and one.moving:
-            found += _moving(one)
+            found += _moving(question, one)
     return tuple(found)
 
 
-def _moving(one: Condition) -> Iterator[Way]:
-    """Yield the worst instants of a movement."""
-    for time in steepest(one.drive):
+def _moving(question: Question, one: Condition) -> Iterator[Way]:
+    """Yield the instants of a movement at which a key figure is worst."""
+    for time in _instants(question, one.drive):
         at = say(_("at {time} of the movement"), time=Quantity(time, "time", 3, trim=True))
         yield Way(name=Joined([one.name, at]), share=None, drive=still(one.drive, time))
+
+
+def _instants(question: Question, drive: Drive) -> tuple[float, ...]:
+    """Return the instants [s] of the movements of a drive at which the key figures of a question are worst.
+
+    Where the question tells their course, over the whole movement; else they are asked for where the drive lies
+    outermost and, of quick questions, at `LOOKS` instants between, and each is followed from the worst to its top.
+    """
+    known = getattr(question.home, "over_movement", None)
+    course = None if known is None else known(drive)
+    if course is not None:
+        return worst_instants(drive, course)
+    first, every = outermost(drive), default_times(drive.movements)
+    asked: dict[float, dict[str, float]] = {}
+
+    def ask(time: float) -> dict[str, float]:
+        if time not in asked:
+            asked[time] = _figures(question, drive, time)
+        return asked[time]
+
+    names = dict.fromkeys(name for time in first for name in ask(time)) if question.quick else {}
+    if not names:
+        return first
+    middles = every[0] + (np.arange(LOOKS) + 0.5) * (np.ptp(every) / LOOKS)
+    looked = sorted({*first, float(every[0]), float(every[-1]), *middles.tolist()})
+    found: list[float] = []
+    for name in names:
+        values = np.asarray([ask(time).get(name, np.nan) for time in looked])
+        if np.all(alike(values) | np.isnan(values)):
+            continue
+        k = int(foremost(values))
+        between = looked[max(k - 1, 0)], looked[min(k + 1, len(looked) - 1)]
+
+        def less(time: float, name: str = name) -> float:
+            return -ask(float(time)).get(name, -np.inf)
+
+        optimize().minimize_scalar(less, bounds=between, method="bounded", options={"maxiter": CLOSER})
+        best = min(asked, key=less)
+        if all(abs(best - one) > BESIDE * np.ptp(every) for one in found):
+            found.append(best)
+    return tuple(found) or first[:1]
+
+
+def _figures(question: Question, drive: Drive, time: float) -> dict[str, float]:
+    """Return the key figures at an instant, larger where they are worse; none where nothing can be told."""
+    try:
+        here = still(drive, time)
+        result = None if question.lacking(here) else question.ask(here)
+    except InputError:
+        return {}
+    if result is None:
+        return {}
+    keys = [one for one in question.answer(here, result).keys if one.better]
+    return {
+        one.name: float(one.value.value) * (1.0 if one.better == "less" else -1.0)
+        if one.utilisation is None
+        else one.utilisation
+        for one in keys
+    }
 
 
 def principal(question: Question, drive: Drive) -> Drive:
@@ -114,6 +189,8 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
         figures, remark = _as_made(drive)
         keys += figures
         remarks.append(remark)
+    if has(drive)["movement"] and not question.quick and "movement" not in (*question.gathered, *question.without):
+        remarks.append(Remark(text=_(OUTERMOST), code="outermost"))
     every = ways(question, drive)
     if len(every) < 2:
         if not remarks:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -26,10 +26,11 @@ from .equivalence import SYNCHRONOUS, EquivalentJoint, each_uniform, equivalent_
 from .figures.motion import motion_figure, orders_figure, speed_fluctuation_figure
 from .kinds import beside_turning, steep_joints
 from .motion import Motion, motion
+from .standing import standing_chain
 from .turning import Evenness, Swing, Turning
 from .turning import turning as ask
 
-__all__ = ["COLUMNS", "answer", "ask", "lacking", "sentence"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking", "over_movement", "sentence"]
 
 ORDERS = 3
 """So many orders of the angle error are told: 2, 4, 6."""
@@ -58,6 +59,26 @@ def answer(drive: Drive, result: Turning) -> Answer:
         facts=_facts(result),
         full=lambda: _trace(result.motion),
     )
+
+
+def over_movement(drive: Drive) -> Callable[[Array], Array] | None:
+    """Return the key figures of a moving drive as it stands at any instants; None where its joints have own laws.
+
+    Returns a function of instants (t,) [s] to values (k, t), nan where it does not turn: speed fluctuation, that all
+    others of the output grow with, and the joint angle nearest its limit.
+    """
+    if unmapped(drive.joints):
+        return None
+    steepest = np.asarray([one.steepest for one in drive.joints])
+
+    def values(times: Array) -> Array:
+        chain, possible = standing_chain(drive, times)
+        joint_angle = chain.joint_angle if chain.laws is None else chain.laws.joint_angle
+        place = np.argmax(joint_angle / steepest, axis=-1)[:, None]
+        found = equivalent_joint(chain).speed_fluctuation, np.take_along_axis(joint_angle, place, axis=-1)[:, 0]
+        return np.where(possible, np.stack(found), np.nan)
+
+    return values
 
 
 def sentence(drive: Drive, each: Evenness) -> Say:
