@@ -42,6 +42,8 @@ class Check:
         where many drives at once must have joints with tan φ' = κ tan φ.
     application : str
         Of drives that it is made for, as of `Duty`; empty where it judges all.
+    moves : bool
+        Whether it judges a drive that moves at the instants of its movement, as all do whose use grows with the torque.
     gathers : str
         "worst" where each pose is judged by itself; "sum" where one verdict is over all of them by their shares.
     """
@@ -59,7 +61,13 @@ class Check:
     power: float = 0.0
     crosses: Literal["", "each", "all", "law"] = ""
     application: str = ""
+    moves: bool = False
     gathers: Gathering = "worst"
+
+    @property
+    def instants(self) -> bool:
+        """Whether it judges each instant of a movement by itself."""
+        return self.gathers == "worst" and (self.moves or bool(self.power))
 
     def verdicts(self, design: Design) -> Iterator[Verdict]:
         """Yield the verdicts on a design; those on joints of a kind that the check does not judge say so."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from cardan.answers.quantity import Text
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
@@ -139,9 +140,10 @@ def check(
     refuse_all(Problem("only", _unknown(name)) for name in unknown)
     subject = design(drive, duty, vary=vary, known=known)
     each = [name for name in only or CHECKS if CHECKS[name].gathers == "worst"]
-    loads = [name for name in each if CHECKS[name].power]
-    poses = [(said, _judged(one, each)) for said, one in stood(subject)] if each else []
-    poses += [(said, _judged(one, loads)) for said, one in stopped(subject)] if loads else []
+    loads = [name for name in each if CHECKS[name].instants]
+    poses: list[tuple[Text, Sequence[Verdict]]] = []
+    poses += [(said, _judged(one, each)) for said, one in stood(subject)] if each else []
+    poses += stopped(subject, lambda one: _judged(one, loads)) if loads else []
     return worst_of_poses(_judged(subject, only), poses)
 
 

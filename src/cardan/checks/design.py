@@ -30,7 +30,7 @@ from cardan.questions.motion.turning import Swing, swing
 from cardan.texts import _
 
 from .load_case import Case, largest
-from .movement_loads import largest_joint_angles, largest_of
+from .movement_loads import Moved, largest_joint_angles, largest_of
 
 _STEP = re.compile(r"([a-z_][a-z0-9_]*)((?:\[\d+\])*)$")
 _GEOMETRY = re.compile(
@@ -159,11 +159,11 @@ class Design:
         return varied_points(self.drive, self.replaced, self.shape, angles)
 
     @cached_property
-    def moving_joint_angle(self) -> Array:
-        """Largest joint angle of every joint over the movements of the drive, array (..., n) [rad]."""
+    def moving_joint_angle(self) -> Moved:
+        """Largest joint angle of every joint over the movements of the drive, (..., n) [rad]."""
         return largest_joint_angles(self.points, self.drive.movements)
 
-    def while_moving(self, ask: Callable[[Chain], Array], *, mean: bool = False) -> Array | None:
+    def while_moving(self, ask: Callable[[Chain], Array], *, mean: bool = False) -> Moved | None:
         """Return the largest or mean answers over the movements of the drive (..., k); None where nothing moves."""
         if not self.drive.movements or self.swing is not None:
             return None

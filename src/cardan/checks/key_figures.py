@@ -71,7 +71,7 @@ def _in_poses(drive: Drive) -> list[tuple[str, Array, Array]]:
         (
             name,
             geometry(one.drive).joint_angle,
-            one.moving_joint_angle if one.drive.movements else geometry(one.drive).joint_angle,
+            one.moving_joint_angle.most if one.drive.movements else geometry(one.drive).joint_angle,
         )
         for name, one in (("", drawn), *posed(drawn))
     ]

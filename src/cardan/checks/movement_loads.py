@@ -4,19 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from functools import lru_cache
+from dataclasses import dataclass
+from functools import lru_cache, partial
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.drive.joints import Joint
 from cardan.drive.models.geometry import geometry_from_points
 from cardan.drive.models.kinematics_model import Chain, turning
 from cardan.drive.movement import Movement
 from cardan.maths.arrays import Array
-from cardan.maths.curves.extremes import turning_points
+from cardan.maths.curves.extremes import highest, tops, turning_points
 from cardan.maths.kernel import frames
 from cardan.questions.motion.moving_chain import moving_shafts
 from cardan.questions.motion.moving_points import default_times, moving_points
+from cardan.texts import _
 
 FEW = 40
 """Up to so many drives are looked at at all instants of a movement."""
@@ -28,14 +31,27 @@ TOGETHER = 50_000
 """Drives times instants looked at together."""
 
 
-def largest_joint_angles(points: Array, movements: Sequence[Movement]) -> Array:
-    """Return the largest joint angle of every joint over the instants of a movement, array (..., n) [rad].
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Moved:
+    """Answers over a movement: the largest, and of one drive when that is."""
+
+    most: Array  # (..., k)
+    times: Array | None = None  # (k,) [s]; None for many drives
+
+    def when(self, k: int = 0) -> Text:
+        """Return when one of the answers is largest, in words."""
+        if self.times is None:
+            return _("while the drive moves")
+        return say(_("while the drive moves, at {time}"), time=Quantity(float(self.times[k]), "time", 3, trim=True))
+
+
+def largest_joint_angles(points: Array, movements: Sequence[Movement]) -> Moved:
+    """Return the largest joint angle of every joint over a movement, arrays (..., n) [rad].
 
     points (..., n+2, 3) [m]: points of the axis as drawn.
     Where a movement carries points is an affine function of where they are.
     """
-    found = [np.max(_joint_angles(moved)[0], axis=-2) for _part, moved in _moved(points, movements)]
-    return np.concatenate(found).reshape(*points.shape[:-2], -1)
+    return _largest(lambda _part, moved: _joint_angles(moved)[0], points, movements)
 
 
 def largest_of(
@@ -46,8 +62,8 @@ def largest_of(
     joints: Sequence[Joint],
     *,
     mean: bool = False,
-) -> Array:
-    """Return the largest or the mean answer over the instants of a movement, as if it stood at each, array (..., k).
+) -> Moved:
+    """Return the largest or the mean answer over a movement, as if it stood at each instant, arrays (..., k).
 
     ask: from kinematic halves (m, t) to answers (m, t, k).
     kinematic (..., n): with the yoke angles and the start phase; points (..., n+2, 3) [m]: points of the axis as drawn.
@@ -57,8 +73,8 @@ def largest_of(
     outer, count = points.shape[:-2], kinematic.joints - 1
     yokes = np.broadcast_to(kinematic.yoke_angle, (*outer, count)).reshape(math.prod(outer), 1, count)
     phase = np.broadcast_to(kinematic.start_phase, outer).reshape(-1, 1)
-    found = []
-    for part, moved in _moved(points, movements):
+
+    def answers(part: slice, moved: Array) -> Array:
         possible = np.all(_joint_angles(moved)[1] > 1e-15, axis=-1)
         straight = np.arange(moved.shape[-2])[:, None] * np.asarray((1.0, 0.0, 0.0))
         frozen = geometry_from_points(np.where(possible[..., None, None], moved, straight))
@@ -68,10 +84,34 @@ def largest_of(
             yoke_angle=yokes[part],
             start_phase=phase[part],
         )
-        answers = np.where(possible[..., None], ask(turning(turned, joints)), np.inf)
-        between = 0.5 * (answers[:, 1:] + answers[:, :-1])
-        found.append(np.mean(between, axis=-2) if mean else np.max(answers, axis=-2))
-    return np.concatenate(found).reshape(*outer, -1)
+        found: Array = np.where(possible[..., None], ask(turning(turned, joints)), np.inf)
+        return found
+
+    if not mean:
+        return _largest(answers, points, movements)
+    every = [answers(part, moved) for part, moved in _moved(points, movements)]
+    means = [np.mean(0.5 * (one[:, 1:] + one[:, :-1]), axis=-2) for one in every]
+    return Moved(most=np.concatenate(means).reshape(*outer, -1))
+
+
+def _largest(ask: Callable[[slice, Array], Array], points: Array, movements: Sequence[Movement]) -> Moved:
+    """Return the largest answers over a movement: between the instants too, of one drive to rounding.
+
+    ask: from which of the drives and their points (m, t, n+2, 3) to answers (m, t, k).
+    Of more drives than `FEW` the tops of parabolas through neighbouring instants count.
+    """
+    outer, times = points.shape[:-2], default_times(movements)
+    rows = points.reshape(-1, *points.shape[-2:])
+    if len(rows) <= FEW:
+
+        def curves(row: int, at: Array) -> Array:
+            return ask(slice(row, row + 1), moving_points(rows[row], movements, at)[0][None])[0].T
+
+        each = [highest(partial(curves, row), times, curves(row, times)) for row in range(len(rows))]
+        most = np.stack([most for _places, most in each]).reshape(*outer, -1)
+        return Moved(most=most, times=each[0][0] if len(rows) == 1 else None)
+    found = [np.max(tops(np.swapaxes(ask(*one), -1, -2)), axis=-1) for one in _moved(points, movements)]
+    return Moved(most=np.concatenate(found).reshape(*outer, -1))
 
 
 def extreme_lengths(points: Array, movements: Sequence[Movement]) -> tuple[Array, Array]:
@@ -86,8 +126,10 @@ def extreme_lengths(points: Array, movements: Sequence[Movement]) -> tuple[Array
     rows = flat.reshape(-1, count, 3)
     if rows.shape[0] > FEW:
         lengths = [frames.norm(np.diff(moved, axis=-2)) for _part, moved in _moved(rows, movements)]
-        low = np.concatenate([-_tops(-one) for one in lengths])
-        high = np.concatenate([_tops(one) for one in lengths])
+        low, high = (
+            sign * np.concatenate([np.max(tops(sign * np.swapaxes(one, -1, -2)), axis=-1) for one in lengths])
+            for sign in (-1.0, 1.0)
+        )
     else:
         ends = np.stack([_extremes(row, movements) for row in rows])
         low, high = ends[..., 0], ends[..., 1]
@@ -110,18 +152,6 @@ def _extremes(points: Array, movements: Sequence[Movement]) -> Array:
     return found
 
 
-def _tops(values: Array) -> Array:
-    """Return the largest of values (m, t, k) over the instants, between them by a parabola, array (m, k)."""
-    last = values.shape[1] - 1
-    at = np.argmax(values, axis=1)[:, None]
-    before, most, after = (np.take_along_axis(values, np.clip(at + step, 0, last), axis=1)[:, 0] for step in (-1, 0, 1))
-    curve = 2.0 * most - before - after
-    inside = (at[:, 0] > 0) & (at[:, 0] < last) & (curve > 0.0)
-    rise = (after - before) ** 2 / (8.0 * np.where(inside, curve, 1.0))
-    found: Array = most + np.where(inside, rise, 0.0)
-    return found
-
-
 def _moved(points: Array, movements: Sequence[Movement]) -> Iterator[tuple[slice, Array]]:
     """Yield which of the drives, one after another, and their points at the instants of a movement (m, t, n+2, 3)."""
     count = points.shape[-2]
@@ -131,7 +161,7 @@ def _moved(points: Array, movements: Sequence[Movement]) -> Iterator[tuple[slice
         yield slice(0, 1), moving_points(rows[0], movements, times)[0][None]
         return
     every = -(-times.size // INSTANTS) if rows.shape[0] > FEW else 1
-    still, slopes = _carried(tuple(movements), count, every)
+    still, slopes = _carried(tuple(movements), count, tuple(times[::every].tolist()))
     size = still.size // (3 * count)
     step = max(1, TOGETHER // size)
     for first in range(0, rows.shape[0], step):
@@ -139,10 +169,27 @@ def _moved(points: Array, movements: Sequence[Movement]) -> Iterator[tuple[slice
         yield part, (rows[part].reshape(-1, 3 * count) @ slopes + still).reshape(-1, size, count, 3)
 
 
+def moving_rows(points: Array, movements: Sequence[Movement], times: Array) -> Array:
+    """Return the points of drives at instants, array (..., t, n+2, 3) [m].
+
+    points (..., n+2, 3) [m]: as drawn; times (t,) [s].
+    Where a joint bends 90° or more, those as drawn.
+    """
+    outer, count = points.shape[:-2], points.shape[-2]
+    if not outer:
+        moved = moving_points(points, movements, times)[0]
+    else:
+        still, slopes = _carried(tuple(movements), count, tuple(times.tolist()))
+        moved = (points.reshape(*outer, 3 * count) @ slopes + still).reshape(*outer, times.size, count, 3)
+    possible = np.all(_joint_angles(moved)[1] > 1e-15, axis=-1)
+    found: Array = np.where(possible[..., None, None], moved, points[..., None, :, :])
+    return found
+
+
 @lru_cache(maxsize=8)
-def _carried(movements: tuple[Movement, ...], count: int, every: int) -> tuple[Array, Array]:
+def _carried(movements: tuple[Movement, ...], count: int, instants: tuple[float, ...]) -> tuple[Array, Array]:
     """Return where movements carry points at the origin (k,), and how that goes with each coordinate (3(n+2), k)."""
-    times = default_times(movements)[::every]
+    times = np.asarray(instants)
     still = moving_points(np.zeros((count, 3)), movements, times)[0].ravel()
     units = np.eye(3 * count).reshape(3 * count, count, 3)
     return still, np.stack([moving_points(unit, movements, times)[0].ravel() - still for unit in units])

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,11 +13,15 @@ import numpy as np
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.drive.conditions import in_poses
 from cardan.drive.fields.paths import bare_path
+from cardan.drive.models.geometry import in_form
 from cardan.maths.arrays import Array
-from cardan.questions.motion.standing import steepest, still
+from cardan.maths.curves.extremes import tops
+from cardan.questions.motion.moving_points import default_times
+from cardan.questions.motion.standing import still, worst_instants
 from cardan.texts import _
 
 from .design import Design
+from .movement_loads import FEW, INSTANTS, moving_rows
 from .verdict import Verdict, joined
 
 WORSE = 1.0 + 1e-9
@@ -25,12 +31,15 @@ NOISE = 1e-12
 """Share of a limit that comes from rounding alone."""
 
 
-def largest_joint_angle(design: Design, i: int) -> Array | float:
-    """Return the largest angle of a joint while the drive moves, counted from 0 (...) [rad]; 0 where nothing moves."""
-    return design.moving_joint_angle[..., i] if design.drive.movements else 0.0
+def largest_joint_angle(design: Design, i: int) -> tuple[Array | float, Text]:
+    """Return the largest angle of a joint while the drive moves, counted from 0 (...) [rad], and when; 0 where not."""
+    if not design.drive.movements:
+        return 0.0, ""
+    moved = design.moving_joint_angle
+    return moved.most[..., i], moved.when(i)
 
 
-def at_its_most(design: Design, ask: Callable[[Array], Array]) -> tuple[Array, str]:
+def at_its_most(design: Design, ask: Callable[[Array], Array]) -> tuple[Array, Text]:
     """Return the largest answers on the joint angles, as drawn and moving (..., k), and a word where it moves.
 
     design: of Hooke joints; ask: from bends (..., n) [rad] to answers (..., k).
@@ -39,7 +48,7 @@ def at_its_most(design: Design, ask: Callable[[Array], Array]) -> tuple[Array, s
     moved = design.while_moving(lambda chain: ask(chain.joint_angle))
     if moved is None:
         return drawn, ""
-    return np.maximum(drawn, moved), _("while the drive moves") if np.all(moved > drawn * WORSE) else ""
+    return np.maximum(drawn, moved.most), moved.when() if np.all(moved.most > drawn * WORSE) else ""
 
 
 def posed(design: Design) -> list[tuple[str, Design]]:
@@ -65,19 +74,76 @@ def stood(design: Design) -> list[tuple[Text, Design]]:
     return [(_("in the pose {name}").format(name=name), one) for name, one in posed(design)]
 
 
-def stopped(design: Design) -> list[tuple[Text, Design]]:
-    """Return the design as drawn and in every pose at the instants of its movements at which a joint bends most.
+def stopped(design: Design, judge: Callable[[Design], Sequence[Verdict]]) -> list[tuple[Text, Sequence[Verdict]]]:
+    """Return the verdicts on a design, as drawn and in every pose, where its movements make them worst.
 
-    Where the geometry varies, there are no such instants.
+    judge: by what the joint angles and planes of an instant decide.
+    Of one drive at the instants at which a verdict uses most of its limit, found over the whole movement; of many that
+    of each of them.
     """
-    found: list[tuple[Text, Design]] = []
+    found: list[tuple[Text, Sequence[Verdict]]] = []
     for pose, one in (("", design), *stood(design)):
-        for time in steepest(one.drive) if one.drive.movements and not one.replaced else ():
+        if not one.drive.movements:
+            continue
+        if one.varied:
+            found.append((Joined([pose, _("while the drive moves")]), _worst_of_instants(one, judge)))
+            continue
+        for time in worst_instants(one.drive, partial(_used, one, judge)):
             here = still(one.drive, time)
-            at = say(_("at {time} of the movement"), time=Quantity(time, "time", 3, trim=True))
+            at = say(_("while the drive moves, at {time}"), time=Quantity(time, "time", 3, trim=True))
             other = replace(one, drive=here, duty=here.duty, drawn=design.drawn or design)
-            found.append((Joined([pose, at]), other))
+            found.append((Joined([pose, at]), judge(other)))
     return found
+
+
+def _used(design: Design, judge: Callable[[Design], Sequence[Verdict]], times: Array) -> Array:
+    """Return the shares of their limits that verdicts use at instants (t,), array (v, t)."""
+    used = [one.utilisation for one in judge(along(design, times)) if one.run]
+    table: Array = np.stack(np.broadcast_arrays(np.full(times.shape, -np.inf), *used))[1:]
+    return table
+
+
+def _worst_of_instants(design: Design, judge: Callable[[Design], Sequence[Verdict]]) -> list[Verdict]:
+    """Return the verdicts on many drives (...), each at the instant at which it is worst, beside it by a parabola."""
+    times = default_times(design.drive.movements)
+    if math.prod(design.shape) > FEW:
+        times = times[:: -(-times.size // INSTANTS)]
+    found = []
+    for one in judge(along(design, times)):
+        if not one.run:
+            found.append(one)
+            continue
+        used, value = np.broadcast_arrays(one.utilisation, one.value)
+        k = np.argmax(used, axis=-1)[..., None]
+        most, worst = (np.take_along_axis(table, k, axis=-1)[..., 0] for table in (used, value))
+        if one.sense in ("at_most", "at_least"):
+            with np.errstate(invalid="ignore", divide="ignore"):
+                more = np.where(np.isfinite(most) & (most > 0.0), np.max(tops(used), axis=-1) / most, 1.0)
+            worst = worst * more if one.sense == "at_most" else worst / more
+        ends = one.limit if isinstance(one.limit, tuple) else (one.limit,)
+        limits = [np.take_along_axis(np.broadcast_to(end, used.shape), k, axis=-1)[..., 0] for end in ends]
+        found.append(replace(one, value=worst, limit=(limits[0], limits[1]) if len(limits) > 1 else limits[0]))
+    return found
+
+
+def along(design: Design, times: Array) -> Design:
+    """Return a design at instants of its movements: drives (..., t) that stand so.
+
+    times (t,) [s].
+    Where a joint bends 90° or more, the drive as drawn stands in.
+    """
+    bare = in_form(replace(design.drive, movements=()), "points")
+    points = moving_rows(design.points, design.drive.movements, times)
+    shape = (*design.shape, times.size)
+    varied = {
+        path: np.broadcast_to(values, design.shape)[..., None]
+        for path, values in design.varied.items()
+        if path not in design.replaced or path.endswith((".yoke_angle", ".start_phase"))
+    }
+    rows = ["input.point", *(f"joints[{i}].centre" for i in range(design.joints)), "output.point"]
+    for k, row in enumerate(rows):
+        varied |= {f"{row}[{axis}]": np.broadcast_to(points[..., k, axis], shape) for axis in range(3)}
+    return replace(design, drive=bare, duty=bare.duty, varied=varied, drawn=design.drawn or design)
 
 
 def stands(design: Design) -> list[tuple[float, Design]]:

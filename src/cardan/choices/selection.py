@@ -12,11 +12,14 @@ from cardan.answers.quantity import Quantity, Text, say
 from cardan.catalogue import Catalogue, catalogue, filled
 from cardan.catalogue.rows import JointSize, JointType
 from cardan.checks import design
-from cardan.checks.moving import stood, stopped
+from cardan.checks.moving import along, stood
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.errors import Problem, check
+from cardan.maths.arrays import Array
+from cardan.maths.curves.extremes import tops
 from cardan.questions.life.bearing_life import CONVENTIONS, maker_life
+from cardan.questions.motion.moving_points import default_times
 from cardan.texts import _
 
 SLACK = 1e-12
@@ -254,9 +257,10 @@ def joint_duty(
         )
     check(problems)
     own = list(range(n)) if joint is None else [joint - 1]
-    stands = [made, *(one for _said, one in (*stood(made), *stopped(made)))]
-    torque = [case.joint_torque[own] for one in stands for case in one.loaded]
-    joint_angle = [case.joint_angle[own] for one in stands for case in one.loaded]
+    stands = [made, *(one for _said, one in stood(made))]
+    stands += [along(one, default_times(one.drive.movements)) for one in stands if one.drive.movements]
+    torque = [_top(case.joint_torque[..., own]) for one in stands for case in one.loaded]
+    joint_angle = [_top(case.joint_angle[..., own]) for one in stands for case in one.loaded]
     outers = [one.rating.outer for k, one in enumerate(whole.joints) if k in own and one.rating is not None]
     outer = max((one for one in outers if one is not None), default=None)
     used = whole.duty
@@ -270,6 +274,11 @@ def joint_duty(
         outer=outer,
         life=used.life,
     )
+
+
+def _top(values: Array) -> float:
+    """Return the largest of values (k,), or of values over the instants of a movement (t, k)."""
+    return float(np.max(tops(values.T) if values.ndim > 1 else values))
 
 
 def reasons(candidate: Candidate, need: JointDuty) -> tuple[Reason, ...]:

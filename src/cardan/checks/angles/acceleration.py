@@ -41,7 +41,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
             yield Verdict(subject=subject, title=title, missing=("duty.speed",))
             continue
         drawn = drawn_swings[..., k]
-        most = drawn if moved is None else moved[..., k]
+        most = drawn if moved is None else moved.most[..., k]
+        when = as_drawn(design) if moved is None or not np.all(most > drawn) else moved.when(k)
         yokes = design.yoke_design_variables if k == 0 or design.joints > 2 else ()
         yield Verdict(
             subject=subject,
@@ -51,7 +52,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
             confidence=norm.confidence,
             value=np.asarray(speed) ** 2 * np.maximum(drawn, most),
             design_variables=(*yokes, *design.joint_angle_design_variables, *design.speed_design_variables),
-            note=joined(at_top_speed(design), _("while the drive moves") if np.all(most > drawn) else as_drawn(design)),
+            note=joined(at_top_speed(design), when),
         )
 
 

@@ -39,8 +39,8 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     bound = kind is not None and kind[2] not in UNSURE
     limit, source, confidence = min(found, key=lambda one: float(np.max(np.asarray(one[0])))) if bound else found[0]
     joint_angles = [np.asarray(case.joint_angle)[..., i] for case in design.cases] or [design.joint_angle[..., i]]
-    moved = largest_joint_angle(design, i)
-    note = _("while the drive moves") if np.all(moved > largest(joint_angles)) else ""
+    moved, when = largest_joint_angle(design, i)
+    note = when if np.all(moved > largest(joint_angles)) else ""
     yield Verdict(
         value=largest([*joint_angles, moved]),
         limit=limit,

@@ -8,6 +8,7 @@ import numpy as np
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.load_case import largest
 from cardan.checks.verdict import Verdict, as_drawn, joined
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.texts import _, mark
@@ -23,13 +24,19 @@ def _judge(design: Design) -> Iterator[Verdict]:
         equivalent_joint(design.chain).max_angle_error if design.swing is None else design.swing.max_angle_error[-1]
     )
     made = design.made
+    angle_error = angle_error if made is None else np.asarray(made.angle_error)
+    moved = design.while_moving(lambda chain: equivalent_joint(chain).max_angle_error[..., None])
+    worse = moved is not None and np.all(moved.most[..., 0] > angle_error)
     yield Verdict(
         subject=output,
-        value=angle_error if made is None else np.asarray(made.angle_error),
+        value=angle_error if moved is None else largest([angle_error, moved.most[..., 0]]),
         limit=own,
         source=_("limits of the drive file"),
         design_variables=(*design.yoke_design_variables, *design.joint_angle_design_variables),
-        note=joined(as_drawn(design), _("with the errors as made") if made is not None else ""),
+        note=joined(
+            moved.when() if moved is not None and worse else as_drawn(design),
+            _("with the errors as made") if made is not None else "",
+        ),
     )
 
 

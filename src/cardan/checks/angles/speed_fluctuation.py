@@ -31,14 +31,14 @@ def _judge(design: Design) -> Iterator[Verdict]:
     moved = design.while_moving(lambda chain: equivalent_joint(chain).speed_fluctuation[..., None])
     yield Verdict(
         subject=output,
-        value=drawn if moved is None else largest([drawn, moved[..., 0]]),
+        value=drawn if moved is None else largest([drawn, moved.most[..., 0]]),
         limit=EVEN if own is None else own,
         source=_("Elbe Group: Technical annex 3, fluctuation rate (elbe-group.de)")
         if own is None
         else _("limits of the drive file"),
         design_variables=(*design.yoke_design_variables, *design.joint_angle_design_variables),
         note=joined(
-            _("while the drive moves") if moved is not None and np.all(moved[..., 0] > drawn) else as_drawn(design),
+            as_drawn(design) if moved is None or not np.all(moved.most[..., 0] > drawn) else moved.when(),
             _("with the errors as made") if made is not None else "",
         ),
     )

@@ -32,12 +32,6 @@ def _judge(design: Design) -> Iterator[Verdict]:
         return
     inertia = np.stack(np.broadcast_arrays(*(np.asarray(0.0 if one is None else one) for one in each)), axis=-1)
     needs = [_needed(design, case, inertia) for case in running]
-    moved = (
-        design.while_moving(lambda chain: _needed(design, running[0], inertia, chain)) if not design.varied else None
-    )
-    still = [np.max(one, axis=-1) for one in needs]
-    if moved is not None:
-        needs[0] = np.maximum(needs[0], moved)
     torques = [np.asarray(case.torque, dtype=float) for case in running]
     rows = np.broadcast_arrays(*torques, *(np.maximum(np.max(one, axis=-1), 0.0) for one in needs))
     torque, needed = np.stack(rows[: len(running)]), np.stack(rows[len(running) :])
@@ -49,10 +43,9 @@ def _judge(design: Design) -> Iterator[Verdict]:
         k = int(worst[0])
         first = int(foremost(needs[k]))
         joint = say(_("joint {number} needs most"), number=numbered(first + 1, design.drive.joints[first].name))
-        moving = _("while the drive moves") if np.max(needs[k]) > np.max(still[k]) * (1.0 + 1e-9) else ""
         named = _("decided by {case}").format(case=running[k].name) if running[k].name else ""
         light = _("the output shaft counts as without inertia") if each[-1] is None else ""
-        note = joined(joint if design.joints > 1 else "", named, moving, light)
+        note = joined(joint if design.joints > 1 else "", named, light)
     yield Verdict(
         value=np.take_along_axis(torque, worst, axis=0)[0][()],
         limit=np.take_along_axis(needed, worst, axis=0)[0][()],
@@ -67,10 +60,10 @@ def _judge(design: Design) -> Iterator[Verdict]:
     )
 
 
-def _needed(design: Design, case: Case, inertia: Array, chain: Chain | None = None) -> Array:
+def _needed(design: Design, case: Case, inertia: Array) -> Array:
     """Return the least torque that keeps each joint pressed one way, of many drives block by block (..., n) [N·m]."""
-    whole = case.chain if chain is None else chain
-    outer = np.broadcast_shapes(whole.joint_angle.shape[:-1], design.shape if chain is None else ())
+    whole = case.chain
+    outer = np.broadcast_shapes(whole.joint_angle.shape[:-1], design.shape)
     speed = design.top_speed if not case.name and design.duty.speed_range is not None else case.speed
     own = design.value("duty.torque")
     torque, scale = np.asarray(case.torque, dtype=float), np.abs(np.asarray(case.scale, dtype=float))
@@ -108,4 +101,5 @@ CHECK = Check(
     dimension="torque",
     unit="Nm",
     sense="at_least",
+    moves=True,
 )

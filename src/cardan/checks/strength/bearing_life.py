@@ -104,7 +104,7 @@ def _swung(design: Design, case: Case, i: int) -> tuple[Array, Array]:
         )
     if moved is None:
         return swing_damage(case.joint_angle[..., i], torque_at=case.torque_at)
-    return moved[..., 0], moved[..., 1]
+    return moved.most[..., 0], moved.most[..., 1]
 
 
 CHECK = Check(

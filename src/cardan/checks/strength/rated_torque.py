@@ -62,7 +62,7 @@ def _rated(design: Design, case: Case, i: int) -> Array:
     moved = None
     if case.chain is design.chain:
         moved = design.while_moving(lambda chain: rated_joint_angle(chain.joint_angle[..., [i]]), mean=True)
-    return rated_joint_angle(case.joint_angle[..., i]) if moved is None else moved[..., 0]
+    return rated_joint_angle(case.joint_angle[..., i]) if moved is None else moved.most[..., 0]
 
 
 CHECK = Check(

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
+from cardan.answers.quantity import Text
 from cardan.catalogue import Catalogue
+from cardan.checks.check import Check
 from cardan.checks.design import Design, design
 from cardan.checks.load_case import Case
 from cardan.checks.moving import stood, stopped, worst_of_poses
@@ -226,10 +228,14 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
 def _verdicts(subject: Design) -> Iterator[Verdict]:
     """Yield the verdicts on shafts, on all of them together, on joints."""
     worst = [check for check in STRENGTH if check.gathers == "worst"]
-    ways = [(said, stand, worst) for said, stand in stood(subject)]
-    ways += [(said, stand, [check for check in worst if check.power]) for said, stand in stopped(subject)]
-    poses = [(said, [one for check in some for one in check.verdicts(at) if _asked(one)]) for said, at, some in ways]
-    every = worst_of_poses([one for check in STRENGTH for one in check.verdicts(subject) if _asked(one)], poses)
+    loads = [check for check in worst if check.instants]
+
+    def judged(some: Sequence[Check], at: Design) -> list[Verdict]:
+        return [one for check in some for one in check.verdicts(at) if _asked(one)]
+
+    poses: list[tuple[Text, Sequence[Verdict]]] = [(said, judged(worst, stand)) for said, stand in stood(subject)]
+    poses += stopped(subject, lambda at: judged(loads, at))
+    every = worst_of_poses(judged(STRENGTH, subject), poses)
     limits = {(one.check, one.subject) for one in every if not one.advice}
     kept = [one for one in every if not (one.advice and (one.check, one.subject) in limits)]  # no rule beside a limit
     longer = _longer(subject)
