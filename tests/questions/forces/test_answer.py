@@ -107,7 +107,9 @@ def test_a_moving_drive_tells_its_forces_over_the_movement():
     said = answer(drive, result)
     (line,) = [text for text in remarks(said, "plain") if text.startswith("While it moves")]
     assert "support 3 (implement, near) carries most" in line
-    assert [one.value.value for one in said.keys if one.name == "support_force_while_moving"] == [top]
+    (most,) = [one for one in said.keys if one.name == "support_force"]
+    assert most.value.value == top
+    assert told(most.place, USUAL).endswith(" s of the movement")
     assert [one.name for one in said.figures()][-2:] == ["moving-reactions", "moving-torques"]
 
 

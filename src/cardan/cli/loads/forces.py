@@ -15,7 +15,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.movement import Movement
 from cardan.errors import refuse
 from cardan.questions.forces import moving_answer
-from cardan.questions.forces.answer import Carried, answer
+from cardan.questions.forces.answer import answer, followed
 from cardan.questions.forces.forces import forces as question
 from cardan.questions.forces.moving_forces import moving_forces
 from cardan.questions.gathering import principal
@@ -58,7 +58,7 @@ def forces(
     with keys_of(file):
         found = question(drive)
     curves = question(drive, angle=positions(angle, step or 1.0)) if angle or step else None
-    said = answer(drive, Carried(forces=found), curves)
+    said = answer(drive, followed(drive, found), curves)
     return tell(said, file, drive, whole=whole, json=json, csv=csv, plot=plot)
 
 

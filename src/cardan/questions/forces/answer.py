@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, KeyFigure, Listing, Remark, Table, closely
-from cardan.answers.quantity import Quantity, Say, say
+from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
@@ -18,6 +18,7 @@ from cardan.drive.fields.keys import spelled
 from cardan.drive.models.machine_held import machine_held, machines_of, proposed, tables_of
 from cardan.errors import InputError, Problem
 from cardan.figures.figure import Figure
+from cardan.maths.arrays import Array
 from cardan.maths.curves.cycle_statistics import harmonics
 from cardan.maths.ties import foremost, largest
 from cardan.questions.motion.kinds import steep_joints
@@ -45,10 +46,13 @@ from .force_tables import (
 )
 from .forces import Forces, forces
 from .gap_closure import Gaps, gaps
-from .moving_forces import MovingForces, moving_forces
+from .moving_forces import Extreme, MovingForces, moving_forces
 from .reactions import Determinacy, reaction_groups
 
-__all__ = ["COLUMNS", "Carried", "answer", "ask", "lacking"]
+__all__ = ["COLUMNS", "Carried", "answer", "ask", "followed", "lacking", "over_movement"]
+
+WORSE = 1.0 + 1e-9
+"""What moves is worse than what stands from here on; less is rounding."""
 
 ORDERS = 7
 """Orders 0 to 6 of the input speed are told to programs."""
@@ -75,18 +79,37 @@ def ask(drive: Drive) -> Carried:
     Raises InputError: what even the torques lack.
     """
     try:
-        found = Carried(forces=forces(drive))
+        return followed(drive, forces(drive))
     except InputError as error:
+        bare = replace(drive, supports=())
         try:
-            return Carried(forces=forces(replace(drive, supports=())), unheld=error.problems)
+            found = forces(bare)
         except InputError:
             raise error from None
-    if found.forces.reaction is None or not drive.movements or not drive.duty.speed:
-        return found
+        return replace(followed(bare, found), unheld=error.problems)
+
+
+def followed(drive: Drive, found: Forces) -> Carried:
+    """Return what a drive carries as drawn with what it carries while it moves, where the file says how fast.
+
+    found: as drawn.
+    """
+    if not drive.movements or not drive.duty.speed:
+        return Carried(forces=found)
     try:
-        return replace(found, moving=moving_forces(drive))
+        return Carried(forces=found, moving=moving_forces(drive))
     except InputError as error:
-        return replace(found, unmoved=error.problems)
+        return Carried(forces=found, unmoved=error.problems)
+
+
+def over_movement(drive: Drive) -> Callable[[Array], Array] | None:
+    """Return that no instant is left to be asked for where the forces are followed through the movement itself.
+
+    Without a speed, or for kinds of joints that are not followed so, it stands still at the instants asked for.
+    """
+    if not drive.duty.speed or any("moving forces" in joint.refusals for joint in drive.joints):
+        return None
+    return lambda times: np.zeros((0, times.size))
 
 
 def answer(drive: Drive, result: Carried, curves: Forces | None = None) -> Answer:
@@ -311,9 +334,16 @@ def _moving(drive: Drive, result: Carried) -> Iterator[Remark]:
     for problem in result.unmoved[:1]:
         text = _("Warning: forces while the drive moves are not calculated: {field}: {message}")
         yield Remark(text=say(text, **_parts(problem)), tone="warning")
-    if result.moving is not None:
+    if result.moving is not None and result.forces.reaction is not None:
         text = _("While it moves, support {which} carries most, up to {most} at {time}.")
         yield Remark(text=say(text, **worst_moving(drive, result.moving)))
+    worse: list[Text] = [
+        say("{title} {value} ({place})", title=one.title, value=one.value, place=one.place)
+        for one in _keys(drive, result)
+        if one.place and one.name != "support_force"
+    ]
+    if worse:
+        yield Remark(text=say(_("The worst over the movement: {figures}."), figures=Joined(worse, between="; ")))
 
 
 def worst_moving(drive: Drive, found: MovingForces) -> dict[str, Any]:
@@ -339,40 +369,37 @@ def _next(drive: Drive, found: Forces, surplus: int) -> Iterator[Remark]:
 
 
 def _keys(drive: Drive, result: Carried) -> Iterator[KeyFigure]:
-    """Yield the largest couple, journal load and reaction."""
-    found = result.forces
+    """Yield the largest couple, journal load and reaction, as drawn or over the movement, and when."""
+    found, moving = result.forces, result.moving
     couple = np.max(np.asarray(found.bending_couple), axis=-1)
-    bent = int(foremost(couple))
-    if couple[bent] > ROUNDING * float(np.max(np.abs(np.asarray(found.shaft_torque)), initial=0.0)):
-        yield KeyFigure(
-            name="secondary_couple",
-            title=say(_("largest secondary couple, shaft {k}"), k=bent + 1),
-            value=Quantity(float(couple[bent]), "torque"),
-        )
+    couples = None if moving is None else moving.extreme(tidy(moving.forces.bending_couple))
+    places, most, when = _larger(couple, couples)
+    if most > ROUNDING * float(np.max(np.abs(np.asarray(found.shaft_torque)), initial=0.0)):
+        title = say(_("largest secondary couple, shaft {k}"), k=places[0] + 1)
+        yield KeyFigure(name="secondary_couple", title=title, place=when, value=Quantity(most, "torque"))
     journal = np.max([np.max(np.asarray(one.journals.size), axis=(-1, -2)) for one in senses(found)], axis=0)
+    journals = None if moving is None else moving.extreme(np.max(moving.forces.journals.size, axis=-1))
     if np.any(np.isfinite(journal)):
-        most = int(foremost(journal))
-        yield KeyFigure(
-            name="journal_load",
-            title=say(_("largest load of a journal, joint {k}"), k=most + 1),
-            value=Quantity(float(journal[most]), "force"),
-        )
+        places, most, when = _larger(journal, journals)
+        title = say(_("largest load of a journal, joint {k}"), k=places[0] + 1)
+        yield KeyFigure(name="journal_load", title=title, place=when, value=Quantity(most, "force"))
     if found.reaction is None:
         return
     total = np.max([np.max(size(one.reaction), axis=-1) for one in senses(found)], axis=0)
-    places = largest(total)
-    yield KeyFigure(
-        name="support_force",
-        title=say(_("largest force on a support, {name}"), name=together(support_names(drive), places)),
-        value=Quantity(float(total[places[0]]), "force"),
-    )
-    if result.moving is not None:
-        worst = worst_moving(drive, result.moving)
-        yield KeyFigure(
-            name="support_force_while_moving",
-            title=say(_("the same while moving, {name}"), name=worst["which"]),
-            value=worst["most"],
-        )
+    places, most, when = _larger(total, None if moving is None else moving.extreme(moving.reaction_size))
+    title = say(_("largest force on a support, {name}"), name=together(support_names(drive), places))
+    yield KeyFigure(name="support_force", title=title, place=when, value=Quantity(most, "force"))
+
+
+def _larger(drawn: Array, moving: Extreme | None) -> tuple[tuple[int, ...], float, Text]:
+    """Return which of several is largest, as drawn (k,) or while it moves, how large, and when where that moves."""
+    places = largest(drawn)
+    if moving is not None:
+        k = int(foremost(moving.high))
+        if moving.high[k] > drawn[places[0]] * WORSE:
+            at = say(_("at {time} of the movement"), time=Quantity(float(moving.high_time[k]), "time", 3, trim=True))
+            return (k,), float(moving.high[k]), at
+    return places, float(drawn[places[0]]), ""
 
 
 def _facts(drive: Drive, found: Forces) -> dict[str, Any]:
