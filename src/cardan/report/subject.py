@@ -11,6 +11,7 @@ import numpy as np
 from cardan.book.evidence import SelfCheck, evidence, swing_by_vectors
 from cardan.catalogue import Catalogue
 from cardan.drive.bodies.solids import Solids, solids
+from cardan.drive.conditions import in_poses
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import Geometry, geometry
@@ -138,6 +139,19 @@ class Subject:
     def moving(self) -> Articulation | None:
         """What its movement does to it; None when it does not move."""
         return None if isinstance(self.moved, InputError) else self.moved
+
+    @cached_property
+    def swept(self) -> tuple[tuple[str, Articulation], ...]:
+        """What its movement does to it as drawn and in every pose that can be calculated, with the names of these."""
+        if self.moving is None:
+            return ()
+        found = [("", self.moving)]
+        for one in in_poses(self.drive)[1:] if self.drive.poses else ():
+            try:
+                found.append((one.name, articulation(one.drive)))
+            except InputError:
+                continue
+        return tuple(found)
 
     @property
     def unmoved(self) -> InputError | None:

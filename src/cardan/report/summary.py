@@ -15,6 +15,7 @@ from cardan.drive.fields.plausibility import doubts
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.accuracy.as_made import made
+from cardan.questions.motion.articulation import Worst
 from cardan.questions.motion.kinds import steep
 from cardan.questions.phases.answer import CALM, UTMOST, excess, steers, wants_fluctuation
 from cardan.questions.phases.setting import YokeSetting
@@ -86,7 +87,7 @@ def uniformity(on: Subject) -> Words:
     swings = _while_moving(on)
     if swings > UTMOST:
         tone = "warning" if tone == "good" and swings > CALM else tone
-        parts.append(say(_("While it moves, the speed fluctuation reaches {share}."), share=_share(swings)))
+        parts += _moving_words(on)
     if posed > max(swings, on.fluctuation) + UTMOST:
         tone = "warning" if tone == "good" and posed > CALM else tone
         parts.append(say(_("In the pose {name} the speed fluctuation is {share}."), name=pose, share=_share(posed)))
@@ -156,9 +157,34 @@ def _share(value: float) -> Quantity:
 
 
 def _while_moving(on: Subject) -> float:
-    """Return the largest speed fluctuation over the movement, the movement counted where a speed is known."""
-    found = {one.what: one.value for one in on.moving.worst} if on.moving else {}
-    return float(found.get("moving_speed_fluctuation", found.get("speed_fluctuation", 0.0)))
+    """Return the largest speed fluctuation over the movement, the movement counted too where a speed is known."""
+    return max((one.value for what in MOVING for _pose, one in _worst(on, what)), default=0.0)
+
+
+MOVING = ("speed_fluctuation", "moving_speed_fluctuation")
+"""What is told of the output while the drive moves: as if it stopped on its way, and the movement counted."""
+
+COUNTS = 1.05
+"""The rate of the movement is told where it raises the speed fluctuation by more than this."""
+
+
+def _worst(on: Subject, what: str) -> list[tuple[str, Worst]]:
+    """Return the worst instant in a respect, with its pose, as drawn and in every pose."""
+    return [(pose, one) for pose, found in on.swept for one in found.worst if one.what == what]
+
+
+def _moving_words(on: Subject) -> Iterator[Text]:
+    """Yield how unevenly the output turns while the drive moves, when and in which pose."""
+    stopped, moving = (_worst(on, what) for what in MOVING)
+    share = 0.0
+    if stopped:
+        pose, one = stopped[int(foremost([one.value for _pose, one in stopped]))]
+        share, at = one.value, say(_("at {time} of the movement"), time=Quantity(one.time, "time", 3, trim=True))
+        text = _("While it moves, the speed fluctuation reaches {share} ({place}).")
+        yield say(text, share=_share(share), place=Joined([pose, at]))
+    counted = max((one.value for _pose, one in moving), default=0.0)
+    if counted > COUNTS * share and counted - share > UTMOST:
+        yield say(_("Including the articulation rate it reaches {share}."), share=_share(counted))
 
 
 def _in_poses(on: Subject) -> tuple[float, str]:
