@@ -277,7 +277,8 @@ def test_a_moving_drive_tells_its_forces_over_the_movement():
     text = words(moved)
     assert "What the supports carry while the drive moves" in text
     assert f"{significant(float(np.max(found.reaction_size)))} N at" in text
-    assert "while moving, 3 (implement, near)" in text
+    assert "largest force on a support, 3 (implement, near)" in text
+    assert "s of the movement" in text
 
 
 def test_the_last_digits_of_coordinates_are_no_reason_to_change_a_drive():

@@ -15,13 +15,16 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
+from cardan.drive.models.kinematics_model import Chain
 from cardan.drive.models.machine_held import machine_held, machines_of, proposed, tables_of
 from cardan.errors import InputError, Problem
 from cardan.figures.figure import Figure
 from cardan.maths.arrays import Array
 from cardan.maths.curves.cycle_statistics import harmonics
 from cardan.maths.ties import foremost, largest
+from cardan.questions.motion.articulation_answer import random_facts, random_tables
 from cardan.questions.motion.kinds import steep_joints
+from cardan.questions.motion.random_motion import RandomMotion, Results, random_motion
 from cardan.texts import _, mark, plural
 
 from .figures.forces import forces_figures
@@ -48,8 +51,12 @@ from .forces import Forces, forces
 from .gap_closure import Gaps, gaps
 from .moving_forces import Extreme, MovingForces, moving_forces
 from .reactions import Determinacy, reaction_groups
+from .turn_loads import turn_loads
 
 __all__ = ["COLUMNS", "Carried", "answer", "ask", "followed", "lacking", "over_movement"]
+
+MANY = 40
+"""Places in half a turn at which the loads of random movements are looked at."""
 
 WORSE = 1.0 + 1e-9
 """What moves is worse than what stands from here on; less is rounding."""
@@ -66,6 +73,7 @@ class Carried:
     moving: MovingForces | None = None  # while it moves, where the file says how
     unheld: tuple[Problem, ...] = ()  # why the supports tell nothing
     unmoved: tuple[Problem, ...] = ()  # why nothing is told of the movement
+    random: RandomMotion | None = None  # what random movements make of the loads, without masses and friction
 
 
 def lacking(drive: Drive) -> Lacking:
@@ -94,12 +102,31 @@ def followed(drive: Drive, found: Forces) -> Carried:
 
     found: as drawn.
     """
-    if not drive.movements or not drive.duty.speed:
+    if not drive.movements:
         return Carried(forces=found)
     try:
-        return Carried(forces=found, moving=moving_forces(drive))
+        chance = random_motion(drive, None, _loads(drive), fewer=2)
+        moving = moving_forces(drive) if drive.duty.speed else None
     except InputError as error:
         return Carried(forces=found, unmoved=error.problems)
+    return Carried(forces=found, moving=moving, random=chance)
+
+
+def _loads(drive: Drive) -> Results:
+    """Return the largest loads over a turn wherever the points are, masses and friction not counted."""
+    duty, n = drive.duty, len(drive.joints)
+
+    def results(_points: Array, chain: Chain) -> dict[tuple[str, int], Array]:
+        torque = duty.torque or 0.0
+        found = turn_loads(
+            chain, torque, torque_at=duty.torque_at, harmonics=duty.harmonics, scale=abs(torque), look=MANY
+        )
+        given = n if duty.torque_at == "output" else 0
+        loads = {("couple", i + 1): found.couple[:, i] for i in range(n)}
+        loads |= {("shaft_torque", k + 1): found.torque[:, k] for k in range(n + 1) if k != given}
+        return loads | {("secondary_couple", k + 1): found.bending[:, k] for k in range(n + 1)}
+
+    return results
 
 
 def over_movement(drive: Drive) -> Callable[[Array], Array] | None:
@@ -125,13 +152,25 @@ def answer(drive: Drive, result: Carried, curves: Forces | None = None) -> Answe
         title=_("Forces"),
         sentence=_sentence(drive, found),
         figures=lambda: _figures(drive, result),
-        tables=(*_tables(drive, found), *_back(shown)),
+        tables=(*_tables(drive, found), *_back(shown), *_random(result)),
         remarks=tuple(_remarks(drive, result, machines)),
         listings=() if found.reaction is not None else tuple(_listings(own)),
         keys=tuple(_keys(drive, result)),
-        facts={**_facts(drive, found), "held_by_machines": list(machines) if found.reaction is not None else []},
+        facts={
+            **_facts(drive, found),
+            **random_facts(result.random),
+            "held_by_machines": list(machines) if found.reaction is not None else [],
+        },
         full=lambda: trace(shown),
     )
+
+
+def _random(result: Carried) -> Iterator[Table]:
+    """Yield what random movements make of the loads."""
+    if result.random is not None:
+        note = _("Largest values over a turn; masses and friction do not count in this table.")
+        for one in random_tables(result.random):
+            yield one if one.name else replace(one, note=Joined([one.note, note], between=" "))
 
 
 def _figures(drive: Drive, result: Carried) -> tuple[Figure, ...]:

@@ -17,7 +17,7 @@ from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.errors import Problem, check, refuse
 from cardan.formulas.joint_rating import POWER, book_life, lasting, nominal_torque
 from cardan.maths.arrays import Array
-from cardan.questions.motion.standing import mean_times, standing
+from cardan.questions.motion.standing import standing
 from cardan.texts import _
 
 from .bearing_life import MILLION, RELIABILITIES, maker_life, reliability_factor
@@ -152,23 +152,22 @@ def _rows(stand: Condition, bearings: JointBearings, factor: float) -> Iterator[
     for movement in dict.fromkeys(part.movement for part in own):
         parts = tuple(part for part in own if part.movement == movement)
         moves = tuple(one for one in drive.movements if movement in ("", one.name))
-        stood = [machine]
+        stood, when = [machine], np.ones(1)
         if moves and any(part.joint_angle is None for part in parts):
-            moving = replace(drive, movements=moves)
-            stood = standing(moving, machine, mean_times(moves))
+            stood, when = standing(replace(drive, movements=moves), machine)
         loads = [bearing_loads(drive, one, asked, parts) for one in stood]
         lives = [_lives(one, bearings, parts, factor) for one in loads]
         speed = np.asarray([abs(part.speed or 0.0) for part in parts])[:, None]
         shocks = np.asarray([part.shock_factor for part in parts])[:, None]
-        table = {name: _mean_life([one[name] for one in lives]) for name in lives[0]}
+        table = {name: _mean_life([one[name] for one in lives], when) for name in lives[0]}
         joint_angles, torques = (np.stack([getattr(one, name) for one in loads]) for name in ("joint_angle", "torque"))
         table["torque"] = torques[0]
         if len(loads) > 1:
-            flat = np.moveaxis(torques, 0, -1), np.full(len(loads), 1.0 / len(loads))
+            flat = np.moveaxis(torques, 0, -1), when
             table["torque"] = equivalent_torque(
                 *flat, speed=speed[..., None], joint_angle=np.moveaxis(joint_angles, 0, -1)
             )
-        table["joint_angle"] = np.mean(joint_angles, axis=0)
+        table["joint_angle"] = np.average(joint_angles, axis=0, weights=when)
         table["journal_force"] = shocks * np.max([one.couple for one in loads], axis=0) / bearings.span
         for k, part in enumerate(parts):
             pose = _("pose {name}").format(name=stand.pose) if stand.pose else ""
@@ -179,12 +178,12 @@ def _rows(stand: Condition, bearings: JointBearings, factor: float) -> Iterator[
             yield _Row(part=named, pose=stand.pose, share=share, **row)
 
 
-def _mean_life(lives: Sequence[Array]) -> Array:
-    """Return the life over equal times with these lives (b, n): their rates of damage have a mean."""
+def _mean_life(lives: Sequence[Array], shares: Array) -> Array:
+    """Return the life over times with these lives (b, n) and these shares: their rates of damage have a mean."""
     if len(lives) == 1:
         return lives[0]
     with np.errstate(divide="ignore"):
-        return lasting(1.0, np.mean([1.0 / one for one in lives], axis=0))
+        return lasting(1.0, np.average([1.0 / one for one in lives], axis=0, weights=shares))
 
 
 def _worst(rows: Sequence[_Row], method: str) -> list[_Row]:

@@ -18,7 +18,7 @@ from cardan.formulas.friction import Turning, joint_friction
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import foremost
 from cardan.questions.motion.motion import TURN
-from cardan.questions.motion.standing import FEWEST, mean_times, standing
+from cardan.questions.motion.standing import FEWEST, standing
 from cardan.texts import _
 
 from .loss_model import Model, Powers, mean_powers, powers
@@ -248,8 +248,8 @@ def _steady(drive: Drive) -> Losses:
     stood = _losses(drive, drive.duty, parts, model, uncounted, [model])
     if not drive.movements:
         return stood
-    times = mean_times(drive.movements, fewest=FEW if model.holding is not None else FEWEST)
-    models = [model_of(drive, drive.duty, replace(parts, train=one)) for one in standing(drive, parts.train, times)]
+    stands, shares = standing(drive, parts.train, fewest=FEW if model.holding is not None else FEWEST)
+    models = [model_of(drive, drive.duty, replace(parts, train=one)) for one in stands]
     drawn = LossesAt(
         name="",
         share=None,
@@ -258,20 +258,27 @@ def _steady(drive: Drive) -> Losses:
         efficiency=stood.efficiency,
         heat=stood.heat,
     )
-    return replace(_losses(drive, drive.duty, parts, model, uncounted, models), drawn=drawn)
+    return replace(_losses(drive, drive.duty, parts, model, uncounted, models, shares), drawn=drawn)
 
 
 def _losses(
-    drive: Drive, duty: Duty, parts: Parts, model: Model, uncounted: tuple[Uncounted, ...], models: Sequence[Model]
+    drive: Drive,
+    duty: Duty,
+    parts: Parts,
+    model: Model,
+    uncounted: tuple[Uncounted, ...],
+    models: Sequence[Model],
+    shares: Array | None = None,
 ) -> Losses:
-    """Return the means over models of a drive at instants, with the curves of it as drawn."""
+    """Return the means over models of a drive at instants, by their shares, with the curves of it as drawn."""
     held = [model.drag * np.tan(one.chain.joint_angle) >= 1.0 for one in models]
     locked = tuple(int(i) + 1 for i in np.flatnonzero(np.any(held, axis=0)))
     if locked:
         model = replace(model, drag=np.full_like(model.drag, np.nan), holding=None)
-        models = [model]
+        models, shares = [model], None
     means = [mean_powers(one) for one in models]
-    mean = _mean(means, np.full(len(means), 1.0 / len(means)))
+    weight = np.ones(1) if shares is None else shares
+    mean = _mean(means, weight)
     angle = np.linspace(0.0, 2.0 * np.pi, TURN)
     course = powers(model, angle)
     rules = [joint_friction(one.chain.joint_angle, one.drag) for one in models]
@@ -288,8 +295,8 @@ def _losses(
         resisting=mean.resisting,
         storing=mean.storing,
         efficiency=float(_efficiency(mean)),
-        first_order=float(np.mean([np.prod(rule.first_order) for rule in rules])),
-        small_angle=float(np.mean([np.prod(rule.small_angle) for rule in rules])),
+        first_order=float(weight @ [np.prod(rule.first_order) for rule in rules]),
+        small_angle=float(weight @ [np.prod(rule.small_angle) for rule in rules]),
         angle=angle,
         joint_power=course.driving + course.driven,
         input_torque=course.input_torque,

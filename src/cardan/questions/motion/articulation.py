@@ -15,7 +15,7 @@ from cardan.drive.fields.validity import movement_problems
 from cardan.drive.models.geometry import Geometry, geometry
 from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.drive.movement import Movement
-from cardan.errors import JointAngleLimitError, Problem, check, refuse
+from cardan.errors import InputError, JointAngleLimitError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import highest
 from cardan.maths.curves.paths import Path
@@ -26,6 +26,7 @@ from .instants import Instants, Position, Question
 from .kinds import kind_name
 from .length import LengthCompensation, length_compensation
 from .moving_points import default_times, moving_path, shortest_period, start_time
+from .random_motion import RandomMotion, random_motion
 
 SPARSE = 0.25
 """Instants further apart than this share of the shortest period are warned of."""
@@ -85,6 +86,8 @@ class Articulation:
         What the user should know.
     assumed : tuple of str
         Paths of what the drive does not say and this answer assumes.
+    random : RandomMotion or None
+        Mean, deviation, spectrum and rare levels under its random movements, of which all else is one sample path.
     """
 
     times: Array
@@ -110,6 +113,7 @@ class Articulation:
     worst: tuple[Worst, ...]
     warnings: tuple[Text, ...]
     assumed: tuple[str, ...] = ()
+    random: RandomMotion | None = None
 
     @property
     def speed_fluctuation(self) -> Array:
@@ -198,6 +202,7 @@ def articulation(
             [Problem("movements", _("at every instant a joint angle is 90° or more; a universal joint needs less"))]
         )
     splines = _splines(drive, place, found)
+    random, unknown = _random(drive, moves)
     return Articulation(
         times=at,
         points=found.points,
@@ -220,9 +225,18 @@ def articulation(
         status=found.status,
         splines=splines,
         worst=tuple(_worst(ask, found, splines, refine=chosen)),
-        warnings=(*_sparse(moves, at), *_warnings(drive, place, found, splines)),
+        warnings=(*_sparse(moves, at), *_warnings(drive, place, found, splines), *unknown),
         assumed=place.assumed,
+        random=random,
     )
+
+
+def _random(drive: Drive, moves: Sequence[Movement]) -> tuple[RandomMotion | None, tuple[str, ...]]:
+    """Return what random movements make of the drive, or why that is not told."""
+    try:
+        return random_motion(drive, moves), ()
+    except InputError as error:
+        return None, tuple(one.message for one in error.problems)
 
 
 def _plan(

@@ -24,6 +24,7 @@ from .equivalence import SPECK, SYNCHRONOUS
 from .figures.articulation import articulation_figures
 from .instants import Position
 from .length import LengthCompensation
+from .random_motion import Expected, RandomMotion
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
@@ -57,6 +58,7 @@ def answer(drive: Drive, result: Articulation) -> Answer:
             _joints(drive, result),
             *((_shafts(drive, result),) if result.splines else ()),
             _worst_instants(result),
+            *(() if result.random is None else random_tables(result.random)),
         ),
         remarks=tuple(_remarks(drive, result)),
         keys=tuple(_keys(drive, result)),
@@ -226,6 +228,104 @@ def _value(one: Worst) -> Quantity:
     return Quantity(one.value, "share", 3)
 
 
+RANDOM_UNITS = {
+    "angle": (deg, "deg2_per_Hz"),
+    "length": (mm, "mm2_per_Hz"),
+    "share": (1.0, "per_Hz"),
+    "angular_acceleration": (1.0, "rad2_s4_per_Hz"),
+    "torque": (1.0, "N2_m2_per_Hz"),
+}
+"""Dimension of a result -> the unit of its density for programs."""
+
+
+def _random_names() -> dict[str, tuple[str, str]]:
+    """Return title and dimension of the results of random movements."""
+    return {
+        "joint_angle": (_("angle of joint {number}"), "angle"),
+        "length": (_("length of shaft {number}"), "length"),
+        "speed_fluctuation": (_("speed fluctuation of the output if it stopped there"), "share"),
+        "angle_error": (_("angle error of the output, ±"), "angle"),
+        "acceleration": (_("acceleration of the output"), "angular_acceleration"),
+        "couple": (_("couple of the cross of joint {number}"), "torque"),
+        "shaft_torque": (_("torque of shaft {number}"), "torque"),
+        "secondary_couple": (_("secondary couple of shaft {number}"), "torque"),
+    }
+
+
+def random_tables(found: RandomMotion) -> Iterator[Table]:
+    """Yield what random movements make of a drive: means, deviations and rare levels; spectra for programs."""
+    names = _random_names()
+
+    def column(key: str, heading: Text, values: list[float]) -> Column:
+        cells = [
+            Quantity(value if np.isfinite(value) else None, names[one.what][1], 4)
+            for one, value in zip(found.results, values, strict=True)
+        ]
+        return Column(key=key, heading=heading, values=cells)
+
+    rows, span = found.results, _time(found.span)
+    note = _(
+        "Expectations over all that chance may bring, of the drive as it stands at each instant; the levels are "
+        "crossed once in {span} on average. All else here is of one sample path."
+    )
+    if found.resting:
+        note = f"{note} {_('The other movements rest meanwhile.')}"
+    if any(one.error > 0.0 for one in rows):
+        worst = max(one.error / one.deviation for one in rows if one.deviation > 0.0)
+        note = f"{note} {_('The standard error of the means is at most {share} of the deviations.')}"
+        said = say(note, span=span, share=Quantity(worst, "share", 2))
+    else:
+        said = say(note, span=span)
+    yield Table(
+        title=_("Under the random movements"),
+        columns=(
+            Column(
+                key="what",
+                heading=_("what"),
+                values=[names[one.what][0].format(number=one.number) for one in rows],
+                left=True,
+            ),
+            column("mean", _("mean"), [one.mean for one in rows]),
+            column("deviation", _("standard deviation"), [one.deviation for one in rows]),
+            column("high", _("exceeded once"), [one.high for one in rows]),
+            column("low", _("fallen below once"), [one.low for one in rows]),
+        ),
+        note=said,
+    )
+    columns = [Column(key="frequency_Hz", values=found.frequency / (2.0 * np.pi))]
+    for one, density in zip(rows, found.density, strict=True):
+        scale, unit = RANDOM_UNITS[names[one.what][1]]
+        key = f"{one.what}_{one.number}_{unit}"
+        columns.append(Column(key=key, values=2.0 * np.pi * density / scale**2))
+    yield Table(name="random_spectrum", depth="data", columns=columns)
+
+
+def random_facts(found: RandomMotion | None) -> dict[str, Any]:
+    """Return what random movements make of a drive, for programs."""
+    if found is None:
+        return {}
+    names = _random_names()
+
+    def quantity(one: Expected, value: float) -> Quantity:
+        return Quantity(value if np.isfinite(value) else None, names[one.what][1])
+
+    return {
+        "random_span": Quantity(found.span, "time"),
+        "random_results": [
+            {
+                "what": one.what,
+                "number": one.number,
+                "mean": quantity(one, one.mean),
+                "deviation": quantity(one, one.deviation),
+                "exceeded_once": quantity(one, one.high),
+                "fallen_below_once": quantity(one, one.low),
+                "spectrum_holds": Quantity(one.held, "share"),
+            }
+            for one in found.results
+        ],
+    }
+
+
 def _remarks(drive: Drive, found: Articulation) -> Iterator[Remark]:
     failed = [flag.message for one in found.splines for flag in one.flags]
     for what in found.warnings:
@@ -338,6 +438,7 @@ def _facts(drive: Drive, found: Articulation) -> dict[str, Any]:
         "splines": [_spline(drive, one) for one in found.splines],
         "warnings": list(found.warnings),
         "assumed": list(found.assumed),
+        **random_facts(found.random),
     }
 
 

@@ -125,6 +125,16 @@ def _random(movement: kinds.Random, points: Jet, times: Array) -> Jet:
     return _shifted(points, tuple(part[:, None] * along for part in path))
 
 
+def random_shifts(joints: int, movements: Sequence[kinds.Random]) -> Array:
+    """Return where one standard deviation of each random movement carries the points, array (m, n+2, 3) [m]."""
+    names, found = point_names(joints), np.zeros((len(movements), joints + 2, 3))
+    for row, movement in zip(found, movements, strict=True):
+        axis = np.asarray(movement.axis, dtype=float)
+        chosen = [names.index(name) for name in dict.fromkeys(movement.moves)]
+        row[chosen] = movement.deviation * axis / np.linalg.norm(axis)
+    return found
+
+
 CARRY: dict[str, Callable[[Any, Jet, Array], Jet]] = {
     kinds.Hitch.kind: _hitch,
     kinds.Arm.kind: _arm,
