@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from cardan.answers.quantity import told
 from cardan.answers.reader import Reader
 from cardan.checks.checks import check
 from cardan.drive.cross import Cross
@@ -181,3 +182,44 @@ def test_many_drives_sum_damage_over_poses_and_movement_as_one_does():
     for height, value in zip(heights, many.value, strict=True):
         one = replace(drive, output=replace(drive.output, point=(1.0, 0.0, height / 1000.0)))
         assert value == pytest.approx(life(one).drive, rel=1e-3)
+
+
+def test_poses_movements_and_cases_with_shares_add_to_one_average():
+    """One joint: a case in a pose, one during a movement, the rest in both poses; an integration of its own of all."""
+    drive = joints(Drive.from_points([(-1, 0, 0), (0, 0, 0), (1, 0, -0.2)]))
+    low = Pose(name="low", share=0.25, set=(("output.point_mm", (1000.0, 0.0, -500.0)),))
+    swing = Harmonic(moves=("output",), amplitude=(0.0, 0.0, 0.1), frequency=2.0, name="road")
+    cases = (
+        Case(name="winch", torque=900.0, share=0.1, pose="low"),
+        Case(name="field", torque=700.0, share=0.3, movement="road"),
+    )
+    drive = replace(
+        drive, poses=(low,), movements=(swing,), duty=Duty(speed=SPEED, torque=400.0, cases=cases, life=3.6e6)
+    )
+    found = life(drive)
+
+    def rate(drop, torque):
+        """Return the mean rates of damage in both yokes over the swing about a drop."""
+
+        def here(phase, side):
+            joint_angle = np.arctan(drop - 0.1 * np.sin(phase))
+            one = bearing_life(C, SPAN / 2, torque, speed=SPEED, joint_angle=joint_angle, torque_at="output")
+            return 1.0 / getattr(one, side)
+
+        return np.asarray([quad(here, 0.0, 2.0 * np.pi, (side,))[0] / (2.0 * np.pi) for side in ("driving", "driven")])
+
+    # The winch has its share in its pose; field and duty run in both poses by their shares, the duty for the rest.
+    parts = {
+        "winch": 0.1 * rate(0.5, 900.0),
+        "field": 0.3 * (0.75 * rate(0.2, 700.0) + 0.25 * rate(0.5, 700.0)),
+        "duty": 0.6 * (0.75 * rate(0.2, 400.0) + 0.25 * rate(0.5, 400.0)),
+    }
+    assert np.sum(found.share) == pytest.approx(1.0, abs=1e-12)
+    assert found.drive == pytest.approx(1.0 / np.max(sum(parts.values())), rel=1e-7)
+    (said,) = [one.text for one in answer(drive, found).remarks if one.code == "governing_condition"]
+    winch = parts["winch"][0] / sum(parts.values())[0]
+    assert winch > 0.4
+    assert told(said, Reader()) == (
+        f"Most damage to joint 1 arises in this condition: pose low, winch; {100 * winch:.1f} % of it in 10.0 % of the "
+        "time."
+    )

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from cardan.answers.quantity import told
 from cardan.answers.reader import Reader
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
@@ -93,3 +94,30 @@ def test_poses_without_shares_leave_the_worst():
     found = losses(drive)
     assert found.heat == pytest.approx(heat_of_one_joint(30 * deg, 300.0), rel=1e-12)
     assert "no_share" in [one.code for one in answer(drive, found).remarks]
+
+
+def test_poses_movements_and_cases_add_to_one_mean_and_the_hottest_is_named():
+    """One joint: its heat by the closed form, integrated over the swing in either pose and under either torque."""
+    low = Pose(name="low", share=0.25, set=(("output.point_mm", (1000.0, 0.0, -500.0)),))
+    swing = Harmonic(moves=("output",), amplitude=(0.0, 0.0, 0.1), frequency=2.0)
+    cases = (Case(name="hill", torque=900.0, share=0.4),)
+    drive = rubbing(Drive.from_points([(-1, 0, 0), (0, 0, 0), (1, 0, -0.2)]))
+    drive = replace(drive, poses=(low,), movements=(swing,), duty=Duty(speed=SPEED, torque=400.0, cases=cases))
+    found = losses(drive)
+    phase = (np.arange(64) + 0.5) * (2.0 * np.pi / 64)
+
+    def heat(drop, torque):
+        return np.mean([heat_of_one_joint(np.arctan(drop - 0.1 * np.sin(at)), torque) for at in phase])
+
+    each = {
+        (pose, torque): share * part * heat(drop, torque)
+        for pose, share, drop in (("", 0.75, 0.2), ("low", 0.25, 0.5))
+        for torque, part in ((400.0, 0.6), (900.0, 0.4))
+    }
+    assert sum(one.share for one in found.each) == pytest.approx(1.0, abs=1e-12)
+    assert found.heat == pytest.approx(sum(each.values()), rel=1e-5)
+    (said,) = [told(one.text, Reader()) for one in answer(drive, found).remarks if one.code == "governing_condition"]
+    most = max(each, key=each.get)
+    assert most == ("", 900.0)
+    share = 100 * each[most] / sum(each.values())
+    assert said == f"Most heat arises in this condition: hill; {share:.1f} % of it in 30.0 % of the time."

@@ -17,6 +17,7 @@ from cardan.catalogue.provenance import rows_behind, unconfirmed
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
+from cardan.maths.ties import foremost
 from cardan.texts import _, mark
 
 from .figure import life_figures
@@ -263,6 +264,19 @@ def _conditions(result: Life) -> Iterator[Remark]:
             "Warning: no share_percent tells how long each pose lasts; this is the life in the worst of them, {pose}."
         )
         yield Remark(text=say(text, pose=result.worst_pose), tone="warning", code="no_share", alarm=True)
+    named = [bool(part.name) for part in result.parts]
+    if len(named) > 1 and sum(named) >= len(named) - 1:
+        damage = result.damage[:, result.governing - 1]
+        k = int(foremost(damage))
+        text = _(
+            "Most damage to joint {joint} arises in this condition: {condition}; {damage} of it in {share} of the time."
+        )
+        values = {
+            "damage": Quantity(float(damage[k]), "share", 3),
+            "share": Quantity(float(result.share[k]), "share", 3),
+        }
+        said = say(text, joint=result.governing, condition=_named(result)[k], **values)
+        yield Remark(text=said, code="governing_condition")
     if result.moving:
         yield Remark(text=_("Damage is summed over the movement; joint angles and torques are its means."))
 
@@ -353,6 +367,7 @@ COLUMNS = (
         doc=mark("life of the bearings of the joints, the shortest of them"),
         told=(OutputColumn(name="life_h", dimension="time", unit="h", text=mark("life of the drive")),),
         of_one=lambda drive: (ask(drive).drive,),
+        counts=("pose", "movement", "case"),
     ),
 )
 """What a sweep may ask of life."""

@@ -19,7 +19,7 @@ from cardan.errors import refuse
 from cardan.figures.figure import Figure
 from cardan.figures.palette import colour
 from cardan.maths.arrays import Array
-from cardan.maths.ties import largest
+from cardan.maths.ties import foremost, largest
 from cardan.texts import _, mark, plural
 
 from .figure import loss_parts, losses_figures, map_figures, power
@@ -211,6 +211,13 @@ def _map_tables(over: LossMap) -> Iterator[Table]:
 
 
 def _remarks(drive: Drive, result: Losses, over: LossMap | None) -> Iterator[Remark]:
+    if len(result.each) > 1 and not result.worst and result.heat > 0.0:
+        parts = [(one.share or 0.0) * one.heat for one in result.each]
+        one, part = result.each[int(foremost(parts))], max(parts) / sum(parts)
+        text = _("Most heat arises in this condition: {condition}; {heat} of it in {share} of the time.")
+        shares = {"heat": Quantity(part, "share", 3), "share": Quantity(one.share, "share", 3)}
+        said = say(text, condition=one.name or _("as drawn"), **shares)
+        yield Remark(text=said, code="governing_condition")
     if result.locked:
         text = plural(
             "Failed: friction in the journals of joint {which} reaches the torque that turns it; reduce friction, "
@@ -411,6 +418,7 @@ COLUMNS = (
             OutputColumn(name="heat_W", dimension="power", unit="W", text=mark("heat of the drive")),
         ),
         of_one=_column_values,
+        counts=("pose", "movement", "case"),
     ),
 )
 """What a sweep may ask of power loss."""
