@@ -137,3 +137,24 @@ def test_interrupted_it_keeps_what_is_done_and_says_how_to_go_on(cardan, small, 
     whole = cardan("sweep", small, "--into", folder, "--resume", "--json").content
     assert (whole["status"], whole["missing"]) == ("done", [])
     assert json.loads(json.dumps(whole["reductions"]["points"]))["answered"] == 80
+
+
+MOVING = """
+format = 1
+drive = "DRIVE"
+ask = ["speed_fluctuation", "movement", "check"]
+[[vary]]
+key = "joints[1].centre_mm[2]"
+values = [0, -20]
+"""
+
+
+def test_columns_that_leave_a_movement_out_say_so(cardan, tmp_path):
+    """Of a hitch the motion is as drawn; the column of the movement and the checks count it."""
+    path = tmp_path / "hitch.toml"
+    path.write_text(MOVING.replace("DRIVE", (EXAMPLES / "pto-hitch.toml").as_posix()), "utf8")
+    said = cardan("sweep", path, "--json").content
+    (remark,) = [one["text"] for one in said["remarks"] if one.get("code") == "as_drawn"]
+    assert remark == "speed_fluctuation: of the drive as drawn at its duty; movements do not count there."
+    assert said["table"]["moving_speed_fluctuation"][0] == pytest.approx(0.006841006, rel=1e-6)
+    assert said["table"]["speed_fluctuation"][0] < 1e-12

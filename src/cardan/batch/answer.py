@@ -10,8 +10,10 @@ import numpy as np
 
 from cardan.answers.answer import Answer, Column, Remark, Table
 from cardan.answers.quantity import Joined, Quantity, Text, say
+from cardan.questions.gathering import has
 from cardan.texts import _, plural
 
+from .answering.questions import asked
 from .search.answer import quantity, shown
 from .show_answer import counted, missing_rows, stored
 from .sweep import SweepWork
@@ -165,6 +167,7 @@ def _remarks(work: SweepWork, found: Sweep, plan: Path, keeps: bool) -> Iterator
             )
         why = "; ".join(str(one) for one in work.why(int(row))[:3])
         yield Remark(text=say(text, count=counted(n), row=int(row), why=why), tone="warning")
+    yield from _as_drawn(work)
     yield from missing_rows(found.missing)
     if len(found.missing) > 3:
         more = len(found.missing) - 3
@@ -180,6 +183,26 @@ def _remarks(work: SweepWork, found: Sweep, plan: Path, keeps: bool) -> Iterator
     elif found.folder is None:
         keeping = ("cardan", "sweep", _plan(plan), "--into", plan.stem)
         yield Remark(text=_("No table was kept. To keep one:"), command=keeping, tone="next")
+
+
+def _as_drawn(work: SweepWork) -> Iterator[Remark]:
+    """Yield which columns are of the drive as drawn, and what of it does not count there."""
+    drive, left = work.ask.drive, dict[tuple[str, ...], list[str]]()
+    there = [aspect for aspect, one in has(drive).items() if one]
+    for question in asked(work.ask.questions):
+        without = tuple(aspect for aspect in there if aspect not in question.counts)
+        left.setdefault(without, []).extend(one.name for one in question.columns(drive))
+    words: dict[str, str] = {
+        "pose": _("poses"),
+        "movement": _("movements"),
+        "case": _("load cases"),
+        "error": _("errors of the joints as made"),
+    }
+    for aspects, columns in left.items():
+        if aspects:
+            text = _("{columns}: of the drive as drawn at its duty; {what} do not count there.")
+            said = say(text, columns=", ".join(columns), what=", ".join(words[one] for one in aspects))
+            yield Remark(text=said, code="as_drawn")
 
 
 def _near(folder: Path) -> str:

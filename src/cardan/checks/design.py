@@ -130,6 +130,14 @@ class Design:
         except InputError:
             return None
 
+    @property
+    def made_note(self) -> str:
+        """Whether the errors of the joints as made count, in words; nothing without errors."""
+        if self.made is not None:
+            return _("with the errors as made")
+        drawn = bool(self.varied) and any(joint.error is not None for joint in self.drive.joints)
+        return _("without the errors as made, which do not count among many drives") if drawn else ""
+
     @cached_property
     def given(self) -> Chain:
         """Joint angles, planes and yokes of the drives as they are."""

@@ -350,6 +350,7 @@ COLUMNS = (
             OutputColumn(name="failed_checks", text=mark("how many checks fail")),
         ),
         of_one=_column_values,
+        counts=("pose", "movement", "case", "error"),
     ),
 )
 """What a sweep may ask of checks."""

@@ -35,7 +35,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         design_variables=(*design.yoke_design_variables, *design.joint_angle_design_variables),
         note=joined(
             moved.when() if moved is not None and worse else as_drawn(design),
-            _("with the errors as made") if made is not None else "",
+            design.made_note,
         ),
     )
 

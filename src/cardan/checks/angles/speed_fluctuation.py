@@ -39,7 +39,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         design_variables=(*design.yoke_design_variables, *design.joint_angle_design_variables),
         note=joined(
             as_drawn(design) if moved is None or not np.all(moved.most[..., 0] > drawn) else moved.when(),
-            _("with the errors as made") if made is not None else "",
+            design.made_note,
         ),
     )
 

@@ -362,6 +362,7 @@ COLUMNS = (
             ),
         ),
         of_one=_column_values,
+        counts=("pose", "movement", "case"),
     ),
 )
 """What a sweep may ask of strength."""

@@ -656,6 +656,7 @@ COLUMNS = (
             ),
         ),
         of_one=_column_values,
+        counts=("error",),
     ),
 )
 """What a sweep may ask of accuracy."""

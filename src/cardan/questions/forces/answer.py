@@ -484,9 +484,14 @@ def balance_facts(found: Forces) -> dict[str, Any]:
 
 
 def _column_values(drive: Drive) -> tuple[float, float, float]:
-    found = forces(drive)
-    held = math.nan if found.reaction is None or not found.support_shaft else float(np.max(found.radial))
-    return (float(np.max(found.bending_couple)), held, float(np.max(np.abs(found.input_torque))))
+    every = [forces(drive)]
+    if drive.movements and drive.duty.speed:
+        every.append(moving_forces(drive).forces)
+    held = [math.nan if one.reaction is None or not one.support_shaft else float(np.max(one.radial)) for one in every]
+    couple, torque = (
+        max(float(np.max(np.abs(getattr(one, name)))) for one in every) for name in ("bending_couple", "input_torque")
+    )
+    return couple, max(held), torque
 
 
 COLUMNS = (
@@ -503,6 +508,7 @@ COLUMNS = (
             ),
         ),
         of_one=_column_values,
+        counts=("movement",),
     ),
 )
 """What a sweep may ask of forces."""

@@ -495,6 +495,7 @@ COLUMNS = (
             OutputColumn(name="stroke_mm", dimension="length", unit="mm", text=mark("stroke of the splines")),
         ),
         of_one=_column_values,
+        counts=("movement",),
     ),
 )
 """What a sweep may ask of a drive that moves."""
