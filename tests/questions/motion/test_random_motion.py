@@ -58,6 +58,7 @@ def test_one_straight_joint_has_the_closed_forms():
     assert (one.mean, one.deviation) == pytest.approx((mean, deviation), rel=1e-6)
     assert one.high == pytest.approx(x * x / math.sqrt(1.0 + x * x), rel=1e-3)
     assert found["joint_angle", 1].high == pytest.approx(math.atan(x), rel=1e-3)
+    assert all(math.isnan(found[name].low) for name in (("joint_angle", 1), ("speed_fluctuation", 2)))  # often straight
     assert found["joint_angle", 1].mean == pytest.approx(sigma * math.sqrt(2.0 / math.pi), rel=1e-3)
 
 
@@ -119,6 +120,7 @@ def test_a_long_sample_path_has_these_means_deviations_and_rates():
         assert rises == pytest.approx(found.chance.rate(k, level)[0], rel=0.2)
 
 
+@pytest.mark.slow
 def test_life_and_losses_are_expectations_and_not_of_one_sample_path():
     joints = [
         replace(one, friction=0.03, cross=Cross(span=0.08, journal=0.02), needles=Needles(capacity=30e3))
@@ -129,7 +131,7 @@ def test_life_and_losses_are_expectations_and_not_of_one_sample_path():
     one, other = drive, replace(drive, movements=(replace(drive.movements[0], seed=7),))
     assert losses(one).heat == losses(other).heat
     # Own integration: the drive standing at even steps of the normal law.
-    z = np.linspace(-6.0, 6.0, 241)
+    z = np.linspace(-6.0, 6.0, 61)
     weight = np.exp(-0.5 * z**2) / np.sum(np.exp(-0.5 * z**2))
     stood = [replace(bent(offset + sigma * at), joints=tuple(joints), movements=()) for at in z]
     assert losses(one).heat == pytest.approx(weight @ [losses(at).heat for at in stood], rel=1e-5)
@@ -139,12 +141,15 @@ def test_life_and_losses_are_expectations_and_not_of_one_sample_path():
 
 def test_forces_tell_the_couple_of_the_cross():
     """Without masses and friction it is M/cos α at most, with M at the output: M √(1 + tan²α)."""
-    found = {(one.what, one.number): one for one in carried(bent(0.3, 0.05)).random.results}
+    drive = bent(0.3, 0.05)
+    drive = replace(drive, movements=(replace(drive.movements[0], duration=2.0),))
+    found = {(one.what, one.number): one for one in carried(drive).random.results}
     at, weight = np.polynomial.hermite_e.hermegauss(40)
     couple = 300.0 / np.cos(np.arctan(0.3 + 0.05 * at))
     assert found["couple", 1].mean == pytest.approx(weight @ couple / math.sqrt(2.0 * math.pi), rel=1e-5)
 
 
+@pytest.mark.slow
 def test_what_is_told_names_the_span_and_that_other_movements_rest():
     swing = Harmonic(moves=("output",), amplitude=(0.0, 0.0, 0.01), frequency=3.0, name="idle")
     drive = three()

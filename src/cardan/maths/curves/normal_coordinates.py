@@ -36,6 +36,9 @@ STEP = 1e-3
 LEVELS = 400
 """Levels between which the one crossed at a rate is looked for, and halvings of the step about it."""
 
+BOUND = 1e-6
+"""Nearer to its bound than this share of its range, a function has no rare level: it comes there often."""
+
 DEGREE = 4
 """Up to this power of the coordinates the spectrum of a function counts."""
 
@@ -92,20 +95,18 @@ class Chance:
     def level(self, function: int, rate: float, *, least: bool = False) -> float:
         """Return the highest level, or the lowest, that a function crosses so often on average.
 
-        rate [1/s]: once in the inverse of it; nan where it reaches no level so often.
+        rate [1/s]: once in the inverse of it; nan where it reaches no level so often, or its bound more often.
         """
         low, high = float(np.min(self.value[function])), float(np.max(self.value[function]))
-        inner, outer = (high, low) if least else (low, high)
+        inner, outer = bounds = (high, low) if least else (low, high)
         for _round in range(4):
             levels = np.linspace(inner, outer, LEVELS)
             often = np.flatnonzero(self.rate(function, levels) >= rate)
             if not often.size:
                 return math.nan
             last = int(often[-1])
-            if last == LEVELS - 1:
-                break
-            inner, outer = float(levels[last]), float(levels[last + 1])
-        return float(inner)
+            inner, outer = float(levels[last]), float(levels[min(last + 1, LEVELS - 1)])
+        return inner if abs(inner - bounds[1]) > BOUND * (high - low) else math.nan
 
 
 def grid_of(coordinates: int, *, fewer: int = 1, seed: int = 0) -> Grid:

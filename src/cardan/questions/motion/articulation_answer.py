@@ -258,7 +258,7 @@ def random_tables(found: RandomMotion) -> Iterator[Table]:
 
     def column(key: str, heading: Text, values: list[float]) -> Column:
         cells = [
-            Quantity(value if np.isfinite(value) else None, names[one.what][1], 4)
+            Quantity(value, names[one.what][1], 4) if np.isfinite(value) else None
             for one, value in zip(found.results, values, strict=True)
         ]
         return Column(key=key, heading=heading, values=cells)
