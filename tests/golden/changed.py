@@ -9,6 +9,7 @@ MORE = "the best settings on spline teeth over all poses stand beside those with
 PLANES = "unbalance is judged per tolerance plane, with the shares of ISO 21940-11; the static part is told by itself"
 
 HALVES = "a splined shaft is two bodies: each half's weight along it is held on its own side of the spline"
+TOPS = "the tops of a movement between the instants are found by one rule, and all questions tell the same"
 
 NUMBERS: tuple[tuple[str, str, str], ...] = (
     (
@@ -28,6 +29,8 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
     (r"rotor examples/\S+ --joint", r"orders\..*", "the angles of yokes, unbalances and cracks count beside a joint"),
     (r"joint$", r"kinds\.keys\..*", "a tripod has a key more, the far joint on which its shaft pivots"),
     (r"phases examples/truck-rear-axle\.toml", r"settings\..*", MORE),
+    (r"articulation examples/(pto-hitch|truck-rear-axle)\.toml", r"(joints|worst)\..*", TOPS),
+    (r"check examples/(pto-hitch|truck-rear-axle)\.toml", r"verdicts\.(utilisation|value)", TOPS),
     (r"strength examples/pto-hitch\.toml --size joint", r"(limits|limits_as_made|tried)\..*", WORST),
 )
 """Pattern at the start of a command line, pattern of a whole old path, why its numbers are others."""

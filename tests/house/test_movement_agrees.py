@@ -139,7 +139,8 @@ def test_loads_are_judged_where_each_of_them_is_worst(name):
     for one in found:
         rows = [next(its for its in verdicts if (its.check, its.title) == (one.check, one.title)) for verdicts in at]
         used = [float(its.utilisation) for its in rows]
-        assert max(used) <= float(one.utilisation) * (1.0 + 1e-9), one.title
+        # Instants a fortieth of a step from the top: (2π/120/40)²/2 below it.
+        assert max(used) <= float(one.utilisation) * (1.0 + 1e-6), one.title
         assert max(used) == pytest.approx(float(one.utilisation), rel=1e-3), one.title
 
 

@@ -88,7 +88,7 @@ def stopped(design: Design, judge: Callable[[Design], Sequence[Verdict]]) -> lis
         if one.varied:
             found.append((Joined([pose, _("while the drive moves")]), _worst_of_instants(one, judge)))
             continue
-        for time in worst_instants(one.drive, partial(_used, one, judge)):
+        for time in worst_instants(one.drive, partial(_used, one, judge), rounds=1):
             here = still(one.drive, time)
             at = say(_("while the drive moves, at {time}"), time=Quantity(time, "time", 3, trim=True))
             other = replace(one, drive=here, duty=here.duty, drawn=design.drawn or design)

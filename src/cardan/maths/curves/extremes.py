@@ -74,12 +74,14 @@ def tops(values: Array) -> Array:
     return found
 
 
-def highest(function: Callable[[Array], Array], places: Array, values: Array) -> tuple[Array, Array]:
+def highest(
+    function: Callable[[Array], Array], places: Array, values: Array, *, rounds: int = ROUNDS
+) -> tuple[Array, Array]:
     """Return where each of several curves is highest between two ends, and how high.
 
     function: from places (m,), none beyond the ends, to the values of all curves there (k, m), nan where there is none.
     places (p,): evenly spaced, close enough for the tops of parabolas to tell which is the highest.
-    values (k, p): ``function(places)``.
+    values (k, p): ``function(places)``; rounds: how many times the places get closer.
     Returns place, value (k,): nan where a curve has no value at all.
 
     >>> x = np.linspace(0.0, 3.0, 31)
@@ -96,7 +98,7 @@ def highest(function: Callable[[Array], Array], places: Array, values: Array) ->
     value = np.take_along_axis(table, best[:, None], axis=-1)[:, 0]
     step = float(places[1] - places[0]) if places.size > 1 else 0.0
     curves = np.arange(len(place))
-    for _round in range(ROUNDS if step and len(place) else 0):
+    for _round in range(rounds if step and len(place) else 0):
         around = np.clip(place[:, None] + step * np.linspace(-1.0, 1.0, 2 * CLOSER + 1), places[0], places[-1])
         found = np.asarray(function(around.ravel())).reshape(len(place), *around.shape)[curves, curves]
         found = np.where(np.isnan(found), -np.inf, found)

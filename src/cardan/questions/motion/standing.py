@@ -14,7 +14,7 @@ from cardan.drive.models.geometry import geometry, geometry_from_points, in_form
 from cardan.drive.models.kinematics_model import Chain, turning, unmapped
 from cardan.drive.movement import Movement, Oscillation, Random
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.maths.curves.extremes import highest
+from cardan.maths.curves.extremes import ROUNDS, highest
 from cardan.maths.kernel import frames
 
 from .equivalence import after_each_joint
@@ -166,14 +166,15 @@ def chain_at(drive: Drive, points: Array) -> tuple[Chain, Array]:
     return turning(chain, drive.joints, near=True), possible
 
 
-def worst_instants(drive: Drive, course: Callable[[Array], Array]) -> tuple[float, ...]:
+def worst_instants(drive: Drive, course: Callable[[Array], Array], *, rounds: int = ROUNDS) -> tuple[float, ...]:
     """Return the instants [s] of a movement at which courses over it are highest, each once.
 
     drive: with movements; course: from instants (m,) to values (k, m), nan where there is none.
+    rounds: how many times the instants get closer.
     Found between the instants of `default_times` too; one that lies beside another stands for both.
     """
     times = default_times(drive.movements)
-    places = highest(course, times, course(times))[0]
+    places = highest(course, times, course(times), rounds=rounds)[0]
     found: list[float] = []
     for place in places[np.isfinite(places)]:
         if all(abs(place - one) > BESIDE * (times[1] - times[0]) for one in found):
