@@ -3,16 +3,21 @@
 from dataclasses import replace
 from math import cos, radians
 
+import numpy as np
 import pytest
 
 from cardan.answers.data import data
 from cardan.answers.quantity import told
 from cardan.answers.reader import Reader
+from cardan.drive.accuracy import Tolerance
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Case, Duty
+from cardan.drive.movement import Harmonic, Hitch
 from cardan.drive.pose import Pose
+from cardan.drive.shaft import Shaft
 from cardan.questions.gathering import gather, principal, ways
+from cardan.questions.motion.standing import still
 from cardan.register import QUESTIONS
 from cardan.report.answers import answered, subject
 from cardan.units import deg
@@ -82,3 +87,30 @@ def test_the_page_of_a_report_tells_the_conditions_too():
     turned = Pose(name="turned", share=0.25, set=(("joints[1].joint_angle_deg", 35.0),))
     page = answered("motion", subject(drive(poses=(turned,))))
     assert any(getattr(block, "title", "") == "In each condition" for block in page.blocks)
+
+
+@pytest.mark.slow
+def test_what_has_no_course_is_followed_from_some_instants_to_its_worst():
+    """Asked at instants of its own, no key figure is worse than the one that is told."""
+    swing = {"yaw": 0.5, "pitch": 0.2, "pitch_phase": 1.1, "frequency": 2.0}
+    hitch = Hitch(moves=("joints[1]", "output"), pivot=(0.4, 0, -0.3), **swing)
+    bare = Drive.from_points([(-0.2, 0, 0), (0, 0, 0), (0.8, 0.02, -0.11), (1.3, 0.05, -0.16)], yoke_angles=[0.4])
+    loose = tuple(replace(one, tolerance=Tolerance(alpha1=0.001, s1=0.1e-3)) for one in bare.joints)
+    moving = replace(bare, joints=loose, movements=(hitch,), duty=Duty(speed=100.0, torque=200.0))
+    found, question = asked("accuracy", moving), QUESTIONS["accuracy"]
+    told_worst = {key.name: float(key.value.value) for key in found.keys if key.better == "less"}
+    assert told_worst
+    for time in np.linspace(0.0, np.pi, 40):
+        here = still(moving, time)
+        for key in question.answer(here, question.ask(here)).keys:
+            if key.better == "less":
+                assert float(key.value.value) <= told_worst[key.name] * (1.0 + 1e-4), (key.name, time)
+
+
+def test_what_takes_long_says_at_which_instants_it_was_asked():
+    swing = Harmonic(moves=("output",), amplitude=(0.0, 0.0, 0.1), frequency=2.0)
+    bare = Drive.from_points([(-1, 0, 0), (0, 0, 0), (1, 0, -0.2)])
+    shafts = tuple(Shaft(number=k, inertia=0.1, stiffness=5e4) for k in (1, 2))
+    moving = replace(bare, shafts=shafts, movements=(swing,), duty=Duty(speed=100.0, torque=200.0))
+    assert [one.code for one in asked("torsion", moving).remarks if one.code == "outermost"] == ["outermost"]
+    assert not [one.code for one in asked("motion", moving).remarks if one.code == "outermost"]
