@@ -43,8 +43,8 @@ class SweepQuestion:
     of_many: Callable[[Any], Sequence[Any]] | None = None
     # what the question itself asks of a drive -> the numbers in SI. One of the three is given.
     of_result: Callable[[Any], Sequence[float]] | None = None
-    # poses, movements, load cases and errors (`cardan.answers.question.Aspect`) that count in it; without the others it is
-    # of the drive as drawn at its duty, and a sweep says so
+    # poses, movements, load cases and errors (`cardan.answers.question.Aspect`) that count in it; without the others it
+    # is of the drive as drawn at its duty, and a sweep says so
     counts: tuple[str, ...] = ()
     needs_speed: bool = False  # whether a drive without a speed has no answer
     needs_centres: bool = False  # whether only a drive given by joint centres has an answer

@@ -148,7 +148,7 @@ class Subject:
         found = [("", self.moving)]
         for one in in_poses(self.drive)[1:] if self.drive.poses else ():
             try:
-                found.append((one.name, articulation(one.drive)))
+                found.append((one.name, QUESTIONS["articulation"].ask(one.drive)))
             except InputError:
                 continue
         return tuple(found)
