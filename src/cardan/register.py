@@ -230,6 +230,7 @@ QUESTIONS: dict[str, Question] = {
             group=BENDING,
             help=mark("At which speeds the shafts whirl, and how far the drive stays away."),
             quick=False,
+            gathered=("case",),
             without={"error": MINUTES},
             examples=(
                 "cardan bending truck.toml",

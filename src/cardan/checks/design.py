@@ -223,6 +223,7 @@ class Design:
             name=one.name,
             torque=_size(self.varied.get(f"{one.path}.torque", one.torque)),
             speed=_size(speed),
+            held=one.held or one.speed_range is None,
             share=self.varied.get(f"{one.path}.share", one.share if timed or history else 1.0),
             block=timed,
             severity=one.shock_factor / self.duty.shock_factor,
@@ -236,16 +237,23 @@ class Design:
         """Those of the ways to run that have a torque."""
         return tuple(case for case in self.cases if case.torque is not None)
 
+    @property
+    def held_speeds(self) -> list[Array]:
+        """Speeds that these drives hold, arrays (...) [rad/s]."""
+        return [np.asarray(case.speed, dtype=float) for case in self.cases if case.held and case.speed is not None]
+
     @cached_property
     def top_speed(self) -> Array | float | None:
         """Highest speed of the input, either way round [rad/s]."""
-        speeds = [case.speed for case in self.cases if case.speed is not None]
-        if self.duty.speed_range is not None:
-            speeds.append(self.value("duty.speed_range[1]"))
-        speeds += [one.speed_range[1] for one in load_cases(self.duty) if one.speed_range is not None]
-        if not speeds:
-            return None
-        return largest(speeds)
+        speeds = [*(case.speed for case in self.cases if case.speed is not None), *self.range_tops]
+        return largest(speeds) if speeds else None
+
+    @property
+    def range_tops(self) -> list[Array | float]:
+        """Highest speeds of the ranges in which these drives run, arrays (...) [rad/s]."""
+        own = [] if self.duty.speed_range is None else [self.value("duty.speed_range[1]")]
+        cycle = (one for one in self._cycle if one.pose in ("", self.pose))
+        return own + [one.speed_range[1] for one in cycle if one.speed_range is not None]
 
     def most(self, ask: Callable[[Case], Array], *, shocks: bool = True) -> tuple[Array, str]:
         """Return the largest answer of all the ways to run under load, and a sentence on which of them it is.

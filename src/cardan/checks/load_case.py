@@ -35,6 +35,7 @@ class Case:
     name: str = ""  # what to call it; empty for the duty itself
     torque: Array | float | None = None  # (...) [N·m]: size of the torque
     speed: Array | float | None = None  # (...) [rad/s]: size of the input speed
+    held: bool = True  # whether it holds that speed, and it is not the middle of a range
     share: Array | float = 1.0  # (...): share of the whole time
     block: bool = False  # whether it is part of a duty cycle
     severity: float = 1.0  # its own factor for shocks over that of the duty

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from math import pi
 
 import numpy as np
@@ -43,6 +44,11 @@ class LoadCase:
     shock_factor: float = 1.0
     pose: str = ""  # pose, movement: names of the pose and of the movement to which it is bound; empty where it is not
     movement: str = ""
+
+    @property
+    def held(self) -> bool:
+        """Whether it holds its speed; the middle of a range that stands for a speed is not held."""
+        return self.speed is not None and (self.speed_range is None or self.path == "duty")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,6 +141,32 @@ def _of_case(duty: Duty, case: Case, path: str) -> LoadCase:
         pose=case.pose,
         movement=case.movement,
     )
+
+
+def held_speeds(duty: Duty) -> tuple[float, ...]:
+    """Return the speeds that a duty holds, its own and those of its load cases, in rising order [rad/s].
+
+    A load case bound to a pose is no part of the duty as drawn.
+
+    >>> road = Case(name="road", torque=300.0, speed=314.0)
+    >>> held_speeds(Duty(speed=150.0, cases=(road, Case(name="shunt", torque=900.0, speed_range=(20.0, 60.0)))))
+    (150.0, 314.0)
+    """
+    own = (one.speed for one in load_cases(duty) if one.held and not one.pose)
+    return tuple(sorted({abs(speed) for speed in (duty.speed, *own) if speed}))
+
+
+def used_speeds(duty: Duty) -> tuple[float, float] | None:
+    """Return the lowest and highest speed of running [rad/s], None where the duty says none."""
+    ranges = (one.speed_range for one in load_cases(duty) if one.speed_range is not None and not one.pose)
+    speeds = (*(duty.speed_range or ()), *chain.from_iterable(ranges), *held_speeds(duty))
+    return (min(speeds), max(speeds)) if speeds else None
+
+
+def acting(drive: Drive, pose: str) -> Drive:
+    """Return a drive in a pose with the load cases that act there, bound to none; ``""`` is the drive as drawn."""
+    cases = (replace(case, pose="") for case in drive.duty.cases if case.pose in ("", pose))
+    return replace(drive, duty=replace(drive.duty, cases=tuple(cases)))
 
 
 def conditions(drive: Drive) -> tuple[Condition, ...]:

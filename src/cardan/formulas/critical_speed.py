@@ -22,7 +22,10 @@ BOOK_CONSTANT = 12.1e4 * rpm
 """Critical speed times L²/√(D²+d²) of a steel shaft between joints, Book (258)-(260) [rad·m/s]."""
 
 ARTICLE = 1.6
-"""A critical speed should be this much above the greatest speed."""
+"""A critical speed should be this much above the greatest speed: a rule of practice of unknown source, so advice."""
+
+PRACTICE = "article_1.6"
+"""What that rule is called among those broken."""
 
 CATALOGUE = {"automotive": 0.70, "industrial": 0.65}
 """Share of the computed critical speed that makers allow."""
@@ -252,10 +255,23 @@ class Margin:
     critical: float  # [rad/s]: critical speed as computed
     actual: float  # [rad/s]: that of the real shaft, k_n times it
     most: float  # [rad/s]: greatest speed of the drive
-    violated: tuple[str, ...]  # rules that it breaks: ``article_1.6``, ``catalogue``, ``supercritical``
+    # rules that it breaks: ``article_1.6`` or, where a limit is set, ``limit``; ``catalogue``, ``supercritical``
+    violated: tuple[str, ...]
     # [rad/s]: about half the critical speed, where the secondary couples of the joints, twice a turn, excite it
     band: tuple[float, float]
     half_inside: bool  # whether the drive runs in that band
+    least: float = ARTICLE  # smallest ratio of the real critical speed to the greatest speed
+    share: float = CATALOGUE["automotive"]  # share of the computed critical speed that makers allow
+
+    @property
+    def failed(self) -> tuple[str, ...]:
+        """Those of the rules broken that are no advice."""
+        return tuple(rule for rule in self.violated if rule != PRACTICE)
+
+    @property
+    def needed(self) -> float:
+        """Ratio at which all rules are kept."""
+        return max(self.least, self.actual / (self.share * self.critical))
 
     @property
     def ratio(self) -> float:
@@ -281,6 +297,7 @@ def speed_margin(
     application: str = "automotive",
     operating: tuple[float, ...] | None = None,
     through: bool = False,
+    least: float | None = None,
 ) -> Margin:
     """Return how far a drive stays below a critical speed.
 
@@ -298,6 +315,8 @@ def speed_margin(
         Speeds of running; the greatest one when not given.
     through : bool
         Whether the drive also runs at all speeds between the lowest and the highest of them.
+    least : float, optional
+        Smallest ratio of the real critical speed to the greatest speed, in place of the 60 percent of practice.
 
     Returns
     -------
@@ -314,8 +333,9 @@ def speed_margin(
     """
     actual = wear * critical
     more, less = 1.0 + EDGE, 1.0 - EDGE
+    asked = ARTICLE if least is None else least
     rules = (
-        ("article_1.6", actual < ARTICLE * most * less),
+        (PRACTICE if least is None else "limit", actual < asked * most * less),
         ("catalogue", most > CATALOGUE[application] * critical * more),
         ("supercritical", most >= actual * less),
     )
@@ -332,4 +352,6 @@ def speed_margin(
         violated=tuple(name for name, broken in rules if broken),
         band=band,
         half_inside=inside,
+        least=asked,
+        share=CATALOGUE[application],
     )

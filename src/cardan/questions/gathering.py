@@ -16,7 +16,7 @@ from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.answers.quantity import told as words
 from cardan.answers.question import Aspect, Question
 from cardan.answers.reader import reader
-from cardan.drive.conditions import Condition, conditions, in_poses, load_cases
+from cardan.drive.conditions import Condition, acting, conditions, in_poses, load_cases
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.later import later
@@ -89,7 +89,7 @@ def ways(question: Question, drive: Drive) -> tuple[Way, ...]:
         poses = drive.poses if "pose" in asks else ()
         every = conditions(replace(drive, poses=poses, duty=replace(drive.duty, cases=free)))
     elif "pose" in asks:
-        every = in_poses(drive)
+        every = [replace(one, drive=acting(one.drive, one.pose)) for one in in_poses(drive)]
     found = []
     for one in every:
         found.append(Way(name=one.name, share=one.share, drive=one.drive))

@@ -10,7 +10,7 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader, significant
 from cardan.checks.strength.answer import answer, ask, lacking, otherwise
 from cardan.checks.strength.strength import strength
-from cardan.drive.duty import Duty
+from cardan.drive.duty import Case, Duty
 from cardan.io import example
 from cardan.questions.forces.forces import forces
 from cardan.questions.torsion.steady.run_stability import Verdict
@@ -112,6 +112,14 @@ def test_what_the_drive_file_lacks_is_told():
     bare = replace(drive, duty=replace(drive.duty, torque=10.0))
     assert ask(bare) is None
     assert "joints[0].cross.span_mm" in otherwise(bare)
+
+
+def test_load_cases_alone_are_torque_enough():
+    drive = example("truck-duty-cycle")
+    cases = (Case(name="road", torque=500.0, speed=200.0, share=1.0), Case(name="start", torque=2500.0, speed=50.0))
+    peak = replace(drive, duty=replace(drive.duty, torque=None, blocks=(), torque_history=None, cases=cases))
+    assert lacking(peak) == ()
+    assert told(answer(peak, ask(peak)).sentence, USUAL).startswith("carries 2\u202f500 N·m")
 
 
 def test_a_limit_that_governs_without_the_highest_utilisation_is_explained():

@@ -14,7 +14,7 @@ from cardan.answers.reader import USUAL, Reader
 from cardan.cli.main import main
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Input
-from cardan.drive.duty import Duty
+from cardan.drive.duty import Case, Duty
 from cardan.drive.fields.plausibility import doubts
 from cardan.drive.joints import Hooke
 from cardan.drive.material import Material
@@ -90,6 +90,14 @@ def test_signs_and_absurd_values_are_told():
     assert turns.startswith("duty.speed_rpm is −1 500 rpm, less than zero: the input turns the other way")
     fast = replace(DRIVE, duty=Duty(torque=300.0, speed=5e9))
     assert said(fast)[0].endswith("; is that so?") or "did you mean" in said(fast)[0]
+
+
+def test_load_cases_are_looked_at_as_the_duty_is():
+    case = Case(name="start", torque=3e8, speed_range=(1.0, 3e5))
+    assert said(replace(DRIVE, duty=Duty(torque=300.0, speed=100.0, cases=(case,)))) == [
+        "duty.cases[0].torque_Nm is 300 000 000 N·m; did you mean 300 000 N·m?",
+        "duty.cases[0].speed_range_rpm[1] is 2 864 789 rpm; did you mean 2 864.79 rpm?",
+    ]
 
 
 def test_commands_and_report_point_it_out_and_change_nothing(tmp_path, capsys):

@@ -11,9 +11,10 @@ from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict, turning
 from cardan.formulas.critical_speed import ARTICLE, CATALOGUE, SEPARATION
+from cardan.maths.arrays import Array
 from cardan.texts import _, mark
 
-from .whirl import Whirl, bounces, clearances, whirls
+from .whirl import Whirl, bounces, clearances, nearest, whirls
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
@@ -56,7 +57,35 @@ def _judge(design: Design) -> Iterator[Verdict]:
             ),
             note=_computed(one),
         )
+        yield from _beside(design, one, top)
     yield from _bounced(design)
+
+
+def _beside(design: Design, one: Whirl, top: Array) -> Iterator[Verdict]:
+    """Yield how far the speeds held keep off the speed at which a shaft whirls, where the speeds in use come near it.
+
+    top: highest speed [rad/s]; whirling on the way to a speed beyond counts as held.
+    """
+    low, high = one.actual * (1.0 - SEPARATION), one.actual * (1.0 + SEPARATION)
+    passed, held = np.asarray(top >= one.actual), design.held_speeds
+    if not np.any(top > low) or not (held or np.any(passed)):
+        return
+    near = nearest(held or [np.minimum(top, low)], one.actual)
+    yield Verdict(
+        subject=f"shafts[{one.shaft}]",
+        title=_("clearance from the critical speed, shaft {number}"),
+        value=np.where(passed, one.actual, near),
+        limit=(low, high),
+        sense="outside",
+        dimension="angular_speed",
+        unit="rpm",
+        source=_separation(),
+        design_variables=(*one.design_variables, *design.speed_design_variables),
+    )
+
+
+def _separation() -> str:
+    return _("separation of 20 %: beyond it a mode amplifies an unbalance at most 3.3 times")
 
 
 def _bounced(design: Design) -> Iterator[Verdict]:
@@ -66,8 +95,7 @@ def _bounced(design: Design) -> Iterator[Verdict]:
             _("clearance from the critical speed, bounce mode on support {number}"),
             _("passing the critical speed, bounce mode on support {number}"),
         )
-        source = _("separation of 20 %: beyond it a mode amplifies an unbalance at most 3.3 times")
-        yield from clearances(design, one, 1.0, SEPARATION, texts, source)
+        yield from clearances(design, one, 1.0, SEPARATION, texts, _separation())
 
 
 def _note(one: Whirl) -> Text:

@@ -8,6 +8,7 @@ import numpy as np
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.load_case import largest
 from cardan.checks.verdict import Verdict
 from cardan.formulas.critical_speed import HALF_BAND, SEPARATION
 from cardan.texts import _, mark
@@ -18,14 +19,14 @@ from .whirl import bounces, clearances, hurry, nearest, whirls
 def _judge(design: Design) -> Iterator[Verdict]:
     for one in whirls(design):
         k, speed, lacking, design_variables = one.shaft, one.speed, one.missing, one.design_variables
-        running = [case.speed for case in design.cases if case.speed is not None]
-        between = design.duty.speed_range
+        running, between = design.held_speeds, design.range_tops
+        top = largest(between) if between else design.top_speed
         subject, source = (
             f"shafts[{k}]",
             _("Cardan India: Speed limit, cardanindia.com/speedlimit.html: 8 % to either side"),
         )
-        if lacking or not (running or between):
-            yield Verdict(subject=subject, missing=(*lacking, *(() if running or between else ("duty.speed",))))
+        if lacking or top is None:
+            yield Verdict(subject=subject, missing=(*lacking, *(() if top is not None else ("duty.speed",))))
             continue
         if speed is None:
             continue
@@ -34,7 +35,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         if running:
             yield Verdict(
                 subject=subject,
-                value=nearest([np.asarray(case, dtype=float) for case in running], np.sqrt(low * high)),
+                value=nearest(running, np.sqrt(low * high)),
                 limit=(low, high),
                 source=source,
                 design_variables=(
@@ -42,8 +43,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
                     *(path for path in design.speed_design_variables if "range" not in path),
                 ),
             )
-        top = np.asarray(design.top_speed if between is None else design.value("duty.speed_range[1]"))
-        if between is not None or np.any(top > low):
+        if between or np.any(np.asarray(top) > low):
             value = np.minimum(middle, top)
             single = np.ndim(value) == 0
             yield Verdict(

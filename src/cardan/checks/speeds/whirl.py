@@ -175,7 +175,7 @@ def clearances(
         return
     middle = share * one.actual
     low, high = middle * (1.0 - width), middle * (1.0 + width)
-    running = [np.asarray(case.speed, dtype=float) for case in design.cases if case.speed is not None]
+    running = design.held_speeds
     common = Verdict(
         subject=subject, limit=(low, high), sense="outside", dimension="angular_speed", unit="rpm", source=source
     )

@@ -14,6 +14,7 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import Catalogue
 from cardan.checks.verdict import AMBER, Verdict
 from cardan.checks.verdict_table import missing_table, share, unconfirmed_remark, verdict_records, verdict_table
+from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
 from cardan.texts import _, mark, plural
@@ -47,8 +48,8 @@ SIZED = {
 def lacking(drive: Drive) -> Lacking:
     """Return what the drive file lacks for its strength."""
     duty = drive.duty
-    given = duty.torque is not None or bool(duty.blocks) or duty.torque_history is not None
-    return absent((given, "duty.torque", "duty.blocks", "duty.torque_history"))
+    given = duty.torque_history is not None or any(case.torque is not None for case in load_cases(duty))
+    return absent((given, "duty.torque", "duty.cases", "duty.blocks", "duty.torque_history"))
 
 
 def ask(drive: Drive, *, known: Catalogue | None = None) -> Strength | None:

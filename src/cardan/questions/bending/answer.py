@@ -15,13 +15,13 @@ from cardan.answers.sweepable import MODES, OutputColumn, SweepQuestion, each, f
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.yokes import unweighed
-from cardan.formulas.critical_speed import ARTICLE, CATALOGUE
+from cardan.formulas.critical_speed import CATALOGUE, PRACTICE
 from cardan.formulas.damping import LOSS
 from cardan.texts import _, mark, plural
 
 from .bending import CriticalSpeedMap, CriticalSpeeds, Part, Running
 from .bending import bending_speeds as ask
-from .figure import bending_figures, mode_name, speed_map_figures
+from .figure import bending_figures, mode_name, speed_map_figures, tone_of_mode
 
 __all__ = ["COLUMNS", "answer", "answer_of_map", "ask", "lacking"]
 
@@ -55,21 +55,21 @@ def lacking(drive: Drive) -> Lacking:
 
 def answer(drive: Drive, result: CriticalSpeeds) -> Answer:
     """Return what there is to say of the critical speeds of a drive."""
-    close = result.status in (Running.CLOSE, Running.BEYOND, Running.NEAR)
-    minded = bool(result.half_crossed.any()) or bool(result.crossed.any())
+    broken = bool(result.margin and result.margin.violated)
+    minded = broken or bool(result.half_crossed.any()) or bool(result.crossed.any())
     clear: Tone = "plain" if result.status == Running.UNKNOWN else "good"
     return Answer(
         name="bending",
         title=_("Bending critical speeds"),
         sentence=_sentence(drive, result),
-        tone="failed" if close else "warning" if minded else clear,
+        tone="failed" if result.failed else "warning" if minded else clear,
         tables=(_modes(drive, result), _shafts(drive, result)),
         remarks=(*_remarks(drive, result), _next()),
         keys=tuple(_keys(drive, result)),
         figures=lambda: bending_figures(result),
         facts=_facts(drive, result),
         full=lambda: _everything(result),
-        code=1 if close else 0,
+        code=int(result.failed),
     )
 
 
@@ -147,7 +147,7 @@ def _nearest(result: CriticalSpeeds) -> tuple[int, float, bool]:
 
 
 def _modes(drive: Drive, result: CriticalSpeeds) -> Table:
-    actual = [Cell(value=float(speed), tone=_tone(result, k)) for k, speed in enumerate(result.actual)]
+    actual = [Cell(value=float(speed), tone=tone_of_mode(result, k)) for k, speed in enumerate(result.actual)]
     over = [None if result.used is None else float(speed) / result.used[1] for speed in result.actual]
     band = [say("{low:bare} … {high}", low=_speed(low), high=_speed(high)) for low, high in result.half_band]
     return Table(
@@ -179,16 +179,6 @@ def _modes(drive: Drive, result: CriticalSpeeds) -> Table:
             industrial=Quantity(CATALOGUE["industrial"], "share", trim=True),
         ),
     )
-
-
-def _tone(result: CriticalSpeeds, k: int) -> Tone:
-    if result.near[k] or result.half_near[k]:
-        return "failed"
-    if result.crossed[k]:
-        return "warning" if result.part[k].kind == "support" else "failed"
-    if k == result.deciding and result.margin is not None:
-        return "failed" if result.margin.violated else "good"
-    return "plain"
 
 
 def _shafts(drive: Drive, result: CriticalSpeeds) -> Table:
@@ -322,28 +312,32 @@ def _judged(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
     if margin is None:
         return
     texts = {
-        "article_1.6": _("Failed: the real critical speed should be 60 % above the highest speed, {limit}."),
+        PRACTICE: _(
+            "Advice, a rule of practice of unknown source: the real critical speed should be 60 % above the highest "
+            "speed, {limit}."
+        ),
+        "limit": _("Failed: limits.critical_speed asks for a real critical speed of at least {limit}."),
         "catalogue": _("Failed: makers allow {share} of the computed critical speed, {limit}."),
         "supercritical": _("Failed: the drive runs at or above a bending critical speed of a shaft."),
     }
     share = CATALOGUE[drive.duty.application]
-    limits = {"article_1.6": ARTICLE * margin.most, "catalogue": share * margin.critical}
-    gravest = "supercritical" if "supercritical" in margin.violated else next(iter(margin.violated), "")
+    limits = dict.fromkeys((PRACTICE, "limit"), margin.least * margin.most) | {"catalogue": share * margin.critical}
+    gravest = next((rule for rule in ("supercritical", *margin.failed, PRACTICE) if rule in margin.violated), "")
     for rule in margin.violated:
         limit = _speed(limits.get(rule, 0.0))
         said = say(texts[rule], limit=limit, share=Quantity(share, "share", trim=True))
-        yield Remark(text=said, tone="failed", alarm=rule == gravest)
+        yield Remark(text=said, tone="failed" if rule in margin.failed else "warning", alarm=rule == gravest)
     if margin.violated and result.bowing is not None:
         number = result.bowing.number
         start, end = result.shaft_span[number - 1]
-        length = float(end - start) * (margin.ratio / ARTICLE) ** 0.5
+        length = float(end - start) * (margin.ratio / margin.needed) ** 0.5
         text = _("Shaft {number} at most about {length} long, or {share} thicker, would keep the rules.")
         if end - start > LONG:
             text = _(
                 "Shaft {number} at most about {length} long, or {share} thicker, would keep the rules; so would two "
                 "pieces with a bearing between."
             )
-        thicker = Quantity(ARTICLE / margin.ratio - 1.0, "share", decimals=0)
+        thicker = Quantity(margin.needed / margin.ratio - 1.0, "share", decimals=0)
         yield Remark(text=say(text, number=number, length=Quantity(length, "length", 3), share=thicker))
 
 
@@ -421,8 +415,9 @@ def _keys(drive: Drive, result: CriticalSpeeds) -> Iterator[KeyFigure]:
     if margin is None:
         yield KeyFigure(name="critical_speed", title=title, place=place, value=_speed(actual), better="more")
         return
-    limit = ARTICLE * margin.most
-    tone: Tone = "failed" if margin.violated else "warning" if limit / actual >= CLOSE else "good"
+    limit = (margin.needed if margin.failed else margin.least) * margin.most
+    tone: Tone = "failed" if margin.failed else "warning" if limit / actual >= CLOSE else "good"
+    verdicts = {"failed": _("too low"), "warning": _("near the limit"), "good": _("passed")}
     yield KeyFigure(
         name="critical_speed",
         title=title,
@@ -431,7 +426,7 @@ def _keys(drive: Drive, result: CriticalSpeeds) -> Iterator[KeyFigure]:
         limit=_speed(limit),
         better="more",
         tone=tone,
-        verdict={"failed": _("too low"), "warning": _("near the limit"), "good": _("passed")}[tone],
+        verdict=_("beyond") if margin.violated and not margin.failed else verdicts[tone],
     )
 
 

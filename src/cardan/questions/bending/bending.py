@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from cardan.drive.body import pieces
+from cardan.drive.conditions import held_speeds, used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
@@ -87,7 +88,7 @@ class CriticalSpeeds:
     used : (float, float) or None [rad/s]
         Lowest and highest speed of running; None where the drive says none.
     steady : tuple of float [rad/s]
-        Speeds that it holds: of the duty and of the parts of its duty cycle, in rising order.
+        Speeds that it holds: of the duty and of its load cases, in rising order.
     crossed : array of bool (m,)
         Whether the drive passes the real critical speed on its way to the highest speed.
     half_crossed : array of bool (m,)
@@ -166,6 +167,11 @@ class CriticalSpeeds:
         if np.any(self.near | self.half_near):
             return Running.NEAR
         return Running.CLOSE if self.margin.violated else Running.CLEAR
+
+    @property
+    def failed(self) -> bool:
+        """Whether a rule is broken that is no advice."""
+        return self.status in (Running.BEYOND, Running.NEAR) or bool(self.margin and self.margin.failed)
 
     @property
     def band(self) -> Array:
@@ -279,6 +285,7 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
             application=chosen.application,
             operating=used,
             through=True,
+            least=drive.limits.critical_speed,
         ),
         alone=_alone(drive),
         place=fine.place + whole.place[0],
@@ -358,17 +365,6 @@ def wear_factors(drive: Drive) -> Array:
 def _assumed(drive: Drive) -> tuple[str, ...]:
     splined = [shaft for shaft in drive.shafts if shaft.spline is not None and shaft.wear_factor is None]
     return tuple(f"shafts[{shaft.number - 1}].wear_factor" for shaft in splined if shaft.has_body)
-
-
-def held_speeds(duty: Duty) -> tuple[float, ...]:
-    """Return the speeds that a duty holds: its own and those of its parts, in rising order [rad/s]."""
-    return tuple(sorted({abs(speed) for speed in (duty.speed, *(part.speed for part in duty.blocks)) if speed}))
-
-
-def used_speeds(duty: Duty) -> tuple[float, float] | None:
-    """Return the lowest and highest speed of running [rad/s], None where the duty says none."""
-    speeds = (*(duty.speed_range or ()), *held_speeds(duty))
-    return (min(speeds), max(speeds)) if speeds else None
 
 
 def passing(critical: float, kind: str, width: float = SEPARATION) -> tuple[float, float]:

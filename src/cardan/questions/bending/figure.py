@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.answer import Tone
 from cardan.answers.quantity import Quantity, Say, numbered, say
 from cardan.answers.reader import significant
 from cardan.drive.drive import Drive
@@ -18,7 +19,7 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import mm, rpm
 
-from .bending import CriticalSpeedMap, CriticalSpeeds, Part, Running
+from .bending import CriticalSpeedMap, CriticalSpeeds, Part
 from .cracked_run import CrackedRun
 from .cracked_shafts import CrackedShafts
 from .line_whirl import LineWhirl
@@ -65,15 +66,17 @@ def speeds_figure(found: CriticalSpeeds) -> Figure:
     included = [0.0]
     if found.used is not None:
         high = found.used[1] / rpm
-        included.append(ARTICLE * high)
+        least = ARTICLE if found.margin is None else found.margin.least
+        included.append(least * high)
         series.append(_in_use(found.used, upright=True))
-        series.append(Rule(value=ARTICLE * high, upright=True, text=_("1.6 × the highest"), role="muted"))
+        text = say(_("{ratio} × the highest"), ratio=Quantity(least, trim=True))
+        series.append(Rule(value=least * high, upright=True, text=text, role="muted"))
     series.append(
         Bars(
             at=at,
             size=actual,
             texts=tuple(Quantity(float(speed) * rpm, "angular_speed") for speed in actual),
-            roles=tuple(_tone(found, k) for k in range(count)),
+            roles=tuple(_role(found, k) for k in range(count)),
             thick=0.42,
             lying=True,
         )
@@ -123,15 +126,21 @@ def _in_use(used: tuple[float, float], *, upright: bool) -> Series:
     return Band(low=low, high=high, upright=upright, text=_("in use"), role="accent", opacity=0.15)
 
 
-def _tone(found: CriticalSpeeds, k: int) -> str:
-    """Return the role of the bar of a mode: red where the drive runs at it, amber where a rule is broken."""
+def tone_of_mode(found: CriticalSpeeds, k: int) -> Tone:
+    """Return how good a mode is: red where the drive runs at it or a limit is broken, amber where advice is."""
     if found.near[k] or found.half_near[k]:
         return "failed"
     if found.crossed[k]:
         return "warning" if found.part[k].kind == "support" else "failed"
-    if k == found.deciding and found.status == Running.BEYOND:
-        return "failed"
-    return "warning" if k == found.deciding and found.status == Running.CLOSE else "accent"
+    if k != found.deciding or found.margin is None:
+        return "plain"
+    return "failed" if found.margin.failed else "warning" if found.margin.violated else "good"
+
+
+def _role(found: CriticalSpeeds, k: int) -> str:
+    """Return the role of the bar of a mode."""
+    tone = tone_of_mode(found, k)
+    return tone if tone in ("failed", "warning") else "accent"
 
 
 def shapes_figure(found: CriticalSpeeds) -> Figure:

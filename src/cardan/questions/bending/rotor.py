@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cardan.drive.body import body_length, pieces, weight
+from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
@@ -25,7 +26,7 @@ from cardan.questions.motion.motion import motion
 from cardan.texts import _
 
 from .balance import balance
-from .bending import CriticalSpeeds, bending_speeds, used_speeds
+from .bending import CriticalSpeeds, bending_speeds
 from .cracked_rotor import UNCRACKED, Crack, CrackedRotor, crack_section, cracked_rotor
 from .cracked_run import CrackedRun, cracked_run
 from .cracked_shafts import CrackedShafts, WhirlingShaft, cracked_shafts

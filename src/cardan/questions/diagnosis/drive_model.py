@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cardan.drive.body import body_length, weight
+from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.models.geometry import geometry
@@ -15,7 +16,7 @@ from cardan.drive.yokes import with_yokes
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.questions.bending.balance import balance
-from cardan.questions.bending.bending import bending_speeds, used_speeds
+from cardan.questions.bending.bending import bending_speeds
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.units import rpm
 

@@ -10,6 +10,7 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, Tone, closely, heads
 from cardan.answers.quantity import Joined, Quantity, Text, listed, say
 from cardan.answers.question import Lacking, absent
+from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.formulas.damping import SHAFT_SOURCE
 from cardan.maths.arrays import ArrayLike
@@ -63,7 +64,7 @@ def answer(drive: Drive, result: TorsionModes, *, stable: bool = False) -> Answe
         tables=tuple(_tables(drive, result, stable)),
         remarks=tuple(_remarks(drive, result)),
         keys=tuple(_keys(result)),
-        facts=_facts(result, _used(drive)),
+        facts=_facts(result, used_speeds(drive.duty)),
         full=lambda: _everything(result),
     )
 
@@ -86,7 +87,7 @@ def modes_said(drive: Drive, found: TorsionModes, *, stable: bool = False) -> tu
 
 def _judged(drive: Drive, found: TorsionModes, stable: bool) -> tuple[Tone, Text]:
     """Return what that means for the operating range, nothing where there is none."""
-    used = _used(drive)
+    used = used_speeds(drive.duty)
     if used is None:
         return "plain", ""
     if (growing := _unstable(found, used)) and not stable:
@@ -117,13 +118,6 @@ def _share(value: float) -> Quantity:
     return Quantity(float(value), "share", 2)
 
 
-def _used(drive: Drive) -> tuple[float, float] | None:
-    """Return lowest and highest speed in use [rad/s]."""
-    if drive.duty.speed_range is not None:
-        return drive.duty.speed_range
-    return None if drive.duty.speed is None else (abs(drive.duty.speed), abs(drive.duty.speed))
-
-
 def _unstable(found: TorsionModes, used: tuple[float, float]) -> list[int]:
     """Return the modes whose zone of growth overlaps a range of speeds."""
     return [k for k, zone in enumerate(found.zone) if zone[0] <= used[1] and used[0] <= zone[1]]
@@ -138,7 +132,7 @@ def _tables(drive: Drive, found: TorsionModes, stable: bool) -> Iterator[Table]:
 
 
 def _mode_table(drive: Drive, found: TorsionModes, stable: bool) -> Table:
-    count, used = min(SHOWN, len(found.omega)), _used(drive)
+    count, used = min(SHOWN, len(found.omega)), used_speeds(drive.duty)
     grows = [] if used is None or stable else _unstable(found, used)
     low, high = ([None if one != one else one for one in column] for column in found.zone[:count].T.tolist())
     return Table(
@@ -244,7 +238,7 @@ def _remarks(drive: Drive, found: TorsionModes) -> Iterator[Remark]:
 
 def _enough(drive: Drive, found: TorsionModes) -> Iterator[Remark]:
     """Yield the least damping of modes that it alone keeps stable in the operating range."""
-    used = _used(drive)
+    used = used_speeds(drive.duty)
     if used is None:
         return
     grows, least = _unstable(found, used), found.least_loss(used)
