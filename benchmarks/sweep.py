@@ -27,8 +27,8 @@ drive = Drive.from_angles([0.3, 0.2, 0.25, 0.1], yoke_angles=[0.1, 0.2, 0.3])
 ends = {"joints[0].joint_angle_deg": 20, "joints[2].joint_angle_deg": 20}
 ends |= {"shafts[1].yoke_angle_deg": 90, "shafts[2].yoke_angle_deg": 90}
 axes = [GridAxis(field=field, start=0, stop=stop, count=side) for field, stop in ends.items()]
-told = ["max speed_fluctuation", "argmin speed_fluctuation", "mean alpha_eq_deg", "p99 speed_fluctuation"]
-told.append("share speed_fluctuation <= 0.02")
+told = [f"{kind} speed_fluctuation_percent" for kind in ("max", "argmin", "p99")] + ["mean alpha_eq_deg"]
+told.append("share speed_fluctuation_percent <= 2")
 begin = time.perf_counter()
 found = sweep(drive, axes, ["speed_fluctuation", "alpha_eq"], reduce=told, rows="none")
 seconds = time.perf_counter() - begin

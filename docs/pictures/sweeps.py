@@ -38,12 +38,12 @@ def lines() -> Drawn:
     found = _table("tolerance-field")
     columns = [column for column in found.columns if column.role != "status"]
     rows = found.sample([column.name for column in columns], 500)
-    return Drawn(parallel_figure(columns, rows, goal=Goal(name="speed_fluctuation"), total=found.count()))
+    return Drawn(parallel_figure(columns, rows, goal=Goal(name="speed_fluctuation_percent"), total=found.count()))
 
 
 def travel() -> Drawn:
     """Draw the speed fluctuation of a truck over travel and engine."""
-    found = map_of(_table("truck-suspension"), "travel_mm", "input.point_mm[2]", "speed_fluctuation")
+    found = map_of(_table("truck-suspension"), "travel_mm", "input.point_mm[2]", "speed_fluctuation_percent")
     how = "mean of the points of a cell"
     return Drawn(heat_figure(found.across, found.up, found.value, found.x, found.y, found.values, how=how))
 

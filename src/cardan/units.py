@@ -182,7 +182,7 @@ def nearest(word: str, known: Any) -> str | None:
     renamed = _OLD_WORD.sub(lambda found: _OLD_WORDS[found[0]], str(word))
     if renamed != word and renamed in names:
         return renamed
-    found = get_close_matches(word, names, n=1, cutoff=0.6)
+    found = get_close_matches(renamed, names, n=1, cutoff=0.6)
     return found[0] if found else None
 
 

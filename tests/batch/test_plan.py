@@ -27,10 +27,10 @@ AXES = (
 def work(**settings):
     told = {
         "reduce": [
-            "max speed_fluctuation by joints[0].joint_angle_deg",
+            "max speed_fluctuation_percent by joints[0].joint_angle_deg",
             "p90 alpha_eq_deg",
-            "mean speed_fluctuation",
-            "argmax speed_fluctuation",
+            "mean speed_fluctuation_percent",
+            "argmax speed_fluctuation_percent",
         ],
         "constraints": ["alpha_eq_deg <= 15"],
     }
@@ -51,8 +51,8 @@ def test_rows_are_those_of_each_drive_made_anew():
     for row in (0, 8, 5_000, one.size - 2):
         given = {name: rows[name][row] for name in ("joints[0].joint_angle_deg", "shafts[1].yoke_angle_deg")}
         drive = with_values(DRIVE, {**{k: float(v) for k, v in given.items()}, "joints[2].joint_angle_deg": 10.0})
-        assert rows["speed_fluctuation"][row] == pytest.approx(
-            float(equivalent_joint(drive).speed_fluctuation), rel=1e-9
+        assert rows["speed_fluctuation_percent"][row] == pytest.approx(
+            100.0 * float(equivalent_joint(drive).speed_fluctuation), rel=1e-9
         )
     bad = rows["make"] == "b"
     assert np.all(rows["status"][bad] == 1)
@@ -123,7 +123,9 @@ def test_vectors_vary_by_their_numbers():
 def test_a_drive_as_it_is_is_one_point():
     found = sweep(DRIVE, {}, ["speed_fluctuation"])
     assert found.size == 1
-    assert found.table()["speed_fluctuation"][0] == pytest.approx(float(equivalent_joint(DRIVE).speed_fluctuation))
+    assert found.table()["speed_fluctuation_percent"][0] == pytest.approx(
+        100.0 * float(equivalent_joint(DRIVE).speed_fluctuation)
+    )
 
 
 def test_everything_wrong_is_told_at_once():
@@ -146,11 +148,11 @@ def test_fields_of_numbers_take_numbers(values):
         work_of(DRIVE, {"joints[1].joint_angle_deg": values}, ["speed_fluctuation"])
 
 
-@pytest.mark.parametrize("fact", ["speed_fluctuation", "Status", "feasible"])
+@pytest.mark.parametrize("fact", ["speed_fluctuation_percent", "Status", "feasible"])
 def test_no_two_columns_have_one_name(fact):
     axes = [TableAxis(fields=(fact, "joints[2].joint_angle_deg"), rows=((1.0, 10.0),), name="make", facts=(fact,))]
     with pytest.raises(InputError, match="this name already"):
-        work_of(DRIVE, axes, ["speed_fluctuation"], constraints=["speed_fluctuation <= 1"])
+        work_of(DRIVE, axes, ["speed_fluctuation"], constraints=["speed_fluctuation_percent <= 100"])
 
 
 def test_words_are_not_compared_with_numbers():
@@ -175,3 +177,11 @@ def test_the_order_of_columns_is_part_of_the_name():
 def test_constraints_are_on_columns():
     with pytest.raises(InputError, match="speed_fluctuation"):
         work_of(DRIVE, AXES, ["speed_fluctuation"], constraints=["speed_fluctuatio <= 3"])
+
+
+@pytest.mark.parametrize("old", ["speed_fluctuation", "irregularity"])
+def test_a_column_by_its_old_name_is_refused_with_the_new_one(old):
+    """Where it was a fraction, a limit of 0.02 would now be 50 times as strict."""
+    for told in ({"constraints": [f"{old} <= 0.02"]}, {"reduce": [f"max {old}"]}):
+        with pytest.raises(InputError, match="the nearest is speed_fluctuation_percent"):
+            work_of(DRIVE, AXES, ["speed_fluctuation"], **told)

@@ -31,7 +31,7 @@ def test_a_plan_tells_what_was_asked_of_all_points(cardan):
     done = cardan("sweep", PLAN)
     assert done.code == 0
     assert done.out.startswith("suspension travel of a truck: all 1\u202f056 points are answered.")
-    assert "argmax speed_fluctuation" in done.out
+    assert "argmax speed_fluctuation_percent" in done.out
     assert "--into truck-suspension" in done.out
 
 

@@ -31,6 +31,9 @@ UNITS = {
     if unit not in NO_UNITS
 }
 
+BARE = {"first", "first_range", "total", "total_range"}
+"""Keys whose numbers have no unit, whatever the column above them has."""
+
 BESIDE = {"value", "values", "limit", "now", "change", "edges", "bound"}
 """Keys whose numbers are in the unit that a key ``unit`` beside them names."""
 
@@ -95,6 +98,10 @@ def without_unit(path: str) -> tuple[str, str, float]:
     """
     keys = path.split(".")
     for k in range(len(keys) - 1, -1, -1):
+        if keys[k] in BARE:
+            break
+        if " " in keys[k]:  # a reduction, ``max life_h``: a unit stands beside its value
+            continue
         words = keys[k].split("_")
         for start in range(1, len(words)):
             unit = "_".join(words[start:])

@@ -72,6 +72,7 @@ PATHS: tuple[tuple[str, str, str], ...] = (
     ("select", r"need\.bend_deg", "need.joint_angle_deg"),
     ("check", r"cures\.(.*)", r"remedies.\1"),
     ("torsion stability", r"over\.bend_deg", "over.joint_angle_deg"),
+    ("sweep", r"(.*[._ ])?irregularity(.*)", r"\1speed_fluctuation_percent\2"),
     ("(sweep|catalogue|joint)", r"(.*[._ ])?irregularity(.*)bend(.*)", r"\1speed_fluctuation\2joint_angle\3"),
     ("(sweep|catalogue|joint)", r"(.*[._ ])?irregularity(.*)", r"\1speed_fluctuation\2"),
     ("(sweep|catalogue|joint)", r"(.*[._ ])?bend_(.*)", r"\1joint_angle_\2"),

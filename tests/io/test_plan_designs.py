@@ -24,14 +24,14 @@ def read(text, name):
 
 def test_words_have_no_range_to_search():
     with pytest.raises(InputError) as error:
-        read('[search]\ngoals = ["min speed_fluctuation"]\nbetween = { "joints[0].size" = [0, 1] }\n', "search")
+        read('[search]\ngoals = ["min speed_fluctuation_percent"]\nbetween = { "joints[0].size" = [0, 1] }\n', "search")
     assert [one.field for one in error.value.problems] == ['search.between."joints[0].size"']
 
 
 def test_a_search_for_one_goal():
     """A single joint is as even as it is straight; the constraint keeps it from that."""
     design = read(
-        'constraints = ["greatest_joint_angle_deg >= 5"]\n[search]\ngoals = ["min speed_fluctuation"]\n'
+        'constraints = ["greatest_joint_angle_deg >= 5"]\n[search]\ngoals = ["min speed_fluctuation_percent"]\n'
         'between = { "joints[0].joint_angle_deg" = [0, 30] }\n',
         "search",
     )
@@ -40,13 +40,14 @@ def test_a_search_for_one_goal():
     assert isinstance(found, Optimum)
     assert found.point == pytest.approx(5.0, abs=1e-3)
     other = read(
-        '[search]\ngoals = ["max speed_fluctuation"]\nmethod = "global"\ngenerations = 5\nseed = 4\nlimits = []\n'
+        '[search]\ngoals = ["max speed_fluctuation_percent"]\nmethod = "global"\n'
+        "generations = 5\nseed = 4\nlimits = []\n"
         'between = { "joints[0].joint_angle_deg" = [25, 30] }\n',
         "search",
     )
     assert other.run().point == pytest.approx(30.0, abs=1e-4)
     start = read(
-        '[search]\ngoals = ["min speed_fluctuation"]\nstart = { "joints[0].joint_angle_deg" = 3 }\n'
+        '[search]\ngoals = ["min speed_fluctuation_percent"]\nstart = { "joints[0].joint_angle_deg" = 3 }\n'
         'between = { "joints[0].joint_angle_deg" = [1, 30] }\n',
         "search",
     )
@@ -55,7 +56,8 @@ def test_a_search_for_one_goal():
 
 def test_a_search_for_several_goals():
     found = read(
-        '[search]\ngoals = ["min speed_fluctuation", "max greatest_joint_angle_deg"]\npopulation = 8\ngenerations = 3\n'
+        '[search]\ngoals = ["min speed_fluctuation_percent", "max greatest_joint_angle_deg"]\n'
+        "population = 8\ngenerations = 3\n"
         'between = { "joints[0].joint_angle_deg" = [0, 30] }\n',
         "search",
     ).run()
@@ -67,7 +69,7 @@ def test_a_search_for_several_goals():
 def test_a_boundary_of_a_single_joint():
     """δ = sin α tan α = 0.1 at 18.03°, whatever the speed."""
     found = read(
-        '[boundary]\nlimits = ["speed_fluctuation <= 0.1"]\ncoarse = [4, 2]\nhalvings = 1\n'
+        '[boundary]\nlimits = ["speed_fluctuation_percent <= 10"]\ncoarse = [4, 2]\nhalvings = 1\n'
         'between = { "joints[0].joint_angle_deg" = [5, 30], "duty.speed_rpm" = [500, 1000] }\n',
         "boundary",
     ).run()
@@ -82,7 +84,7 @@ def test_a_sensitivity_takes_the_distributions_that_are_drawn():
         '[[vary]]\ndesign = "lhs"\ncount = 10\n'
         'fields = [{ key = "joints[0].joint_angle_deg", distribution = "uniform", '
         'plus_minus = 1 }, { key = "duty.speed_rpm", distribution = "uniform", low = 500, high = 900 }]\n'
-        '[sensitivity]\nsamples = 64\nanswers = ["speed_fluctuation"]\n',
+        '[sensitivity]\nsamples = 64\nanswers = ["speed_fluctuation_percent"]\n',
         "sensitivity",
     )
     found = design.run()

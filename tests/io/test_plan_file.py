@@ -82,10 +82,10 @@ def test_what_is_told_of_all_points_arrives():
     plan = read(
         HEAD
         + """
-constraints = ["speed_fluctuation <= 0.01"]
+constraints = ["speed_fluctuation_percent <= 1"]
 rows = "none"
 title = "a title"
-reduce = ["max speed_fluctuation", { kind = "histogram", of = "speed_fluctuation", bins = 5, low = 0, high = 1 }]
+reduce = ["max alpha_eq_deg", { kind = "histogram", of = "speed_fluctuation_percent", bins = 5, low = 0, high = 1 }]
 [engine]
 kind = "processes"
 workers = 3
@@ -93,11 +93,11 @@ chunk_rows = 100
 """
     )
     assert plan.reduce == (
-        Reduce(kind="max", of="speed_fluctuation"),
-        Reduce(kind="histogram", of="speed_fluctuation", bins=5, low=0.0, high=1.0),
+        Reduce(kind="max", of="alpha_eq_deg"),
+        Reduce(kind="histogram", of="speed_fluctuation_percent", bins=5, low=0.0, high=1.0),
     )
     assert (plan.engine, plan.workers, plan.chunk, plan.rows, plan.title) == ("processes", 3, 100, "none", "a title")
-    assert plan.constraints == ("speed_fluctuation <= 0.01",)
+    assert plan.constraints == ("speed_fluctuation_percent <= 1",)
 
 
 def test_axes_written_as_the_plan_file_has_them_read_alike():

@@ -60,9 +60,9 @@ def sweep(
     ask : sequence of str
         Names of questions: ``"speed_fluctuation"``, ``"life"``.
     reduce : sequence of str or Reduce
-        What to tell of all points: ``"max speed_fluctuation by duty.speed_rpm"``.
+        What to tell of all points: ``"max speed_fluctuation_percent by duty.speed_rpm"``.
     constraints : sequence of str or Limit
-        What a point has to keep to be feasible: ``"speed_fluctuation <= 0.02"``.
+        What a point has to keep to be feasible: ``"speed_fluctuation_percent <= 2"``.
     engine : InProcess, Processes or Cluster
         Where it is worked on; the rows are the same.
     into : path, optional
@@ -103,9 +103,9 @@ def sweep(
     --------
     >>> pair = Drive.from_angles([0.3, 0.3])
     >>> angles = {"joints[1].joint_angle_deg": [10.0, 17.2, 95.0]}
-    >>> found = sweep(pair, angles, ["speed_fluctuation"], reduce=["min speed_fluctuation"])
-    >>> found.table()["speed_fluctuation"], found.table()["status"]
-    (array([0.060775  , 0.00012169,        nan]), array([0, 0, 1], dtype=int8))
+    >>> found = sweep(pair, angles, ["speed_fluctuation"], reduce=["min speed_fluctuation_percent"])
+    >>> found.table()["speed_fluctuation_percent"], found.table()["status"]
+    (array([6.07749983, 0.01216928,        nan]), array([0, 0, 1], dtype=int8))
     """
     work = work_of(drive, vary, ask, reduce=reduce, constraints=constraints, known=known, device=device)
     return run_plan(work, engine=engine, into=into, rows=rows, chunk=chunk, progress=progress)
@@ -256,8 +256,8 @@ def work_of(
 
     vary: path with unit -> list of values; or axes: `GridAxis`, `TableAxis`, `SampledAxis`. Every point of their
     product is one.
-    ask: names of questions, see `questions`; reduce: ``"max speed_fluctuation by duty.speed_rpm"`` and the like.
-    constraints: ``"speed_fluctuation <= 0.02"``: what a point has to keep to be feasible.
+    ask: names of questions, see `questions`; reduce: ``"max life_h by duty.speed_rpm"`` and the like.
+    constraints: ``"speed_fluctuation_percent <= 2"``: what a point has to keep to be feasible.
     known: where sizes and grades are looked up.
     """
     problems: list[Problem] = []

@@ -137,7 +137,7 @@ def test_other_fields_remake_the_drive():
     found = ask.rows(given, 2)
     assert found["life_h"][0] == pytest.approx(life(drive).drive / 3600.0)
     assert found["life_h"][1] > found["life_h"][0]
-    assert found["speed_fluctuation"][0] == found["speed_fluctuation"][1]
+    assert found["speed_fluctuation_percent"][0] == found["speed_fluctuation_percent"][1]
 
 
 def test_losses_over_friction():
@@ -146,7 +146,7 @@ def test_losses_over_friction():
     found = evaluator(drive, [path], ["losses"])(np.asarray([[0.01], [0.05]]))
     again = losses(with_values(drive, {path: 0.05}))
     assert found["heat_W"][1] == pytest.approx(again.heat)
-    assert found["efficiency"][1] == pytest.approx(again.efficiency)
+    assert found["efficiency_percent"][1] == pytest.approx(100.0 * again.efficiency)
 
 
 def test_a_point_that_makes_no_drive_says_so_and_why():
@@ -161,7 +161,8 @@ def test_a_question_without_an_answer_leaves_the_others_theirs():
     found = ask(np.asarray([[100.0]]))
     assert found["status"][0] == Status.NO_ANSWER
     assert np.isnan(found["life_h"][0])
-    assert found["speed_fluctuation"][0] == pytest.approx(float(equivalent_joint(ANGLES).speed_fluctuation))
+    share = float(equivalent_joint(ANGLES).speed_fluctuation)
+    assert found["speed_fluctuation_percent"][0] == pytest.approx(100.0 * share)
 
 
 def test_joints_with_laws_of_their_own_are_seen_over_a_turn():
@@ -171,7 +172,12 @@ def test_joints_with_laws_of_their_own_are_seen_over_a_turn():
     assert not ask.fast
     found = ask(np.asarray([[0.0], [10.0], [20.0]]))
     assert np.all(found["status"] == 0)
-    assert 0.0 <= found["speed_fluctuation"][0] < found["speed_fluctuation"][1] < found["speed_fluctuation"][2]
+    assert (
+        0.0
+        <= found["speed_fluctuation_percent"][0]
+        < found["speed_fluctuation_percent"][1]
+        < found["speed_fluctuation_percent"][2]
+    )
     assert np.allclose(found["joint_angle_deg[0]"], [0.0, 10.0, 20.0])
 
 
@@ -212,7 +218,7 @@ SAME = {
         "overconstrained-pump",
         lambda d: [max(np.max(one.radial), np.max(np.abs(one.axial))) for one in [assembly(d, angle=TURN)]] + [0, 3],
     ),
-    "phasing": ("single-20deg", lambda d: 2 * [math.sin(20 * deg) * math.tan(20 * deg)]),
+    "phasing": ("single-20deg", lambda d: 2 * [100.0 * math.sin(20 * deg) * math.tan(20 * deg)]),
     "run-up": ("pto-flywheel-absorber", lambda d: [abs(largest(follow(d, d.duty.run_up).motion)[1])]),
 }
 """Question of a sweep -> example, and what it comes to as asked by itself."""

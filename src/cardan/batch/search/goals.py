@@ -117,7 +117,8 @@ def goal_of(text: str) -> Goal:
     found = _GOAL.fullmatch(text.strip())
     if found is None:
         raise refuse(
-            "goals", _("not a goal: {text}; write “min speed_fluctuation” or “max life_h”").format(text=repr(text))
+            "goals",
+            _("not a goal: {text}; write “min speed_fluctuation_percent” or “max life_h”").format(text=repr(text)),
         )
     return Goal(name=found[2], largest=found[1] == "max")
 
@@ -126,7 +127,7 @@ def limit_of(text: str) -> Limit:
     """Return the limit that a text tells."""
     found = _LIMIT.fullmatch(text.strip())
     if found is None or (found[1] and found[3].startswith(">")):
-        message = _("not a limit: {text}; write “speed_fluctuation <= 0.02”, “life_h >= 5000” or “1 <= x <= 2”")
+        message = _("not a limit: {text}; write “speed_fluctuation_percent <= 2”, “life_h >= 5000” or “1 <= x <= 2”")
         raise refuse("limits", message.format(text=repr(text)))
     low, high = (float(found[1]) if found[1] else -math.inf), float(found[4])
     if found[3].startswith(">"):

@@ -226,8 +226,7 @@ _PERCENT = re.compile(r"p(\d+(?:\.\d+)?)\s+(.*)")
 def reduce_of(text: str) -> Reduce:
     """Return the reduction that a text tells.
 
-    text: ``max speed_fluctuation``, ``p99 alpha_eq_deg by duty.speed_rpm``, ``share speed_fluctuation <= 0.02 by
-    supplier``.
+    text: ``max speed_fluctuation_percent``, ``p99 alpha_eq_deg by duty.speed_rpm``, ``share life_h >= 5000 by make``.
     """
     whole, _word, by = text.strip().partition(" by ")
     groups = tuple(one.strip() for one in by.split(",") if one.strip())
@@ -237,7 +236,7 @@ def reduce_of(text: str) -> Reduce:
     kind, _space, rest = whole.partition(" ")
     if kind not in KINDS or kind == "percentile" or not rest.strip():
         message = _(
-            "not a reduction: {text}; write “max speed_fluctuation”, “p95 life_h by supplier” or “share x <= 2”"
+            "not a reduction: {text}; write “max speed_fluctuation_percent”, “p95 life_h by supplier” or “share x <= 2”"
         )
         raise refuse("reduce", message.format(text=repr(text)))
     if not KINDS[kind].columned:
@@ -415,7 +414,7 @@ def _problems(one: Reduce, path: str, units: dict[str, str]) -> Iterator[Problem
             )
             yield Problem(f"{path}.{key}", f"{name}: " + text.format(near=close, all=", ".join(units)))
     if not KINDS[one.kind].columned and not one.where:
-        yield Problem(f"{path}.where", _("missing; a condition such as “speed_fluctuation <= 0.02”"))
+        yield Problem(f"{path}.where", _("missing; a condition such as “speed_fluctuation_percent <= 2”"))
     if not 0.0 <= one.percent <= 100.0:
         yield Problem(f"{path}.percent", _("{value} does not lie between 0 and 100").format(value=one.percent))
     if not 1 <= one.bins <= MOST_BINS:

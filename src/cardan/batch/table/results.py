@@ -175,7 +175,7 @@ class Results:
         """
         check_names([*goals, *limits], self.columns)
         if not goals:
-            raise refuse("goals", _("none is given; write “min speed_fluctuation” or “max life_h”"), "missing")
+            raise refuse("goals", _("none is given; write “min speed_fluctuation_percent” or “max life_h”"), "missing")
         sql = self.select(where=self._conditions(limits, where))
         kept: Rows = {}
         for part in self.parts or ({},):

@@ -23,7 +23,7 @@ KINDS = ("lines", "pareto", "map", "histogram", "tornado")
 def sweep_show(
     results: Annotated[Path, argument("RESULTS", _("Folder that a sweep was run into."))],
     best: Annotated[
-        str | None, option("--best", "GOAL", _('The best points by a goal: "min speed_fluctuation".'))
+        str | None, option("--best", "GOAL", _('The best points by a goal: "min speed_fluctuation_percent".'))
     ] = None,
     pareto: Annotated[
         list[str] | None,

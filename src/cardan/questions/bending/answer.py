@@ -505,7 +505,9 @@ COLUMNS = (
         told=(
             *each("critical_speed", "angular_speed", "rpm", mark("bending critical speed")),
             OutputColumn(
-                name="critical_clearance",
+                name="critical_clearance_percent",
+                dimension="share",
+                unit="percent",
                 text=mark("distance of the speeds held from the nearest critical speed or half of one, over it"),
             ),
         ),

@@ -414,7 +414,7 @@ COLUMNS = (
         name="losses",
         doc=mark("efficiency and heat at the speed and torque of the duty"),
         told=(
-            OutputColumn(name="efficiency", text=mark("efficiency")),
+            OutputColumn(name="efficiency_percent", dimension="share", unit="percent", text=mark("efficiency")),
             OutputColumn(name="heat_W", dimension="power", unit="W", text=mark("heat of the drive")),
         ),
         of_one=_column_values,

@@ -491,7 +491,12 @@ COLUMNS = (
                 unit="deg",
                 text=mark("greatest joint angle while it moves"),
             ),
-            OutputColumn(name="moving_speed_fluctuation", text=mark("greatest speed fluctuation while it moves")),
+            OutputColumn(
+                name="moving_speed_fluctuation_percent",
+                dimension="share",
+                unit="percent",
+                text=mark("greatest speed fluctuation while it moves"),
+            ),
             OutputColumn(name="stroke_mm", dimension="length", unit="mm", text=mark("stroke of the splines")),
         ),
         of_one=_column_values,

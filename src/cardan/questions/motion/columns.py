@@ -70,6 +70,10 @@ def _each(values: Array) -> list[Array]:
     return [values[..., k] for k in range(values.shape[-1])]
 
 
+def _share(name: str, text: str) -> OutputColumn:
+    return OutputColumn(name=name, dimension="share", unit="percent", text=text)
+
+
 def _angle(name: str, text: str) -> OutputColumn:
     return OutputColumn(name=name, dimension="angle", unit="deg", text=text)
 
@@ -78,7 +82,7 @@ COLUMNS = (
     SweepQuestion(
         name="speed_fluctuation",
         doc=mark("speed fluctuation δ of the output: largest less smallest speed ratio"),
-        told=(OutputColumn(name="speed_fluctuation", text=mark("speed fluctuation of the output")),),
+        told=(_share("speed_fluctuation_percent", mark("speed fluctuation of the output")),),
         of_many=lambda found: (found.output.speed_fluctuation,),
     ),
     SweepQuestion(
@@ -113,7 +117,7 @@ COLUMNS = (
         name="shaft_speed_fluctuation",
         doc=mark("speed fluctuation of every shaft that a joint drives"),
         told=lambda drive: tuple(
-            OutputColumn(name=f"shaft_speed_fluctuation[{k}]", text=mark("speed fluctuation of a shaft"))
+            _share(f"shaft_speed_fluctuation_percent[{k}]", mark("speed fluctuation of a shaft"))
             for k in range(1, len(drive.joints) + 1)
         ),
         of_many=lambda found: _each(found.each.speed_fluctuation),
