@@ -34,6 +34,18 @@ def test_rows_stand_as_a_file_gives_them_where_nothing_is_chosen():
     assert data(one, Reader())["rows"][0]["rating"]["max_joint_angle_deg"] == 35.0
 
 
+def test_intervals_of_lubrication_stand_in_hours_and_kilometres():
+    one = answer_of_table(catalogue(), "lubrication")
+    assert first_cells(one, Reader()) == {
+        "id": "needle_bearings", "hours": "500", "distance": "10\u202f000", "years": "–", "how sure": "book",
+    }  # fmt: skip
+    assert data(one, Reader())["rows"][0]["distance_km"] == 10000.0
+    with reading(INCH):
+        assert data(answer_of_table(catalogue(), "lubrication"), INCH)["rows"][0]["distance_in"] == pytest.approx(
+            1e7 / 0.0254
+        )
+
+
 def test_a_row_tells_flags_in_words():
     one = answer_of_row(catalogue(), "joint_sizes", catalogue().tables["joint_sizes"]["example-75"])
     cells = {row[0].text: row[1].text for row in printed(one.tables[0], Reader(), "brief").rows}

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 WORST = "the largest loads and joint angles of poses and movements count, not those of the drive as drawn"
 
+TOP = "the speeds in use end where the range is varied to end, so that a lower end is a remedy too"
+
 BINS = "bins are as wide as a power of two of the unit, which is per cent now"
 
 MORE = "the best settings on spline teeth over all poses stand beside those without teeth"
@@ -30,6 +32,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
     (r"losses examples/truck-supports\.toml", r".*(heat|power|efficiency|torque|journals).*", HALVES),
     (r"rotor examples/\S+ --joint", r"orders\..*", "the angles of yokes, unbalances and cracks count beside a joint"),
     (r"joint$", r"kinds\.keys\..*", "a tripod has a key more, the far joint on which its shaft pivots"),
+    (r"check examples/truck-duty-cycle\.toml --torque-Nm", r"(cures|remedies)\..*", TOP),
     (r"sweep examples/sweeps/tolerance-field\.toml", r"reductions\.histogram irregularity\..*", BINS),
     (r"phases examples/truck-rear-axle\.toml", r"settings\..*", MORE),
     (r"articulation examples/(pto-hitch|truck-rear-axle)\.toml", r"(joints|worst)\..*", TOPS),

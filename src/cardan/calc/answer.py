@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 from cardan.answers.answer import Answer, Column, Remark, Table
 from cardan.answers.quantity import Joined, Quantity, Text
-from cardan.reading.given import Given
+from cardan.reading.given import Given, without_unit
 from cardan.texts import _
 
 from .calculation import Calculation, Formulas
@@ -18,6 +19,9 @@ LONG = 32
 
 INLINE = 6
 """A list longer than this is summed up for people."""
+
+SAME = 1e-9
+"""What one number asked alone and among others may differ by: rounding."""
 
 WORDY = 60
 """Where a text is longer than this, the values stand without their meanings, which `--list` tells."""
@@ -101,14 +105,16 @@ def answer_of_keys(item: Calculation) -> Answer:
     )
 
 
-def answer(item: Calculation, found: Mapping[str, Any]) -> Answer:
-    """Return what a formula comes to.
+def answer(item: Calculation, found: Mapping[str, Any], asked: Mapping[str, Any] | None = None) -> Answer:
+    """Return what a formula comes to: where lists were asked for one number each, a row for every one of them.
 
-    found: what it gave: values in the units of their keys.
+    found: what it gave: values in the units of their keys; asked: its inputs.
     """
-    docs = {output.key: _(output.doc) for output in item.returns}
+    rows = _rows(item, found, asked or {})
+    if rows:
+        return _of_many(item, rows)
     wordy = any(isinstance(value, str) and len(value) > WORDY for value in found.values())
-    meanings = () if wordy else (Column(key="", values=[docs.get(key, "") for key in found], wrap=True),)
+    meanings = () if wordy else (Column(key="", values=[item.meaning(key) for key in found], wrap=True),)
     flat = [(key, value) for name, entry in found.items() for key, value in leaves(name, entry)]
     short = [_short(value) for value in found.values()]
     outputs = Column(key="", heading=_("output"), values=list(found))
@@ -122,6 +128,64 @@ def answer(item: Calculation, found: Mapping[str, Any]) -> Answer:
         remarks=(_source(item),),
         facts={"capability": item.name, "source": _(item.source), "result": found},
         full=lambda: Table(columns=(keys, Column(key="value", values=[value for _key, value in flat]))),
+    )
+
+
+def _rows(item: Calculation, found: Mapping[str, Any], asked: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return the numbers asked together with what each of them came to; none where the lists are not taken so.
+
+    They are where the first and the last of them, asked alone, come to the first and the last number of every output.
+    """
+    takes = [one for one in item.takes if one.kind == "numbers" and len(one.axes) > 1]
+    lists = {
+        key: value
+        for key, value in asked.items()
+        for one in takes
+        if without_unit(key, one.meaning.dimension) == one.name and _depth(value) == max(one.axes)
+    }
+    counts = {len(value) for value in lists.values()}
+    if len(counts) != 1 or 0 in counts or not found:
+        return []
+    (count,) = counts
+    for k in {0, count - 1}:
+        alone = item({**asked, **{key: value[k] for key, value in lists.items()}})
+        for key, value in found.items():
+            if not isinstance(value, list) or len(value) != count or not _alike(value[k], alone.get(key)):
+                return []
+    every = {**lists, **found}
+    return [{key: value[k] for key, value in every.items()} for k in range(count)]
+
+
+def _depth(value: Any) -> int:
+    """Return how deep a list is nested; 0 of a number."""
+    return 1 + (_depth(value[0]) if value else 0) if isinstance(value, list | tuple) else 0
+
+
+def _alike(one: Any, other: Any) -> bool:
+    """Tell whether two values of an output are the same but for rounding."""
+    if isinstance(one, list) and isinstance(other, list):
+        return len(one) == len(other) and all(map(_alike, one, other))
+    if isinstance(one, float) and isinstance(other, float):
+        return math.isclose(one, other, rel_tol=SAME, abs_tol=SAME)
+    return bool(one == other)
+
+
+def _of_many(item: Calculation, rows: list[dict[str, Any]]) -> Answer:
+    """Return what a formula comes to for every number of a list."""
+    flat = [dict(pair for key, value in row.items() for pair in leaves(key, value)) for row in rows]
+    paths = dict.fromkeys(path for row in flat for path in row)
+    return Answer(
+        name="calc",
+        title=_("Formulas"),
+        sentence=f"{item.name}: {_(item.doc)}",
+        tables=(
+            Table(
+                columns=[Column(key="", heading=key, values=[_short(row[key]) for row in rows]) for key in rows[0]],
+            ),
+        ),
+        remarks=(_source(item),),
+        facts={"capability": item.name, "source": _(item.source), "result": rows},
+        full=lambda: Table(columns=[Column(key=path, values=[row.get(path) for row in flat]) for path in paths]),
     )
 
 

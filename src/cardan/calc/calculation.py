@@ -23,6 +23,7 @@ import numpy as np
 from cardan.errors import InputError, Problem, check
 from cardan.reading.given import Given, Gives, gives
 from cardan.reading.values import Values, read
+from cardan.texts import _
 
 __all__ = ["Calculation", "Formulas", "Problems", "Values"]
 
@@ -92,6 +93,10 @@ class Calculation:
             raise error.renamed(lambda name: _named(name, values.spelled)) from None
         there = [one for one in self.returns if found.get(one.key) is not None]
         return {one.key: _plain(found[one.key], one.factor) for one in there}
+
+    def meaning(self, key: str) -> str:
+        """Return what an output means, in the language spoken; nothing of one that is not declared."""
+        return next((_(one.doc) for one in self.returns if one.key == key), "")
 
     def _by_key(self, found: Any) -> Any:
         """Return what the formula found by the keys of the outputs."""

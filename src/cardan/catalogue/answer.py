@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +33,9 @@ SHOWN = {
     "faults": ("orders", "torque_sensitive", "flags"),
 }
 """Table -> keys that stand for people, where not all of them fit."""
+
+UNITS = {"lubrication": {"time": "h", "length": "km"}}
+"""Table -> units in which its rows are told where whoever looks chose none."""
 
 WIDE, BRIEF = 18, 5  # widest text, and how many keys, of other tables for people
 
@@ -85,7 +89,7 @@ def answer_of_table(known: Catalogue, name: str) -> Answer:
 
     name: one of `TABLES`.
     """
-    who = reader()
+    who = _looking(name)
     rows = list(known.tables.get(name, {}).values())
     usual = [row_flat(row) for row in rows]
     every = [key for key in dict.fromkeys(key for one in usual for key in one) if key not in ("note", "source")]
@@ -116,6 +120,12 @@ def answer_of_table(known: Catalogue, name: str) -> Answer:
     )
 
 
+def _looking(name: str) -> Reader:
+    """Return who looks at a table, in its units where no others are chosen."""
+    who = reader()
+    return replace(who, units={**UNITS.get(name, {}), **who.units})
+
+
 def _columns(name: str, keys: Sequence[str], rows: Sequence[Row], who: Reader) -> Iterator[Column]:
     """Yield columns of a table for people, in the units of whoever looks."""
     dimensions = {one.key: one.dimension for one in row_keys(name)}
@@ -130,6 +140,7 @@ def _columns(name: str, keys: Sequence[str], rows: Sequence[Row], who: Reader) -
             heading=bare.rpartition(".")[2].replace("_", " "),
             values=[value * factor if isinstance(value, float) else value for value in values],
             dimension=dimension,
+            unit=unit,
             trim=True,
             left=key == "id" or any(isinstance(value, str) for value in values),
         )
@@ -143,7 +154,7 @@ def _as_filed(flat: Sequence[Mapping[str, Any]]) -> Table:
 
 def answer_of_row(known: Catalogue, name: str, row: Row) -> Answer:
     """Return one row, with its source and how sure it is."""
-    who = reader()
+    who = _looking(name)
     flat = row_flat(row, who.units)
     shown = {key: _said(value, who) for key, value in flat.items() if key not in ("source", "note", "confidence")}
     source = _("Source: {source}. How sure: {sure}.").format(source=row.source, sure=_(SURE[row.confidence]))

@@ -26,7 +26,9 @@ class Spline:
     position: float | None = quantity(
         "length", None, doc="place along the power flow from the joint before; the middle of the shaft when not given"
     )
-    mean_diameter: float | None = quantity("length", None, doc="mean diameter of the teeth", above=0.0)
+    mean_diameter: float | None = quantity(
+        "length", None, doc="mean diameter of the teeth; that of outer and root when not given", above=0.0
+    )
     friction: float | None = plain(None, doc="coefficient of friction of the teeth", low=0.0)
     pressure_angle: float = quantity(
         "angle",
@@ -44,6 +46,13 @@ class Spline:
         doc="which way the shaft slides under load: it grows longer, shorter, or one and then the other",
         choices=("out", "in", "both"),
     )
+
+    @property
+    def pitch_diameter(self) -> float | None:
+        """Mean diameter of the teeth [m]: as given, else between outer and root diameter; None where neither is."""
+        if self.mean_diameter is not None or self.outer is None or self.root is None:
+            return self.mean_diameter
+        return 0.5 * (self.outer + self.root)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

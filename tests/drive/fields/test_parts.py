@@ -58,6 +58,7 @@ def test_joints(keys: dict[str, object], found: str) -> None:
         (Shaft(number=2, outer=0.07, inner=0.06, wall=0.005), "shafts[1].wall"),
         (Shaft(number=2, centre_of_mass=0.5), "shafts[1].centre_of_mass"),
         (Shaft(number=2, spline=Spline(friction=0.1)), "shafts[1].spline.mean_diameter"),
+        (Shaft(number=2, spline=Spline(friction=0.1, outer=0.05)), "shafts[1].spline.mean_diameter"),
         (Shaft(number=2, spline=Spline(sliding="in")), "shafts[1].spline.sliding"),
         (Shaft(number=2, spline=Spline(position=1.1)), "shafts[1].spline.position"),
     ],

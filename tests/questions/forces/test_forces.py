@@ -290,6 +290,13 @@ def test_a_spline_rubs_by_the_torque_that_comes_to_it() -> None:
     np.testing.assert_allclose(-found.spline_thrust[0], spline_grip(0.12, 0.05) * np.abs(at_spline), rtol=1e-12)
 
 
+def test_outer_and_root_diameter_tell_where_friction_acts() -> None:
+    mean = Spline(position=0.3, mean_diameter=0.05, friction=0.12)
+    ends = replace(mean, mean_diameter=None, outer=0.053, root=0.047)
+    one, other = (forces(splined(axial=True, spline=spline), angle=ANGLE) for spline in (mean, ends))
+    np.testing.assert_allclose(other.spline_thrust, one.spline_thrust, rtol=1e-12)
+
+
 def test_steeper_teeth_push_more() -> None:
     assert spline_grip(0.1, 0.04, 60 * deg) == pytest.approx(2 * spline_grip(0.1, 0.04))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -85,6 +86,10 @@ class UpToOrder(Calculation):
         found = Calculation.__call__(self, inputs)
         order = inputs.get("boundaries_up_to_order")
         return {key.replace("_to_N", f"_to_{order}"): value for key, value in found.items()}
+
+    def meaning(self, key: str) -> str:
+        """Return what an output means, whatever the order in its name."""
+        return Calculation.meaning(self, re.sub(r"_to_\d+$", "_to_N", key))
 
 
 def _order(key: str, doc: str, low: int) -> Given:

@@ -55,7 +55,7 @@ def calc(
         raise RefusedError("", error.problems, headline=error.problems[0].message) from error
     if list_:
         return tell(answer_of_keys(item), json=json, csv=csv)
-    return tell(answer(item, compute(capability, given)), json=json, csv=csv)
+    return tell(answer(item, compute(capability, given), given), json=json, csv=csv)
 
 
 def inputs(file: Path | None, values: Sequence[str]) -> dict[str, Any]:

@@ -184,7 +184,7 @@ def _short(name: str) -> str:
 def _lines(row: list[str], widths: Sequence[int], columns: Sequence[Column], block: list[int]) -> list[str]:
     """Return the lines of a row: one, or several where its last cell is prose."""
     last = len(columns) - 1
-    parts = wrap(row[-1], widths[-1]) if columns[-1].wrap and last in block else []
+    parts = wrap(row[-1], max(1, widths[-1])) if columns[-1].wrap and last in block else []
     every: list[list[str]] = [
         [*row[:-1], part] if k == 0 else [*[""] * last, part] for k, part in enumerate(parts or row[-1:])
     ]

@@ -349,7 +349,7 @@ def slip_of(spline: Spline, low: float, high: float, radius: float) -> Slip:
 
     spline: what the file says of it; low, high [m]: ends of the shaft beside its yokes; radius [m].
     """
-    mean = 0.5 * spline.mean_diameter if spline.mean_diameter is not None else 0.62 * radius
+    mean = 0.5 * spline.pitch_diameter if spline.pitch_diameter is not None else 0.62 * radius
     teeth = min(spline.teeth or 16, SHOWN_TEETH)
     height = min(0.9 * math.pi * mean / teeth, 0.2 * mean)
     tip = 0.5 * spline.outer if spline.outer is not None else mean + 0.5 * height

@@ -110,8 +110,9 @@ def _spline(shaft: Shaft, length: float | None, path: str) -> Iterator[Problem]:
     spline = shaft.spline
     if spline is None:
         return
-    if spline.friction is not None and spline.mean_diameter is None:
-        yield Problem(f"{path}.mean_diameter", _("missing: friction acts at the mean diameter of the teeth"))
+    if spline.friction is not None and spline.pitch_diameter is None:
+        text = _("missing: friction acts at the mean diameter of the teeth; or give outer and root")
+        yield Problem(f"{path}.mean_diameter", text)
     if spline.friction is None:
         for name, there in (("sliding", spline.sliding != "both"), ("pressure_angle", spline.pressure_angle != 0.0)):
             if there:

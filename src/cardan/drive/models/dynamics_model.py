@@ -263,9 +263,9 @@ def _behind(shaft: Shaft, length: float) -> tuple[float, float, float]:
 
 def _grip(shaft: Shaft) -> float:
     spline = shaft.spline
-    if spline is None or spline.friction is None or spline.mean_diameter is None:
+    if spline is None or spline.friction is None or spline.pitch_diameter is None:
         return 0.0
-    return spline_grip(spline.friction, spline.mean_diameter, spline.pressure_angle)
+    return spline_grip(spline.friction, spline.pitch_diameter, spline.pressure_angle)
 
 
 def spline_grip(friction: float, mean_diameter: float, pressure_angle: float = 0.0) -> float:
