@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
+from scipy.special import mathieu_a, mathieu_b
 
 from cardan import Drive, example, torsion_modes, torsion_response
 from cardan.answers.answer import Answer
@@ -18,8 +21,10 @@ from cardan.errors import InputError
 from cardan.questions.torsion.answer import answer, ask, lacking
 from cardan.questions.torsion.model.answer import answer as answer_of_modes
 from cardan.questions.torsion.model.answer import modes_said
+from cardan.questions.torsion.stability.torsion_stability import stability
 from cardan.report.block import page
 from cardan.texts import speaking
+from cardan.units import rpm
 
 OTHER = Reader(units={"torque": "lbft", "angular_speed": "rad_s", "length": "in"}, decimal=",")
 
@@ -71,6 +76,45 @@ def test_what_is_met_in_the_operating_range_is_an_alarm() -> None:
         said.sentence, USUAL
     )
     assert said.tables[0].tones[0] == "failed"
+
+
+def test_at_an_edge_of_a_zone_the_exact_equations_are_said_to_decide() -> None:
+    """First order has it stable at 1,321.1 rpm, between its own edge of 1,321.3 and the exact one of 1,320.9."""
+    drive = example("unstable-drive")
+
+    def judged(low: float, high: float) -> tuple[str, str, str]:
+        one = replace(drive, duty=replace(drive.duty, speed=None, speed_range=(low * rpm, high * rpm)))
+        found = torsion_modes(one)
+        tone, text = modes_said(one, found)
+        return tone, told(text, USUAL), answer_of_modes(one, found).tables[0].tones[0]
+
+    found = torsion_modes(drive)
+    assert not found.zone[0, 0] <= 1321.1 * rpm
+    assert float(stability(replace(drive, duty=replace(drive.duty, speed=1321.1 * rpm))).growth_rate) > 0.0
+    tone, text, row = judged(1000.0, 1321.1)
+    assert (tone, row) == ("warning", "warning")
+    assert "the exact equations decide" in text
+    tone, text, row = judged(1000.0, 1330.0)
+    assert (tone, row) == ("failed", "failed")
+    tone, text, row = judged(1000.0, 1310.0)
+    assert (tone, row) == ("warning", "plain")
+    assert "exact" not in text
+
+
+def test_terms_of_second_order_move_an_edge_no_further_than_told() -> None:
+    """Edges of Mathieu's equation by SciPy's characteristic values: a = (ω/Ω)², q = m a."""
+    found = torsion_modes(example("unstable-drive"))
+
+    def edge(share: float, m: float, characteristic: Callable[[int, float], float]) -> float:
+        return characteristic(1, m * share**2) - share**2
+
+    for m in (0.01, 0.1, 0.3):
+        one = replace(found, omega=np.asarray([100.0]), modulation=np.asarray([m]), damping_ratio=np.asarray([0.0]))
+        for characteristic, k in ((mathieu_a, 0), (mathieu_b, 1)):
+            share = brentq(edge, 0.6, 1.5, args=(m, characteristic))
+            outer, inner = float(one.zone_perhaps[0, k]), float(one.zone_surely[0, k])
+            low, high = sorted((outer, inner))
+            assert low <= 100.0 / share <= high
 
 
 def test_what_is_missing_is_refused() -> None:

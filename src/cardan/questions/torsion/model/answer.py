@@ -13,7 +13,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.formulas.damping import SHAFT_SOURCE
-from cardan.maths.arrays import ArrayLike
+from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import alike
 from cardan.texts import _, plural
 
@@ -90,13 +90,21 @@ def _judged(drive: Drive, found: TorsionModes, stable: bool) -> tuple[Tone, Text
     used = used_speeds(drive.duty)
     if used is None:
         return "plain", ""
-    if (growing := _unstable(found, used)) and not stable:
+    growing = [] if stable else _unstable(found.zone_surely, used)
+    if growing:
         text = _(
             "mode {mode} is parametrically unstable in the operating range, stable from a damping 2ζ of {least} on"
         )
         return "failed", say(text, mode=growing[0] + 1, least=_share(found.least_loss(used)[growing[0]]))
+    if open_ := [] if stable else _undecided(found, used):
+        text = _(
+            "the operating range ends at an edge of the zone of mode {mode}, at most from {low:bare} to {high}: whether "
+            "it is parametrically unstable the exact equations decide (cardan torsion stability)"
+        )
+        low, high = (_speed(one) for one in found.zone_perhaps[open_[0]])
+        return "warning", say(text, mode=open_[0] + 1, low=low, high=high)
     reach = used[0] * (1.0 - NEAR), used[1] * (1.0 + NEAR)
-    if near := _unstable(found, reach):
+    if near := _unstable(found.zone, reach):
         text = _("mode {mode} is parametrically unstable from {low:bare} to {high}, near the operating range")
         low, high = (_speed(one) for one in found.zone[near[0]])
         return "warning", say(text, mode=near[0] + 1, low=low, high=high)
@@ -118,9 +126,15 @@ def _share(value: float) -> Quantity:
     return Quantity(float(value), "share", 2)
 
 
-def _unstable(found: TorsionModes, used: tuple[float, float]) -> list[int]:
-    """Return the modes whose zone of growth overlaps a range of speeds."""
-    return [k for k, zone in enumerate(found.zone) if zone[0] <= used[1] and used[0] <= zone[1]]
+def _unstable(zones: Array, used: tuple[float, float]) -> list[int]:
+    """Return the modes whose zone of growth (m, 2) overlaps a range of speeds [rad/s]."""
+    return [k for k, zone in enumerate(zones) if zone[0] <= used[1] and used[0] <= zone[1]]
+
+
+def _undecided(found: TorsionModes, used: tuple[float, float]) -> list[int]:
+    """Return the modes of which first order leaves open whether they grow at one of some speeds [rad/s]."""
+    sure = _unstable(found.zone_surely, used)
+    return [k for k in _unstable(found.zone_perhaps, used) if k not in sure]
 
 
 def _tables(drive: Drive, found: TorsionModes, stable: bool) -> Iterator[Table]:
@@ -133,7 +147,8 @@ def _tables(drive: Drive, found: TorsionModes, stable: bool) -> Iterator[Table]:
 
 def _mode_table(drive: Drive, found: TorsionModes, stable: bool) -> Table:
     count, used = min(SHOWN, len(found.omega)), used_speeds(drive.duty)
-    grows = [] if used is None or stable else _unstable(found, used)
+    grows = [] if used is None or stable else _unstable(found.zone_surely, used)
+    open_ = [] if used is None or stable else _undecided(found, used)
     low, high = ([None if one != one else one for one in column] for column in found.zone[:count].T.tolist())
     return Table(
         title=_("Natural frequencies, all joints straight"),
@@ -148,7 +163,7 @@ def _mode_table(drive: Drive, found: TorsionModes, stable: bool) -> Table:
             Column(key="", heading=_("unstable from"), values=low, dimension="angular_speed"),
             Column(key="", heading=_("to"), values=high, dimension="angular_speed"),
         ),
-        tones=["failed" if k in grows else "plain" for k in range(count)],
+        tones=["failed" if k in grows else "warning" if k in open_ else "plain" for k in range(count)],
         note=_(
             "Joints modulate the stiffness of a mode twice a turn. About Ω = ω a mode is unstable where the modulation "
             "exceeds the damping 2ζ (parametric resonance)."
@@ -241,7 +256,7 @@ def _enough(drive: Drive, found: TorsionModes) -> Iterator[Remark]:
     used = used_speeds(drive.duty)
     if used is None:
         return
-    grows, least = _unstable(found, used), found.least_loss(used)
+    grows, least = _unstable(found.zone_surely, used), found.least_loss(used)
     for k in np.flatnonzero(least[:SHOWN] > 0.0).tolist():
         if k not in grows:
             text = _("In the operating range mode {mode} is stable from a damping 2ζ of {least} on; it has {own}.")
@@ -253,7 +268,7 @@ def _alarms(found: TorsionModes) -> Iterator[Remark]:
     """Yield what must not be overlooked on the first page; the tables of the answer say it too."""
     if found.speed_range is None:
         return
-    for k in _unstable(found, found.speed_range)[:SHOWN]:
+    for k in _unstable(found.zone_surely, found.speed_range)[:SHOWN]:
         text = _("Torsional mode {mode} is parametrically unstable from {low:bare} to {high}, in the operating range.")
         low, high = (_speed(one, 3) for one in found.zone[k])
         yield Remark(text=say(text, mode=k + 1, low=low, high=high), tone="failed", depth="data", alarm=True)

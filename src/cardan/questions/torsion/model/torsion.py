@@ -115,8 +115,28 @@ class TorsionModes:
 
         To first order in the modulation: Ω = ω (1 ± ½ √((q/a)² - 4ζ²)), Book (221) with the corrected q.
         """
-        square = self.modulation**2 - 4.0 * self.damping_ratio**2
-        half = 0.5 * np.sqrt(np.where(square > 0.0, square, np.nan))
+        return self._zone(0.0)
+
+    @property
+    def zone_surely(self) -> Array:
+        """What terms of second order surely leave of each zone, array (m, 2) [rad/s]; nan where it may be nothing.
+
+        They move an edge by the square of the modulation at most: of Mathieu's equation a = 1 ± q - q²/8 - …, so that
+        Ω = ω (1 ± ½ m + ⅜ m² + …) without damping.
+        """
+        return self._zone(-1.0)
+
+    @property
+    def zone_perhaps(self) -> Array:
+        """How far each zone may reach with terms of second order, array (m, 2) [rad/s]; nan where there is none."""
+        return self._zone(1.0)
+
+    def _zone(self, wider: float) -> Array:
+        """Return the zones, so many times the terms of second order wider, array (m, 2) [rad/s]."""
+        second = wider * self.modulation**2
+        square = (self.modulation + second) ** 2 - 4.0 * self.damping_ratio**2
+        half = 0.5 * np.sqrt(np.where(square > 0.0, square, np.nan)) + second
+        half = np.where(half > 0.0, half, np.nan)
         found: Array = self.omega[:, None] * (1.0 + half[:, None] * np.asarray([-1.0, 1.0]))
         return found
 
