@@ -24,7 +24,7 @@ def table(said, title):
 def test_what_failed_stands_first_and_what_is_closest_where_nothing_did():
     failing, passing = (answer(drive, ask(drive)) for drive in map(example, ("truck-duty-cycle", "car-propshaft")))
     text = told(failing.sentence, USUAL)
-    assert text == "3 of 43 checks failed; worst: life of the bearings of joint 3, at 135 % of its limit."
+    assert text == "3 of 43 checks failed; worst: life of the bearings of joint 3 (axle), at 135 % of its limit."
     assert (failing.code, failing.tone, passing.code) == (1, "failed", 0)
     assert told(passing.sentence, USUAL).startswith("all ")
     assert "by unconfirmed ratings; closest: " in told(passing.sentence, USUAL)
@@ -86,7 +86,7 @@ def test_the_first_page_has_what_fails_and_is_close():
 def test_verdicts_speak_the_language_of_the_reader():
     with speaking("ru"):
         titles = [one.title for one in check(example("car-propshaft"), only=["tube_strength"])]
-    assert titles == ["напряжение вала 2"]
+    assert titles == ["напряжение вала 2 (tube)"]
 
 
 def test_a_drive_of_which_nothing_is_said_tells_what_it_lacks():

@@ -36,5 +36,5 @@ def test_a_bend_while_moving_says_so():
     drive = example("truck-rear-axle")
     drive = replace(drive, limits=replace(drive.limits, joint_angle=12 * deg))
     shown = row(drive)
-    assert shown[0].text == "largest joint angle, joint 2, while the drive moves, at 0.371 s; in the pose empty"
+    assert shown[0].text == "largest joint angle, joint 2 (axle), while the drive moves, at 0.371 s; in the pose empty"
     assert shown[3].text == "≤ 12"

@@ -6,9 +6,11 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from cardan.answers.quantity import numbered
 from cardan.answers.question import Gathering
 from cardan.catalogue.provenance import unconfirmed
 from cardan.catalogue.rows import UNSURE, sureness
+from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.models.kinematics_model import mixed, unmapped
 from cardan.texts import _
@@ -95,7 +97,7 @@ class Check:
     def _judged(self, design: Design) -> Iterator[Verdict]:
         """Yield the verdicts, each with what all of them share."""
         if self.judge is not None:
-            yield from (self._founded(self._whole(one), design) for one in self.judge(design))
+            yield from (self._founded(self._whole(one, design), design) for one in self.judge(design))
         for path, judge, count in (
             ("joints", self.joint, design.joints),
             ("shafts", self.shaft, design.joints + 1),
@@ -103,15 +105,16 @@ class Check:
             for k in range(count) if judge is not None else ():
                 assert judge is not None
                 named = (replace(one, subject=f"{path}[{k}]") for one in judge(design, k))
-                yield from (self._founded(self._whole(one), design) for one in named)
+                yield from (self._founded(self._whole(one, design), design) for one in named)
 
-    def _whole(self, one: Verdict) -> Verdict:
-        kind = one.title or _(self.title)
+    def _whole(self, one: Verdict, design: Design) -> Verdict:
+        kind, part = one.title or _(self.title), part_of(design.drive, one.subject)
         return replace(
             one,
             check=self.name,
             kind=kind,
-            title=kind.format(number=one.number) if one.number else kind,
+            part=part,
+            title=kind.format(number=part) if one.number else kind,
             dimension=one.dimension or self.dimension,
             unit=one.unit or self.unit,
             sense=one.sense if one.sense != "at_most" else self.sense,
@@ -127,6 +130,20 @@ class Check:
         own = [_(UNSURE[one.confidence])] if one.confidence in UNSURE else []
         least = min((one.confidence, *(row.confidence for row in rows if row.confidence in UNSURE)), key=sureness)
         return replace(one, confidence=least, provenance=(*own, *unconfirmed(rows)))
+
+
+def part_of(drive: Drive, subject: str) -> str:
+    """Return number and name of the joint, shaft or support at a path, empty for the drive as a whole.
+
+    >>> part_of(Drive.from_angles([0.1]), "joints[0]")
+    '1'
+    """
+    if not subject:
+        return ""
+    kind, _bracket, rest = subject.partition("[")
+    number = int(rest.partition("]")[0]) + 1
+    parts = getattr(drive, kind)
+    return numbered(number, parts[number - 1].name if number <= len(parts) else "")
 
 
 def _ruled(joint: Joint) -> str:

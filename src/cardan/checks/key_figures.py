@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from cardan.answers.answer import KeyFigure, Tone
-from cardan.answers.quantity import Joined, Quantity, Text, say
+from cardan.answers.quantity import Joined, Quantity, Text, numbered, say
 from cardan.drive.drive import Drive
 from cardan.drive.models.geometry import geometry
 from cardan.maths.arrays import Array
@@ -54,7 +54,8 @@ def _joint_angle(drive: Drive, allowed: dict[str, Verdict]) -> KeyFigure:
             found.append((float(one.utilisation), k, float(one.value), float(one.limit), one.note, False))
     use, joint, angle, limit, place, moves = max(found, key=lambda one: (round(one[0], 9), -one[1]))
     title = _("largest joint angle while moving") if moves else _("largest joint angle")
-    at, value = Joined([say(_("joint {number}"), number=joint), place]), Quantity(angle, "angle")
+    which = numbered(joint, drive.joints[joint - 1].name)
+    at, value = Joined([say(_("joint {number}"), number=which), place]), Quantity(angle, "angle")
     judged = f"joints[{joint - 1}]" in allowed
     if not judged and use < AMBER:
         return KeyFigure(name="joint_angle", title=title, place=at, value=value)

@@ -39,7 +39,7 @@ class Verdict:
     subject : str
         What was judged, as a path: ``joints[1]``, ``shafts[2]``; empty for the drive as a whole.
     title : str
-        What was judged, in words; where a check says it, with a place for the number of joint or shaft.
+        What was judged, in words; where a check says it, with a place for number and name of joint or shaft.
     value : float or array (...)
         In SI.
     limit : float, array (...) or (float, float)
@@ -70,6 +70,8 @@ class Verdict:
         Whether it is a rule of thumb that does not fail the drive.
     kind : str
         The title without the number, the same for all joints or shafts.
+    part : str
+        Number of what was judged, with its name where the file gives one.
     power : float
         Exponent of the torque in the utilisation; 0 where it does not depend on it.
     factor : float, optional
@@ -94,6 +96,7 @@ class Verdict:
     note: Text = ""
     advice: bool = False
     kind: str = ""
+    part: str = ""
     power: float = 0.0
     factor: float | None = None
 

@@ -22,6 +22,8 @@ from cardan.questions.forces.answer import answer, ask
 from cardan.questions.forces.assembly import assembly
 from cardan.questions.forces.forces import forces
 from cardan.questions.losses.losses import losses
+from cardan.questions.mobility.mobility import mobility
+from cardan.register import QUESTIONS
 from cardan.units import deg
 
 FRONT, REAR, BEARING, G = 0.8, 1.2, 0.7, 9.80665
@@ -147,3 +149,15 @@ def test_bending_names_the_same_tables():
     assert "shaft = 2\nposition_mm = 720" in caught.value.problems[0].paste
     held = replace(made, supports=tuple(one for one in proposed(made) if one.shaft == 2))
     assert bending_speeds(held).held == (1, 3)
+
+
+def test_mobility_takes_the_same_bearings_and_says_so():
+    made = drive((8 * deg, 3 * deg, 5 * deg))
+    found = mobility(made)
+    written = mobility(machine_held(made))
+    assert (found.mobility, found.parasitic, found.redundant) == (1, 0, assembly(made).degree)
+    assert (found.mobility, found.redundant) == (written.mobility, written.redundant)
+    said = QUESTIONS["mobility"].answer(made, QUESTIONS["mobility"].ask(made))
+    assert any("Shafts 1 and 4 are held by their machines" in told(one.text, USUAL) for one in said.remarks)
+    own = QUESTIONS["mobility"].answer(machine_held(made), written)
+    assert not any("machines" in told(one.text, USUAL) for one in own.remarks)

@@ -6,11 +6,13 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
+from cardan.answers.answer import Remark
+from cardan.answers.quantity import Joined, say
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.support import Support
 from cardan.errors import InputError
-from cardan.texts import _
+from cardan.texts import _, plural
 
 NEAR = 0.9  # share of its length at which a shaft is proposed to have its centre bearing: before its second joint
 REACH = 0.1  # distance [m] of the proposed bearings of an end shaft from its joint and from each other
@@ -51,6 +53,18 @@ def _segment(drive: Drive, support: Support) -> int:
     if cut is None:
         cut = 0.5 * known_lengths(drive).get(support.shaft, 0.0)
     return before + int(support.position > cut)
+
+
+def held_by_machines(machines: tuple[int, ...]) -> Iterator[Remark]:
+    """Yield that machines hold the end shafts on which no support stands."""
+    if machines:
+        text = plural(
+            "Shaft {which} is held by its machine, at the joint; [[supports]] on it would tell its bearings apart.",
+            "Shafts {which} are held by their machines, at the joints; [[supports]] on them would tell their bearings "
+            "apart.",
+            len(machines),
+        )
+        yield Remark(text=say(text, which=Joined([str(number) for number in machines], last=_(" and "))))
 
 
 def proposed(drive: Drive) -> tuple[Support, ...]:

@@ -16,7 +16,7 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.models.kinematics_model import Chain
-from cardan.drive.models.machine_held import machine_held, machines_of, proposed, tables_of
+from cardan.drive.models.machine_held import held_by_machines, machine_held, machines_of, proposed, tables_of
 from cardan.errors import InputError, Problem
 from cardan.figures.figure import Figure
 from cardan.maths.arrays import Array
@@ -32,7 +32,6 @@ from .figures.moving_forces import moving_forces_figures
 from .force_tables import (
     ROUNDING,
     constant,
-    held_by_machines,
     joint_table,
     largest_left,
     rubs,

@@ -12,7 +12,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
-from cardan.drive.models.machine_held import machine_held, machines_of
+from cardan.drive.models.machine_held import held_by_machines, machine_held, machines_of
 from cardan.errors import InputError
 from cardan.figures.figure import Figure
 from cardan.maths.ties import foremost, largest
@@ -24,7 +24,6 @@ from .force_tables import (
     ROUNDING,
     curve,
     from_start,
-    held_by_machines,
     joint_heads,
     size,
     support_heads,

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from cardan.answers.answer import Column, Depth, Remark, Table, heads
-from cardan.answers.quantity import Joined, Quantity, numbered, say
+from cardan.answers.answer import Column, Depth, Table, heads
+from cardan.answers.quantity import Joined, Quantity, numbered
 from cardan.drive.drive import Drive
 from cardan.drive.joints.joint import Joint
 from cardan.drive.shaft import Shaft
@@ -18,7 +18,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.curves.cycle_statistics import Turn, harmonics, over_turn
 from cardan.maths.kernel import frames
 from cardan.maths.ties import TIE, foremost
-from cardan.texts import _, plural
+from cardan.texts import _
 
 from .forces import Forces
 
@@ -284,18 +284,6 @@ def called(shaft: Shaft, shafts: int) -> str:
 def support_names(drive: Drive) -> list[str]:
     """Return the names of the supports."""
     return [one.name for one in drive.supports]
-
-
-def held_by_machines(machines: tuple[int, ...]) -> Iterator[Remark]:
-    """Yield that machines hold the end shafts on which no support stands."""
-    if machines:
-        text = plural(
-            "Shaft {which} is held by its machine, at the joint; [[supports]] on it would tell its bearings apart.",
-            "Shafts {which} are held by their machines, at the joints; [[supports]] on them would tell their bearings "
-            "apart.",
-            len(machines),
-        )
-        yield Remark(text=say(text, which=Joined([str(number) for number in machines], last=_(" and "))))
 
 
 def curve(key: str, values: Any, dimension: str = "", unit: str = "") -> Column:

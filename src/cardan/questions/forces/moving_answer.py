@@ -10,7 +10,7 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Column, Remark, Table
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.drive.drive import Drive
-from cardan.drive.models.machine_held import machine_held, machines_of
+from cardan.drive.models.machine_held import held_by_machines, machine_held, machines_of
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.questions.motion.equivalence import WARN_JOINT_ANGLE
@@ -22,7 +22,6 @@ from .figures.moving_forces import moving_forces_figures
 from .force_tables import (
     along_axis,
     curve,
-    held_by_machines,
     joint_heads,
     shaft_heads,
     size,

@@ -13,6 +13,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking, all_of
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
+from cardan.drive.models.machine_held import held_by_machines, machines_of
 from cardan.errors import InputError, refuse
 from cardan.figures.figure import Figure
 from cardan.mechanism.counting import Partition, joins, partition
@@ -185,6 +186,8 @@ def _joints(result: Mobility, shown: Sequence[JointHold], *, links: bool) -> Tab
 def _remarks(
     thing: Drive | Mechanism, result: Mobility, remedies: Sequence[Repair], around: Turned | None
 ) -> Iterator[Remark]:
+    if isinstance(thing, Drive):
+        yield from held_by_machines(machines_of(thing))
     if result.misalignment:
         text = _("Warning: as given the parts do not fit: {gap} have to be forced into place.")
         yield Remark(text=say(text, gap=Quantity(result.misalignment, "length", 3)), tone="warning")

@@ -11,6 +11,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.joints.common.inner import DRIVEN, DRIVING, Stance
 from cardan.drive.models.geometry import Geometry, geometry
+from cardan.drive.models.machine_held import machine_held
 from cardan.drive.support import Support
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
@@ -34,7 +35,8 @@ FRAME = "frame"
 def mechanism_of(drive: Drive, angle: float = 0.0) -> Mechanism:
     """Return a drive as a mechanism.
 
-    drive: with its supports; angle [rad]: input angle φ_1 from the start position.
+    drive: with its supports, its end shafts held by their machines where they have none; angle [rad]: input angle φ_1
+    from the start position.
     Returns Mechanism: links: the frame, the shafts (two parts where a spline slides), the crosses. Joints: pins,
     splines, supports.
     A radial support is a sphere in a cylinder (SG), with an axial hold a sphere (S), with a hold against tilting a
@@ -42,6 +44,7 @@ def mechanism_of(drive: Drive, angle: float = 0.0) -> Mechanism:
     pairs that turn about two axes of the bisecting plane, unless they slide as well or hold nothing but the torque.
     """
     check(_problems(drive))
+    drive = machine_held(drive)
     place = geometry(drive)
     driving, driven = marks(drive, place, angle)
     joints = list(_joints(drive, place, driving, driven))

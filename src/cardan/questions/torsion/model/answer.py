@@ -98,7 +98,7 @@ def _judged(drive: Drive, found: TorsionModes, stable: bool) -> tuple[Tone, Text
         return "failed", say(text, mode=growing[0] + 1, least=_share(found.least_loss(used)[growing[0]]))
     if open_ := [] if stable else _undecided(found, used):
         text = _(
-            "the operating range ends at an edge of the zone of mode {mode}, at most from {low:bare} to {high}: whether "
+            "the operating range ends at an edge of the zone of mode {mode}, at most {low:bare} to {high}: whether "
             "it is parametrically unstable the exact equations decide (cardan torsion stability)"
         )
         low, high = (_speed(one) for one in found.zone_perhaps[open_[0]])
