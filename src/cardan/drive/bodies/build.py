@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -13,7 +12,7 @@ from cardan.answers.quantity import Text
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.joints.common.inner import Stance
-from cardan.drive.joints.common.site import BACK, JointSize, Side, Site
+from cardan.drive.joints.common.site import BACK, JointSize, Side, Site, joint_size
 from cardan.drive.models.geometry import Geometry
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
@@ -204,9 +203,6 @@ def name_of(joint: Joint, i: int) -> str:
 
 # How large the parts of a drive are: what its file says, and the rest in proportion.
 
-STEEPEST, LEAST = math.radians(42.0), math.radians(13.0)
-"""Yokes leave room for joint angles between these, and a little more."""
-
 ROOM = 0.46  # share of a shaft between two joints that one yoke takes at most
 
 SHOWN = 4.0
@@ -234,7 +230,10 @@ def sizes(drive: Drive, place: Geometry) -> Sizes:
     lengths = [float(one) for one in place.length]
     usual = _usual(drive, lengths)
     joint_angles = [float(joint_angle) for joint_angle in place.joint_angle]
-    joints = tuple(_joint(drive, i, usual, joint_angles[i]) for i in range(len(drive.joints)))
+    joints = tuple(
+        joint_size(one.span, one.cross, one.needles, joint_angle, usual)
+        for one, joint_angle in zip(drive.joints, joint_angles, strict=True)
+    )
     bodies, solid = [], []
     for k, shaft in enumerate(drive.shafts):
         radius = thickest(shaft)
@@ -273,23 +272,6 @@ def _usual(drive: Drive, lengths: Sequence[float]) -> float:
         if found:
             return min(sum(found) / len(found), most)
     return drawn
-
-
-def _joint(drive: Drive, i: int, usual: float, joint_angle: float) -> JointSize:
-    joint = drive.joints[i]
-    span = joint.span
-    radius = usual if span is None else 0.5 * span
-    cross, needles = joint.cross, joint.needles
-    journal = cross.journal if cross is not None and cross.journal is not None else 0.52 * radius
-    journal = min(journal, 0.9 * radius)
-    rolls = needles.diameter if needles is not None and needles.diameter is not None else 0.12 * journal
-    cap = min(0.5 * journal + rolls + 0.1 * journal, 0.62 * radius)
-    ear = cross.journal_length if cross is not None and cross.journal_length is not None else 0.95 * journal
-    ear = min(ear, 0.6 * radius)
-    lug = min(1.42 * cap, 0.85 * radius)
-    tilt = min(max(joint_angle, LEAST), STEEPEST) + math.radians(4.0)
-    cavity = lug * math.cos(tilt) + (radius + 0.5 * ear) * math.sin(tilt) + 0.05 * radius
-    return JointSize(radius=radius, ear=ear, journal=journal, cap=cap, lug=lug, cavity=cavity, given=span is not None)
 
 
 def _end(drive: Drive, number: int, length: float, size: JointSize) -> float:

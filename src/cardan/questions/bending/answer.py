@@ -14,7 +14,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import MODES, OutputColumn, SweepQuestion, each, first
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
-from cardan.drive.yokes import unweighed
+from cardan.drive.yokes import unweighed, yokes_estimated
 from cardan.formulas.critical_speed import CATALOGUE, PRACTICE
 from cardan.formulas.damping import LOSS
 from cardan.texts import _, mark, plural
@@ -288,6 +288,7 @@ def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
             len(light),
         )
         yield Remark(text=say(text, which=Joined([str(number) for number in light], last=_(" and "))))
+    yield from yokes_estimated(drive)
     worn = [path for path in result.assumed if path.endswith("wear_factor")]
     if worn:
         text = _("With a spline the real speed counts as 0.9 of the computed one; {key} changes that (0.7 when worn).")

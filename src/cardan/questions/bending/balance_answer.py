@@ -15,7 +15,7 @@ from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.parts import known_lengths
-from cardan.drive.yokes import with_yokes
+from cardan.drive.yokes import with_yokes, yokes_estimated
 from cardan.errors import refuse
 from cardan.maths.ties import foremost_of
 from cardan.texts import _, mark
@@ -47,7 +47,7 @@ def answer(drive: Drive, result: Balance) -> Answer:
         sentence=_sentence(result),
         tone=tone,
         tables=(_shafts(drive, result), *_planes(result), *_corrections(result)),
-        remarks=tuple(_remarks(result)),
+        remarks=(*yokes_estimated(drive), *_remarks(result)),
         facts=_facts(result),
         full=lambda: _shafts(drive, result, name=""),
         code=1 if result.balanced is False else 0,

@@ -17,6 +17,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.models.kinematics_model import Chain
 from cardan.drive.models.machine_held import held_by_machines, machine_held, machines_of, proposed, tables_of
+from cardan.drive.yokes import yokes_estimated
 from cardan.errors import InputError, Problem
 from cardan.figures.figure import Figure
 from cardan.maths.arrays import Array
@@ -247,6 +248,7 @@ def _remarks(drive: Drive, result: Carried, machines: tuple[int, ...]) -> Iterat
         text = _("Warning: forces on the supports are not calculated. {field}: {message}")
         yield Remark(text=say(text, **_parts(problem)), tone="warning", alarm=k == 0)
     yield from steep_joints(drive)
+    yield from yokes_estimated(drive)
     yield from held_by_machines(machines if found.reaction is not None else ())
     surplus = int(found.status == Determinacy.INDETERMINATE) and found.unknowns - found.equations
     if surplus:

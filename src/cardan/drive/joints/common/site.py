@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
 from cardan.answers.quantity import Quantity, Text, say
+from cardan.drive.cross import Cross
+from cardan.drive.joint_parts import Needles
 from cardan.drive.shapes import caps, cross_body, fork
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
@@ -45,6 +48,31 @@ class JointSize:
     def outer(self) -> float:
         """Radius that the joint needs when it turns straight [m]."""
         return self.radius + 0.5 * self.ear + 0.04 * self.radius
+
+
+STEEPEST, LEAST = math.radians(42.0), math.radians(13.0)
+"""Yokes leave room for joint angles between these, and a little more."""
+
+
+def joint_size(
+    span: float | None, cross: Cross | None, needles: Needles | None, joint_angle: float, usual: float = 0.0
+) -> JointSize:
+    """Return how large a joint is: what the file says of it, the rest in proportion.
+
+    span, usual [m]: distance of opposite bearings; half of it where the file says none.
+    joint_angle [rad]: for which its yokes leave room.
+    """
+    radius = usual if span is None else 0.5 * span
+    journal = cross.journal if cross is not None and cross.journal is not None else 0.52 * radius
+    journal = min(journal, 0.9 * radius)
+    rolls = needles.diameter if needles is not None and needles.diameter is not None else 0.12 * journal
+    cap = min(0.5 * journal + rolls + 0.1 * journal, 0.62 * radius)
+    ear = cross.journal_length if cross is not None and cross.journal_length is not None else 0.95 * journal
+    ear = min(ear, 0.6 * radius)
+    lug = min(1.42 * cap, 0.85 * radius)
+    tilt = min(max(joint_angle, LEAST), STEEPEST) + math.radians(4.0)
+    cavity = lug * math.cos(tilt) + (radius + 0.5 * ear) * math.sin(tilt) + 0.05 * radius
+    return JointSize(radius=radius, ear=ear, journal=journal, cap=cap, lug=lug, cavity=cavity, given=span is not None)
 
 
 class Stage(Protocol):

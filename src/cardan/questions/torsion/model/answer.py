@@ -12,6 +12,7 @@ from cardan.answers.quantity import Joined, Quantity, Text, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
+from cardan.drive.yokes import yokes_estimated
 from cardan.formulas.damping import SHAFT_SOURCE
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import alike
@@ -243,6 +244,7 @@ def _remarks(drive: Drive, found: TorsionModes) -> Iterator[Remark]:
         text = _('The input is held at uniform speed, a node of every mode; input = "free" lets it vibrate.')
         yield Remark(text=text)
     yield from assumptions(found.train)
+    yield from yokes_estimated(drive)
     yield from _enough(drive, found)
     text = _("Checked: the torques of every mode balance {closely}.")
     yield Remark(text=text.format(closely=closely(found.residual)), depth="full")

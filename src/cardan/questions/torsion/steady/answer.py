@@ -13,6 +13,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.machine import Engine
+from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
@@ -278,6 +279,7 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
     if np.any(found.train.model.loss_factor):
         yield Remark(text=_("Structural damping counts as viscous, equal at order 2 of the speed."))
     yield from assumptions(found.train)
+    yield from yokes_estimated(drive)
     if np.any(steady.found):
         yield from _checked(found)
     if _from_yokes(drive, found):
