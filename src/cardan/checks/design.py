@@ -255,6 +255,19 @@ class Design:
         cycle = (one for one in self._cycle if one.pose in ("", self.pose))
         return own + [one.speed_range[1] for one in cycle if one.speed_range is not None]
 
+    def _asked(self, ask: Callable[[Case], Array], *, shocks: bool = True) -> list[Array]:
+        """Return what every way to run under load asks of a part."""
+        size = [one.severity if shocks else 1.0 for one in self.loaded]
+        return [more * np.asarray(ask(case), dtype=float) for more, case in zip(size, self.loaded, strict=True)]
+
+    def case_of(self, ask: Callable[[Case], Array]) -> str:
+        """Return the name of the way to run that asks most of a part of one drive; empty where there is one only."""
+        return self.called(self.loaded[int(foremost([float(one) for one in self._asked(ask)]))])
+
+    def called(self, case: Case) -> str:
+        """Return the name of one of the ways to run under load; empty where there is one only."""
+        return "" if len(self.loaded) < 2 else case.name or _("the torque of the duty")
+
     def most(self, ask: Callable[[Case], Array], *, shocks: bool = True) -> tuple[Array, str]:
         """Return the largest answer of all the ways to run under load, and a sentence on which of them it is.
 
@@ -265,8 +278,7 @@ class Design:
         shocks : bool
             Whether shocks count, so that a load case with a factor of its own is larger by as much as that is.
         """
-        size = [one.severity if shocks else 1.0 for one in self.loaded]
-        answers = [more * np.asarray(ask(case), dtype=float) for more, case in zip(size, self.loaded, strict=True)]
+        answers = self._asked(ask, shocks=shocks)
         value = largest(answers)
         if value.ndim or len(answers) == 1:
             return value, ""

@@ -36,7 +36,10 @@ def test_the_torque_rating_and_what_governs_it_stand_first():
     said, found = of(drive), strength(drive)
     title = found.governing.title
     rated = significant(found.rated_torque)
-    assert told(said.sentence, USUAL) == f"carries 560.0 N·m; torque rating {rated} N·m, governed by {title}."
+    assert (
+        told(said.sentence, USUAL)
+        == f"carries 560.0 N·m (part 3 of the duty cycle); torque rating {rated} N·m, governed by {title}."
+    )
     (key,) = said.keys
     assert (key.value.value, key.limit.value, key.better) == (found.rated_torque, found.torque, "more")
     assert key.utilisation == pytest.approx(1.0 / found.torque_factor)
@@ -120,6 +123,27 @@ def test_load_cases_alone_are_torque_enough():
     peak = replace(drive, duty=replace(drive.duty, torque=None, blocks=(), torque_history=None, cases=cases))
     assert lacking(peak) == ()
     assert told(answer(peak, ask(peak)).sentence, USUAL).startswith("carries 2\u202f500 N·m")
+
+
+def test_every_number_says_in_which_load_case_it_arises():
+    drive = example("truck-duty-cycle")
+    road = Case(name="road", torque=600.0, speed=200.0, share=1.0)
+    start = Case(name="start", torque=2000.0, speed=50.0)
+    both = replace(drive, duty=replace(drive.duty, torque=None, blocks=(), torque_history=None, cases=(road, start)))
+    result = ask(both)
+    said = answer(both, result)
+    assert told(said.sentence, USUAL).startswith("carries 2\u202f000 N·m (start); ")
+    assert told(said.keys[0].place, USUAL).endswith(", start")
+    rows = data(said, Reader())
+    assert {row["case"] for row in rows["shafts"]} == {row["case"] for row in rows["joints"]} == {"start"}
+    assert (rows["load_case"], rows["torque_Nm"]) == ("start", 2000.0)
+    # Alone each load case has its own torque; the life is that of the road, which alone takes time.
+    alone = replace(both, duty=replace(both.duty, torque=600.0, speed=200.0, cases=()))
+    lives = [[one.fatigue_life for one in each.shafts] for each in (result, ask(alone))]
+    assert lives[0] == pytest.approx(lives[1], nan_ok=True)
+    single = answer(alone, ask(alone))
+    assert "case" not in data(single, Reader())["shafts"][0]
+    assert "(" not in told(single.sentence, USUAL).partition(";")[0]
 
 
 def test_a_limit_that_governs_without_the_highest_utilisation_is_explained():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -99,7 +99,10 @@ def _sentence(result: Strength) -> Say | str:
     text = _("too weak for {torque}; torque rating {rated}, governed by {title}.")
     if result.enough:
         text = _("carries {torque}; torque rating {rated}, governed by {title}.")
-    return say(text, torque=_torque(result.torque), rated=_torque(result.rated_torque), title=first.title)
+    torque: Text = _torque(result.torque)
+    if result.case:
+        torque = say("{torque} ({case})", torque=torque, case=result.case)
+    return say(text, torque=torque, rated=_torque(result.rated_torque), title=first.title)
 
 
 def _tables(drive: Drive, result: Strength) -> Iterator[Table]:
@@ -127,6 +130,7 @@ def _shafts(drive: Drive, result: Strength) -> Table:
         columns=(
             *heads(_("shaft"), [shaft.name for shaft in drive.shafts]),
             Column(key="torque", heading=_("torque"), values=[one.torque for one in shafts], dimension="torque"),
+            *_cases("case", _("load case"), [one.case for one in shafts]),
             Column(
                 key="secondary_couple",
                 heading=_("secondary couple"),
@@ -144,6 +148,7 @@ def _shafts(drive: Drive, result: Strength) -> Table:
                 values=[None if one.fatigue is None else float(one.fatigue.safety) for one in shafts],
                 decimals=2,
             ),
+            *_cases("fatigue_case", _("load case, fatigue"), [one.fatigue_case for one in shafts]),
             Column(
                 key="life", heading=_("fatigue life"), values=[one.fatigue_life for one in shafts], dimension="duration"
             ),
@@ -152,13 +157,26 @@ def _shafts(drive: Drive, result: Strength) -> Table:
     )
 
 
+def _cases(key: str, heading: str, names: Sequence[str]) -> Iterator[Column]:
+    """Yield the column that tells in which load case a number arises, where there are several."""
+    if any(names):
+        yield Column(key=key, heading=heading, values=list(names), left=True)
+
+
 def _counted(result: Strength) -> Text:
     """Return what the tables count."""
-    text = _("Largest over the turn; the couple is that of the larger end.")
-    if result.shock_factor == 1.0:
-        return text
-    more = _("Torques and stresses are with the service factor {shock}; twist and fatigue are without.")
-    return Joined([text, say(more, shock=Quantity(result.shock_factor, digits=3, trim=True))], between=" ")
+    said: list[Text] = [_("Largest over the turn; the couple is that of the larger end.")]
+    if result.case:
+        said.append(
+            _(
+                "Every load case counts with its own torque: the worst stands here, and the fatigue life adds the "
+                "damage of all by their shares."
+            )
+        )
+    if result.shock_factor != 1.0:
+        more = _("Torques and stresses are with the service factor {shock}; twist and fatigue are without.")
+        said.append(say(more, shock=Quantity(result.shock_factor, digits=3, trim=True)))
+    return Joined(said, between=" ") if len(said) > 1 else said[0]
 
 
 def _joints(drive: Drive, result: Strength) -> Table:
@@ -174,6 +192,7 @@ def _joints(drive: Drive, result: Strength) -> Table:
         columns=(
             *heads(_("joint"), [joint.name for joint in drive.joints]),
             Column(key="torque", heading=_("torque"), values=[one.torque for one in joints], dimension="torque"),
+            *_cases("case", _("load case"), [one.case for one in joints]),
             Column(
                 key="journal",
                 heading=_("journal load"),
@@ -320,7 +339,7 @@ def _keys(result: Strength) -> Iterator[KeyFigure]:
     yield KeyFigure(
         name="rated_torque",
         title=_("torque rating of the whole drive"),
-        place=say(_("governed by {title}"), title=first.title),
+        place=Joined([say(_("governed by {title}"), title=first.title), result.case]),
         value=_torque(result.rated_torque),
         limit=_torque(result.torque),
         better="more",
@@ -332,6 +351,7 @@ def _keys(result: Strength) -> Iterator[KeyFigure]:
 def _facts(result: Strength) -> dict[str, Any]:
     return {
         "torque": _torque(result.torque),
+        "load_case": result.case or None,
         "rated_torque": _torque(result.rated_torque),
         "torque_factor": result.torque_factor,
         "enough": result.enough,

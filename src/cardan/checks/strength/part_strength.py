@@ -45,6 +45,9 @@ class ShaftStrength:
     twist: float = math.nan  # [rad]: under its largest torque, without shocks; nan where not known
     spline: SplineStress | None = None
     buckling_torque: float = math.nan  # [N·m]: of a tube of composite; else nan
+    # case, fatigue_case: load cases in which its torque is largest, and its safety against fatigue least; empty if one
+    case: str = ""
+    fatigue_case: str = ""
 
 
 def shaft_strength(design: Design, k: int) -> ShaftStrength:
@@ -63,6 +66,7 @@ def shaft_strength(design: Design, k: int) -> ShaftStrength:
         twist=math.nan if soft is None else float(soft) * torque,
         spline=None if shaft.spline is None or lacking(design, k) else stresses(design, k)[0],
         buckling_torque=math.nan if buckles is None else float(buckles),
+        case=design.case_of(lambda case: case.shaft_torque[..., k]),
     )
     if not found or shaft.layup is not None:
         return plain
@@ -74,10 +78,15 @@ def shaft_strength(design: Design, k: int) -> ShaftStrength:
     plain = replace(plain, stress=stress, stretch=worst + 1)
     if design.missing(*(one.of_material(name) for one in found for name in STRENGTHS)):
         return plain
-    every = (fatigue(design, k, one, c) for one in found for c in design.loaded)
-    tired = foremost_of(every, lambda one: float(one.safety), least=True)
+    every = [(fatigue(design, k, one, c), c) for one in found for c in design.loaded]
+    tired, at = foremost_of(every, lambda one: float(one[0].safety), least=True)
     moving = any(one.speed for one in lasting(design)) or design.duty.torque_history is not None
-    return replace(plain, fatigue=tired, fatigue_life=_life(design, k, found) if moving else math.nan)
+    return replace(
+        plain,
+        fatigue=tired,
+        fatigue_case=design.called(at),
+        fatigue_life=_life(design, k, found) if moving else math.nan,
+    )
 
 
 def lasting(design: Design) -> Sequence[Case]:
@@ -166,6 +175,7 @@ class JointStrength:
     yoke: PartStress | None = None
     contact: Contact | None = None  # of the most loaded needle
     static_capacity: float = math.nan  # [N]: as given, or by ISO 76
+    case: str = ""  # load case in which its torque is largest; empty where there is one only
 
 
 def joint_strength(design: Design, i: int) -> JointStrength:
@@ -184,4 +194,5 @@ def joint_strength(design: Design, i: int) -> JointStrength:
         yoke=None if yoke_strength.lacking(design, i) else yoke_strength.stress(design, i)[0],
         contact=None if contact_pressure.lacking(design, i) else contact_pressure.contact(design, i)[0],
         static_capacity=math.nan if capacity is None else float(capacity),
+        case=design.case_of(lambda case: case.joint_torque[..., i]),
     )

@@ -103,6 +103,8 @@ class Strength:
         Numbers of shafts that are wider than those whose fatigue was measured.
     left_out : LeftOut or None
         What the stresses leave out, where that was asked.
+    case : str
+        Load case that has this torque; empty where there is one only.
     """
 
     cases: tuple[Case, ...]
@@ -114,6 +116,7 @@ class Strength:
     dynamic_factor: float = 1.0
     extrapolated: tuple[int, ...] = ()
     left_out: LeftOut | None = None
+    case: str = ""
 
     @property
     def judged(self) -> tuple[Verdict, ...]:
@@ -217,6 +220,7 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
         torque=max(abs(float(case.torque or 0.0)) for case in subject.loaded),
         shock_factor=float(subject.shock),
         dynamic_factor=_dynamic(subject),
+        case=subject.called(max(subject.loaded, key=lambda case: abs(float(case.torque or 0.0)))),
         extrapolated=tuple(
             k + 1
             for k in parts

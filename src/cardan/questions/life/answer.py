@@ -107,6 +107,14 @@ def _sentence(drive: Drive, result: Life) -> Say:
     return say(text, asked=_hours(result.demanded), **values)
 
 
+def _worst_part(result: Life) -> Iterator[Column]:
+    """Yield in which load case the journals of each joint carry most, where the duty has several."""
+    names = [part.name for part in result.parts]
+    if len(names) > 1 and all(names):
+        worst = [names[int(foremost(column))] for column in result.journal_force.T]
+        yield Column(key="journal_case", heading=_("load case"), values=worst, left=True)
+
+
 def _joints(drive: Drive, result: Life) -> Table:
     own = result.bearings
     titles = {"iso": _("ISO 281"), "simple": _("mean load"), "maker": _("maker"), "book": _("handbook")}
@@ -136,6 +144,7 @@ def _joints(drive: Drive, result: Life) -> Table:
                 values=np.max(result.journal_force, axis=0),
                 dimension="force",
             ),
+            *_worst_part(result),
             Column(
                 key="capacity",
                 heading=_("dynamic capacity"),
