@@ -10,8 +10,7 @@ def verdict(number: int, value: float) -> Verdict:
     subject = f"shafts[{number - 1}]"
     kind = "length of shaft {number}"
     title = kind.format(number=number)
-    said = {"kind": kind, "part": str(number), "title": title}
-    return Verdict(check="length", subject=subject, value=value, limit=1500.0, **said)
+    return Verdict(check="length", kind=kind, title=title, subject=subject, value=value, limit=1500.0)
 
 
 def test_the_one_that_uses_most_stands_for_the_others():

@@ -113,7 +113,6 @@ class Check:
             one,
             check=self.name,
             kind=kind,
-            part=part,
             title=kind.format(number=part) if one.number else kind,
             dimension=one.dimension or self.dimension,
             unit=one.unit or self.unit,

@@ -70,8 +70,6 @@ class Verdict:
         Whether it is a rule of thumb that does not fail the drive.
     kind : str
         The title without the number, the same for all joints or shafts.
-    part : str
-        Number of what was judged, with its name where the file gives one.
     power : float
         Exponent of the torque in the utilisation; 0 where it does not depend on it.
     factor : float, optional
@@ -96,7 +94,6 @@ class Verdict:
     note: Text = ""
     advice: bool = False
     kind: str = ""
-    part: str = ""
     power: float = 0.0
     factor: float | None = None
 

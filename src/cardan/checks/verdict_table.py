@@ -299,10 +299,10 @@ def _used(one: Verdict) -> float:
 
 def title_of(group: Sequence[Verdict]) -> str:
     """Return what a group of verdicts is about."""
-    others = [one.part for one in group[1:] if one.number]
-    if not others:
+    numbers = [one.number for one in group[1:] if one.number]
+    if not numbers:
         return group[0].title
-    return _("{title} (and {numbers})").format(title=group[0].title, numbers=", ".join(others))
+    return _("{title} (and {numbers})").format(title=group[0].title, numbers=", ".join(map(str, numbers)))
 
 
 NO_LENGTH = 1e-5
