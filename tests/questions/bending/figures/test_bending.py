@@ -66,7 +66,8 @@ def test_a_single_speed_is_a_line_and_none_is_nothing():
     ("duty", "roles"),
     [
         (Duty(speed_range=(0.0, 400.0)), ("warning", "accent", "accent")),
-        (Duty(speed_range=(300.0, 600.0)), ("warning", "warning", "accent")),
+        (Duty(speed_range=(300.0, 500.0)), ("warning", "warning", "accent")),
+        (Duty(speed_range=(300.0, 600.0)), ("warning", "failed", "accent")),
         (Duty(speed_range=(300.0, 800.0)), ("warning", "failed", "accent")),
         (Duty(speed=900.0), ("warning", "failed", "accent")),
     ],
