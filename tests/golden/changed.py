@@ -6,6 +6,8 @@ WORST = "the largest loads and joint angles of poses and movements count, not th
 
 TOP = "the speeds in use end where the range is varied to end, so that a lower end is a remedy too"
 
+HELD = "end shafts without a support are held by their machines, as in forces, bending and assembly"
+
 BINS = "bins are as wide as a power of two of the unit, which is per cent now"
 
 MORE = "the best settings on spline teeth over all poses stand beside those without teeth"
@@ -32,6 +34,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
     (r"losses examples/truck-supports\.toml", r".*(heat|power|efficiency|torque|journals).*", HALVES),
     (r"rotor examples/\S+ --joint", r"orders\..*", "the angles of yokes, unbalances and cracks count beside a joint"),
     (r"joint$", r"kinds\.keys\..*", "a tripod has a key more, the far joint on which its shaft pivots"),
+    (r"mobility examples/(truck-duty-cycle|two-piece-rubber-bearing)\.toml", r".*", HELD),
     (r"check examples/truck-duty-cycle\.toml --torque-Nm", r"(cures|remedies)\..*", TOP),
     (r"sweep examples/sweeps/tolerance-field\.toml", r"reductions\.histogram irregularity\..*", BINS),
     (r"phases examples/truck-rear-axle\.toml", r"settings\..*", MORE),
