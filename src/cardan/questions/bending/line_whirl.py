@@ -10,6 +10,7 @@ import numpy as np
 import scipy
 
 from cardan.drive.body import pieces
+from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
@@ -29,7 +30,7 @@ from cardan.questions.forces.kinetostatics import standing
 from cardan.texts import _
 
 from .balance import balance
-from .bending import elements, used_speeds
+from .bending import elements
 from .whirl_line import WhirlLine, crack_place, whirl_line
 
 TURN = 64
