@@ -95,7 +95,7 @@ class Verdict:
     advice: bool = False
     kind: str = ""
     power: float = 0.0
-    factor: float | None = None
+    factor: Array | float | None = None
 
     @property
     def number(self) -> int:

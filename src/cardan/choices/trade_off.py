@@ -19,7 +19,7 @@ from cardan.errors import InputError, Problem, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
 
-STRENGTH = ("tube_strength", "tube_fatigue", "tube_buckling", "twist")
+STRENGTH = ("tube_strength", "tube_fatigue", "shaft_life", "tube_buckling", "twist")
 """Checks that make up the utilisation."""
 
 OUTER, WALL = (0.5, 1.8, 53), (0.3, 3.0, 7)

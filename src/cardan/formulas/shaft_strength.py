@@ -248,12 +248,7 @@ def shaft_fatigue(
         (kf * (xp.abs(joint_angle_mean) + joint_angle_swing)) ** 2
         + 3.0 * (kfs * (xp.abs(twist_mean) + twist_swing)) ** 2
     )
-    level = 0.9 * ultimate / endurance
-    rest = xp.where(mean < ultimate, 1.0 - mean / ultimate, 1.0)
-    slope = -xp.log10(level) / 3.0
-    reversed_stress = xp.where(alternating > 0.0, alternating, 1.0) / rest
-    cycles = (reversed_stress / (level * 0.9 * ultimate)) ** (1.0 / slope)
-    cycles = xp.where(use <= 1.0, math.inf, xp.where(mean >= ultimate, 0.0, cycles))
+    cycles = fatigue_cycles(alternating, mean, endurance, ultimate)
     unloaded = xp.where(use > 0.0, use, 1.0)
     stressed = xp.where(most > 0.0, most, 1.0)
     return Fatigue(
@@ -264,6 +259,25 @@ def shaft_fatigue(
         yield_safety=xp.where(most > 0.0, strength / stressed, math.inf),
         cycles=cycles,
     )
+
+
+def fatigue_cycles(alternating: ArrayLike, mean: ArrayLike, endurance: ArrayLike, ultimate: ArrayLike) -> Array:
+    """Return the cycles that a part lasts, infinite where Goodman's safety is 1 and more, array (...).
+
+    alternating, mean, endurance, ultimate (...) [Pa]: σ_a, σ_m, S_e, S_ut; see `shaft_fatigue`.
+
+    >>> round(float(fatigue_cycles(300e6, 0.0, 200e6, 600e6)))
+    59613
+    """
+    swing, steady, limit, strength = floats(alternating, mean, endurance, ultimate)
+    xp = namespace(swing, steady)
+    level = 0.9 * strength / limit
+    slope = -xp.log10(level) / 3.0
+    rest = xp.where(steady < strength, 1.0 - steady / strength, 1.0)
+    reversed_stress = xp.where(swing > 0.0, swing, 1.0) / rest
+    cycles = (reversed_stress / (level * 0.9 * strength)) ** (1.0 / slope)
+    use = swing / limit + steady / strength
+    return xp.where(use <= 1.0, math.inf, xp.where(steady >= strength, 0.0, cycles))
 
 
 # Tube of fibre composite: its moduli, mass and the torque at which it buckles.

@@ -34,6 +34,7 @@ SAME = 1e-9
 SIZED = {
     "tube_strength": "tube",
     "tube_fatigue": "tube",
+    "shaft_life": "tube",
     "tube_buckling": "tube",
     "journal_strength": "journal",
     "needle_static": "needles",
@@ -145,7 +146,7 @@ def _shafts(drive: Drive, result: Strength) -> Table:
             Column(
                 key="safety",
                 heading=_("safety, fatigue"),
-                values=[None if one.fatigue is None else float(one.fatigue.safety) for one in shafts],
+                values=[None if one.fatigue is None else one.safety for one in shafts],
                 decimals=2,
             ),
             *_cases("fatigue_case", _("load case, fatigue"), [one.fatigue_case for one in shafts]),

@@ -21,7 +21,11 @@ SHOWN = 16
 
 def strength_figures(found: Strength) -> tuple[Figure, ...]:
     """Return the figures of the strength of a drive."""
-    tired = [one for one in found.shafts if one.fatigue is not None and float(one.fatigue.mean) > 0.0]
+    tired = [
+        one
+        for one in found.shafts
+        if one.fatigue is not None and float(one.fatigue.mean + one.fatigue.alternating) > 0.0
+    ]
     return (uses_figure(found), fatigue_figure(found)) if tired else (uses_figure(found),)
 
 
@@ -97,7 +101,7 @@ def fatigue_figure(found: Strength) -> Figure:
     for one in found.shafts:
         if one.fatigue is not None:
             swing = float(one.fatigue.alternating) / float(one.fatigue.endurance)
-            places.append((one.number, 1.0 / float(one.fatigue.safety) - swing, swing, float(one.fatigue.safety)))
+            places.append((one.number, 1.0 / float(one.fatigue.safety) - swing, swing, one.safety))
     most = max(1.0, *(1.1 * max(mean, swing) for _number, mean, swing, _safety in places))
     asked = next((one.bound for one in found.judged if one.check == "tube_fatigue"), 1.5)
     line = np.asarray([0.0, 1.0])

@@ -3,26 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cardan.checks.design import Design
-from cardan.checks.load_case import Case
 from cardan.formulas.joint_rating import Contact
 from cardan.formulas.part_strength import PartStress, SplineStress
 from cardan.formulas.shaft_strength import Fatigue, ShaftStress, shaft_stress, torsion_modulus
 from cardan.maths.ties import foremost_of
-from cardan.questions.life.rainflow import rainflow, time_at_level
 
 from . import contact_pressure, journal_strength, yoke_strength
 from .journal_strength import journal_load
 from .needle_static import static_capacity
-from .section import Section, modulus, sections
+from .section import modulus, sections
+from .shaft_life import STRENGTHS, fatigue, fatigue_life, hardest_cycle, lasting, life_safety, measured
 from .spline_pressure import lacking, stresses
 from .tube_buckling import composite_buckling
-from .tube_fatigue import STRENGTHS, fatigue, of_loads
 from .twist import compliance
 
 
@@ -38,7 +35,9 @@ class ShaftStrength:
     weight_bending: float = math.nan
     stress: ShaftStress | None = None  # of the stretch that is worst off
     stretch: int = 1  # which stretch that is, from 1
-    fatigue: Fatigue | None = None  # of the stretch and the way of running with the least safety
+    # of the stretch and the way of running, or the cycle of a measured torque, with the least safety
+    fatigue: Fatigue | None = None
+    safety: float = math.nan  # against fatigue, in the life asked for under a measured torque; nan where not known
     # [s]: running time until the shaft breaks by Palmgren's and Miner's rule; infinite where it does not, nan where not
     # known
     fatigue_life: float = math.nan
@@ -81,55 +80,12 @@ def shaft_strength(design: Design, k: int) -> ShaftStrength:
     every = [(fatigue(design, k, one, c), c) for one in found for c in design.loaded]
     tired, at = foremost_of(every, lambda one: float(one[0].safety), least=True)
     moving = any(one.speed for one in lasting(design)) or design.duty.torque_history is not None
-    return replace(
-        plain,
-        fatigue=tired,
-        fatigue_case=design.called(at),
-        fatigue_life=_life(design, k, found) if moving else math.nan,
-    )
-
-
-def lasting(design: Design) -> Sequence[Case]:
-    """Return the ways of running that make up the time of a duty by themselves: none where a torque was measured."""
-    history = design.duty.torque_history
-    measured = history is not None and bool(history.torques)
-    return [one for one in design.running if float(one.share) > 0.0 and (one.block or not measured)]
-
-
-def _life(design: Design, k: int, found: Sequence[Section]) -> float:
-    """Return the time until the worst stretch breaks, by Palmgren and Miner [s]."""
-    rates = [_damage(design, k, one) + _measured(design, k, one) for one in found]
-    return min(1.0 / rate if rate > 0.0 else math.inf for rate in rates)
-
-
-def _damage(design: Design, k: int, section: Section) -> float:
-    """Return the damage a second of every turn."""
-    rate = 0.0
-    for case in lasting(design):
-        cycles = float(fatigue(design, k, section, case).cycles)
-        rate += float(case.share) * abs(float(case.speed or 0.0)) / (2.0 * math.pi * max(cycles, 1.0))
-    return rate
-
-
-def _measured(design: Design, k: int, section: Section) -> float:
-    """Return the damage a second of a torque history: its own cycles, and the turns at its levels."""
-    duty = design.duty
-    history = duty.torque_history
-    if history is None or not history.torques or duty.blocks:
-        return 0.0
-    peak, most = design.loaded[-1], max(abs(one) for one in history.torques) or 1.0
-    low, high = (float(torque[k]) / most for torque in peak.torque_range)
-    bending = float(peak.end_bending[k]) / most
-    counted = rainflow(history.torques)
-    own = of_loads(design, k, section, high * np.abs(counted.mean), 0.5 * high * counted.range, 0.0)
-    rate = float(np.sum(counted.count / np.maximum(own.cycles, 1.0))) / (history.times[-1] - history.times[0])
-    if not duty.speed:
-        return rate
-    levels = time_at_level(history.times, history.torques)
-    size = np.abs(levels.value)
-    turned = of_loads(design, k, section, 0.5 * (high + low) * size, 0.5 * (high - low) * size, bending * size)
-    turns = abs(duty.speed) / (2.0 * math.pi)
-    return rate + float(np.sum(levels.share / np.maximum(turned.cycles, 1.0))) * turns
+    safety = float(tired.safety)
+    if measured(design):
+        cycled, safety = hardest_cycle(design, k), min(safety, float(life_safety(design, k)))
+        tired = cycled if float(cycled.safety) < float(tired.safety) else tired
+    life = float(fatigue_life(design, k)) if moving else math.nan
+    return replace(plain, fatigue=tired, fatigue_case=design.called(at), safety=safety, fatigue_life=life)
 
 
 def weight_bending(design: Design, k: int) -> float:

@@ -8,16 +8,12 @@ import numpy as np
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
-from cardan.checks.load_case import Case
 from cardan.checks.verdict import Verdict
-from cardan.drive.shaft import Notch
-from cardan.formulas.shaft_strength import Fatigue, shaft_fatigue
-from cardan.maths.arrays import ArrayLike
+from cardan.maths.arrays import Array
 from cardan.texts import _, mark
 
-from .section import Section, sections
-
-STRENGTHS = ("ultimate_strength", "yield_strength")
+from .section import sections
+from .shaft_life import STRENGTHS, fatigue, fatigue_variables, life_safety, measured
 
 
 def _judge(design: Design, k: int) -> Iterator[Verdict]:
@@ -35,48 +31,14 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
         yield Verdict(missing=lacking)
         return
     safeties = [fatigue(design, k, section, case).safety for case in design.loaded for section in found]
-    sizes = tuple(path for section in found for path in section.design_variables)
-    notches = design.design_variables(f"shafts[{k}].notch.bending", f"shafts[{k}].notch.torsion")
+    steady: Array = np.min(np.stack(np.broadcast_arrays(*safeties)), axis=0)
+    cycled = life_safety(design, k) if measured(design) else np.inf
     yield Verdict(
-        value=np.min(np.stack(np.broadcast_arrays(*safeties)), axis=0),
+        value=np.minimum(steady, cycled),
         limit=design.value("limits.fatigue_safety"),
         source=_("Goodman with Marin's factors, Shigley chapter 6"),
-        design_variables=(
-            *sizes,
-            strengths[0],
-            *notches,
-            *design.joint_angle_design_variables,
-            *design.torque_design_variables,
-        ),
-    )
-
-
-def fatigue(design: Design, k: int, section: Section, case: Case) -> Fatigue:
-    """Return the fatigue of a stretch of a shaft, counted from 0, in one way of running."""
-    least, most = (torque[..., k] for torque in case.torque_range)
-    return of_loads(design, k, section, 0.5 * (most + least), 0.5 * (most - least), case.end_bending[..., k])
-
-
-def of_loads(
-    design: Design, k: int, section: Section, mean: ArrayLike, alternating: ArrayLike, bending: ArrayLike
-) -> Fatigue:
-    """Return the fatigue of a stretch under a mean and an alternating torque and a bending moment that turns [N·m]."""
-    shaft = design.drive.shafts[k]
-    notch = shaft.notch or Notch()
-    factors = {name: design.value(f"shafts[{k}].notch.{name}") for name in ("bending", "torsion")}
-    return shaft_fatigue(
-        mean_torque=mean,
-        swinging_torque=alternating,
-        mean_bending=0.0,
-        swinging_bending=bending,
-        outer=np.asarray(section.outer, dtype=float),
-        inner=section.inner,
-        ultimate=design.value(section.of_material("ultimate_strength")),
-        yield_strength=design.value(section.of_material("yield_strength")),
-        finish=shaft.finish,
-        bending_notch=notch.bending if factors["bending"] is None else factors["bending"],
-        torsion_notch=notch.torsion if factors["torsion"] is None else factors["torsion"],
-        reliability=design.duty.reliability,
+        design_variables=fatigue_variables(design, k),
+        note=_("decided by the cycles of the measured torque") if np.all(cycled < steady) else "",
     )
 
 

@@ -1,0 +1,284 @@
+"""Whether every shaft lasts as long as the duty asks under a measured torque, by the damage of its cycles and turns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.load_case import Case
+from cardan.checks.verdict import Verdict
+from cardan.drive.shaft import Notch
+from cardan.formulas.shaft_strength import Fatigue, fatigue_cycles, shaft_fatigue
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.ties import foremost_of
+from cardan.questions.life.rainflow import Cycles, rainflow, time_at_level
+from cardan.texts import _, mark
+
+from .section import Section, sections
+
+STRENGTHS = ("ultimate_strength", "yield_strength")
+
+CLASSES = (200, 50)
+"""Classes of range and of mean into which more different cycles than these have are sorted."""
+
+SLOPE = 6.0
+"""Exponent by which the range of a class damages as much as the cycles in it, whose ranges differ by half a percent."""
+
+ROUNDS, REACH = 40, 100.0
+"""Halvings in search of the factor on the torques, and how far above the least that damages it is looked for."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Spectrum:
+    """Stress cycles of a stretch of a shaft in a time; leading axes (...) are those of the drives."""
+
+    alternating: Array  # alternating, mean (..., k) [Pa]: equivalent stresses by von Mises
+    mean: Array  # (..., k) [Pa]
+    rate: Array  # (..., k) [1/s]: how often each of them comes
+    endurance: Array  # endurance, ultimate (..., 1) [Pa]: S_e and S_ut
+    ultimate: Array
+
+    def damage(self, factor: ArrayLike = 1.0) -> Array:
+        """Return the damage a second with all torques times a factor (...), array (...), by Palmgren and Miner."""
+        more = np.asarray(factor, dtype=float)[..., None]
+        cycles = fatigue_cycles(more * self.alternating, more * self.mean, self.endurance, self.ultimate)
+        found: Array = np.sum(self.rate / np.maximum(cycles, 1.0), axis=-1)
+        return found
+
+    @property
+    def unharmed(self) -> Array:
+        """Factor on all torques up to which nothing damages, array (...): the least safety of its cycles by Goodman."""
+        use = np.where(self.rate > 0.0, self.alternating / self.endurance + self.mean / self.ultimate, 0.0)
+        with np.errstate(divide="ignore"):
+            found: Array = 1.0 / np.max(use, axis=-1, initial=0.0)
+        return found
+
+    def safety(self, life: ArrayLike | None) -> Array:
+        """Return the factor on all torques with which the damage in a life [s] comes to 1, array (...).
+
+        Without a life it is that from which there is any damage.
+        """
+        low = self.unharmed
+        if life is None:
+            return low
+        low, high = np.where(np.isfinite(low), low, 1.0), REACH * np.where(np.isfinite(low), low, 1.0)
+        allowed = 1.0 / np.asarray(life, dtype=float)
+        for _round in range(ROUNDS):
+            middle = np.sqrt(low * high)
+            kept = self.damage(middle) <= allowed
+            low, high = np.where(kept, middle, low), np.where(kept, high, middle)
+        return np.where(np.isfinite(self.unharmed), low, np.inf)
+
+
+def measured(design: Design) -> bool:
+    """Tell whether the torque of a duty was measured over time."""
+    history = design.duty.torque_history
+    return history is not None and bool(history.torques) and not design.duty.blocks
+
+
+def spectrum(design: Design, k: int, section: Section) -> Spectrum:
+    """Return the stress cycles of a stretch of a shaft, counted from 0, under a measured torque.
+
+    Cycles of the torque itself by rainflow, and the turns of the shaft in the time at its levels.
+    """
+    history = design.duty.torque_history
+    assert history is not None
+    peak, most = design.loaded[-1], max(abs(one) for one in history.torques) or 1.0
+    low, high = (np.asarray(torque[..., [k]]) / most for torque in peak.torque_range)
+    bending = np.asarray(peak.end_bending[..., [k]]) / most
+    counted = sorted_into_classes(rainflow(history.torques))
+    levels = time_at_level(history.times, history.torques)
+    spent = levels.share > 0.0
+    size = np.abs(levels.value[spent])
+    speed = design.value("duty.speed")
+    turns = np.abs(np.asarray(0.0 if speed is None else speed))[..., None] / (2.0 * math.pi)
+    parts = (
+        (high * np.abs(counted.mean), 0.5 * high * counted.range, 0.0 * bending, counted.count / _duration(design)),
+        (0.5 * (high + low) * size, 0.5 * (high - low) * size, bending * size, turns * levels.share[spent]),
+    )
+    found = [of_loads(design, k, section, *loads, spread=True) for *loads, _rate in parts]
+    outer = np.broadcast_shapes(*(one.alternating.shape[:-1] for one in found), np.shape(turns)[:-1])
+
+    def whole(rows: Sequence[Array]) -> Array:
+        return np.concatenate([np.broadcast_to(one, (*outer, np.shape(one)[-1])) for one in rows], axis=-1)
+
+    ultimate = np.asarray(design.value(section.of_material("ultimate_strength")), dtype=float)[..., None]
+    return Spectrum(
+        alternating=whole([one.alternating for one in found]),
+        mean=whole([one.mean for one in found]),
+        rate=whole([rate for *_loads, rate in parts]),
+        endurance=found[0].endurance,
+        ultimate=ultimate,
+    )
+
+
+def _duration(design: Design) -> float:
+    history = design.duty.torque_history
+    assert history is not None
+    return history.times[-1] - history.times[0]
+
+
+def sorted_into_classes(cycles: Cycles) -> Cycles:
+    """Return equal cycles as one, and very many different ones in classes that damage as much."""
+    most = max(float(np.max(cycles.range, initial=0.0)), 1e-300)
+    for fine in (1e-9, None):
+        steps = (most * fine, most * fine) if fine else (most / CLASSES[0], most / CLASSES[1])
+        keys = np.round(np.stack((cycles.range / steps[0], np.abs(cycles.mean) / steps[1]), axis=-1))
+        _classes, where = np.unique(keys, axis=0, return_inverse=True)
+        where = where.reshape(-1)
+        if np.max(where, initial=-1) < CLASSES[0] * 2:
+            break
+    count = np.bincount(where, cycles.count)
+    power, mean = (
+        np.bincount(where, cycles.count * one) / count for one in ((cycles.range / most) ** SLOPE, np.abs(cycles.mean))
+    )
+    first = np.unique(where, return_index=True)[1]
+    return Cycles(
+        range=most * power ** (1.0 / SLOPE), mean=mean, count=count, start=cycles.start[first], end=cycles.end[first]
+    )
+
+
+def lasting(design: Design) -> Sequence[Case]:
+    """Return the ways of running that make up the time of a duty by themselves: none where a torque was measured."""
+    history = design.duty.torque_history
+    given = history is not None and bool(history.torques)
+    return [one for one in design.running if np.all(np.asarray(one.share) > 0.0) and (one.block or not given)]
+
+
+def fatigue_life(design: Design, k: int) -> Array:
+    """Return the running time until the worst stretch of a shaft, counted from 0, breaks, array (...) [s]."""
+    rates = [_of_turns(design, k, one) + _of_history(design, k, one) for one in sections(design, k)]
+    with np.errstate(divide="ignore"):
+        found: Array = 1.0 / np.max(np.stack(np.broadcast_arrays(*rates)), axis=0)
+    return found
+
+
+def _of_turns(design: Design, k: int, section: Section) -> Array:
+    """Return the damage a second of every turn."""
+    rate: Array = np.zeros(design.shape)
+    for case in lasting(design):
+        turns = np.asarray(case.share) * np.abs(case.speed or 0.0) / (2.0 * math.pi)
+        rate = rate + turns / np.maximum(fatigue(design, k, section, case).cycles, 1.0)
+    return rate
+
+
+def _of_history(design: Design, k: int, section: Section) -> Array:
+    """Return the damage a second of a measured torque."""
+    return spectrum(design, k, section).damage() if measured(design) else np.zeros(design.shape)
+
+
+def life_safety(design: Design, k: int) -> Array:
+    """Return the factor on a measured torque with which a shaft, counted from 0, lasts just as asked, array (...)."""
+    life = design.value("duty.life")
+    every = [spectrum(design, k, one).safety(life) for one in sections(design, k)]
+    return np.asarray(np.min(np.stack(np.broadcast_arrays(*every)), axis=0))
+
+
+def hardest_cycle(design: Design, k: int) -> Fatigue:
+    """Return the fatigue of the worst stretch of a shaft of one drive in the cycle with the least safety."""
+    every = [spectrum(design, k, one) for one in sections(design, k)]
+    worst = foremost_of(every, lambda one: float(one.unharmed), least=True)
+    at = int(np.argmax(worst.alternating / worst.endurance + worst.mean / worst.ultimate))
+    swing, mean, endurance = worst.alternating[at], worst.mean[at], worst.endurance[0]
+    strengths = [design.value(one.of_material("yield_strength")) for one in sections(design, k)]
+    return Fatigue(
+        endurance=endurance,
+        alternating=swing,
+        mean=mean,
+        safety=worst.unharmed,
+        yield_safety=np.asarray(min(strengths) / max(float(swing + mean), 1e-300)),
+        cycles=fatigue_cycles(swing, mean, endurance, worst.ultimate[0]),
+    )
+
+
+def fatigue(design: Design, k: int, section: Section, case: Case) -> Fatigue:
+    """Return the fatigue of a stretch of a shaft, counted from 0, in one way of running."""
+    least, most = (torque[..., k] for torque in case.torque_range)
+    return of_loads(design, k, section, 0.5 * (most + least), 0.5 * (most - least), case.end_bending[..., k])
+
+
+def of_loads(
+    design: Design,
+    k: int,
+    section: Section,
+    mean: ArrayLike,
+    alternating: ArrayLike,
+    bending: ArrayLike,
+    *,
+    spread: bool = False,
+) -> Fatigue:
+    """Return the fatigue of a stretch under a mean and an alternating torque and a bending moment that turns [N·m].
+
+    spread: whether the loads have one axis more than the design, of cycles.
+    """
+    shaft = design.drive.shafts[k]
+    notch = shaft.notch or Notch()
+    factors = {name: design.value(f"shafts[{k}].notch.{name}") for name in ("bending", "torsion")}
+
+    def wide(value: ArrayLike) -> Array:
+        given = np.asarray(value, dtype=float)
+        return given[..., None] if spread else given
+
+    return shaft_fatigue(
+        mean_torque=np.abs(np.asarray(mean)),
+        swinging_torque=alternating,
+        mean_bending=0.0,
+        swinging_bending=bending,
+        outer=wide(section.outer),
+        inner=wide(section.inner),
+        ultimate=wide(design.value(section.of_material("ultimate_strength"))),
+        yield_strength=wide(design.value(section.of_material("yield_strength"))),
+        finish=shaft.finish,
+        bending_notch=wide(notch.bending if factors["bending"] is None else factors["bending"]),
+        torsion_notch=wide(notch.torsion if factors["torsion"] is None else factors["torsion"]),
+        reliability=design.duty.reliability,
+    )
+
+
+def _judge(design: Design, k: int) -> Iterator[Verdict]:
+    found = list(sections(design, k))
+    if not measured(design) or design.drive.shafts[k].layup is not None or not (found or 0 < k < design.joints):
+        return
+    strengths = [section.of_material(name) for section in found for name in STRENGTHS]
+    body = () if found else (f"shafts[{k}].outer",)
+    lacking = (*body, *design.missing("duty.life", *strengths))
+    if lacking:
+        yield Verdict(missing=lacking)
+        return
+    factor = life_safety(design, k)
+    yield Verdict(
+        value=fatigue_life(design, k),
+        limit=design.value("duty.life"),
+        source=_("rainflow by ASTM E1049, turns by time at level, Palmgren-Miner; S-N line of Shigley chapter 6"),
+        design_variables=(*fatigue_variables(design, k), "duty.life"),
+        factor=factor,
+    )
+
+
+def fatigue_variables(design: Design, k: int) -> tuple[str, ...]:
+    """Return the paths that move the fatigue of a shaft, counted from 0."""
+    found = list(sections(design, k))
+    return (
+        *(path for section in found for path in section.design_variables),
+        found[0].of_material("ultimate_strength"),
+        *design.design_variables(f"shafts[{k}].notch.bending", f"shafts[{k}].notch.torsion"),
+        *design.joint_angle_design_variables,
+        *design.torque_design_variables,
+    )
+
+
+CHECK = Check(
+    name="shaft_life",
+    doc=mark("fatigue life of every shaft under a measured torque against the life asked for"),
+    shaft=_judge,
+    title=mark("fatigue life of shaft {number}"),
+    dimension="duration",
+    unit="h",
+    sense="at_least",
+    power=1.0,
+)
