@@ -29,7 +29,7 @@ from cardan.questions.forces.turn_loads import TurnLoads, at_joint_angle
 from cardan.questions.motion.turning import Swing, swing
 from cardan.texts import _
 
-from .load_case import Case, largest
+from .load_case import Case, largest, vibration
 from .movement_loads import Moved, largest_joint_angles, largest_of
 
 _STEP = re.compile(r"([a-z_][a-z0-9_]*)((?:\[\d+\])*)$")
@@ -230,6 +230,7 @@ class Design:
             torque_at=one.torque_at,
             harmonics=one.harmonics,
             scale=scale,
+            vibrating=lambda: None if history else vibration(replace(self.drive, poses=()), one),
         )
 
     @property

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
+from cardan.drive.conditions import LoadCase, under
+from cardan.drive.drive import Drive
 from cardan.drive.duty import Harmonic
-from cardan.drive.models.kinematics_model import Chain
+from cardan.drive.models.kinematics_model import Chain, given_chain, turning
+from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
-from cardan.questions.forces.turn_loads import TurnLoads, turn_loads
+from cardan.questions.forces.turn_loads import TurnLoads, case_loads, largest_loads, turn_loads
+from cardan.questions.motion.motion import motion
+from cardan.questions.torsion.model.torsion import torsion_modes
+from cardan.questions.torsion.steady.dynamic_torque import DynamicTorque, dynamic_torque, has_torsion
 
 BLOCK = 512
 """Drives looked at together: their positions fit the cache."""
@@ -23,8 +29,106 @@ MANY = 40
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class Vibration:
+    """What torsional vibration makes of the loads of one drive in one way of running."""
+
+    speed: Array  # (s,) [rad/s]: speeds in use at which it was looked at
+    low: Array  # low, high (s, n+1) [N·m]: least and largest torque of every shaft, counted along the mean torque
+    high: Array
+    more: TurnLoads  # largest loads at any of these speeds less those without vibration
+    without: Array  # (n+1,) [N·m]: largest torque of every shaft without vibration
+
+    @property
+    def growth(self) -> Array:
+        """Largest torque over that without vibration, array (s, n+1); nan for a shaft that carries none."""
+        size = np.maximum(np.abs(self.low), np.abs(self.high))
+        found: Array = size / np.where(self.without > 0.0, self.without, np.nan)
+        return found
+
+
+RANGE, AROUND = 41, (-0.02, -0.006, -0.002, 0.0, 0.002, 0.006, 0.02)
+"""Speeds at which a range of speeds is looked at, and further ones about every resonance, as shares of its speed."""
+
+CLOSER, ROUNDS = 3, 3
+"""Further speeds on either side of the largest torque, and how often they are put ever closer to it."""
+
+SLOWEST = 0.05
+"""Share of its upper end below which a range of speeds is not looked at."""
+
+
+@lru_cache(maxsize=256)
+def vibration(drive: Drive, case: LoadCase) -> Vibration | None:
+    """Return what torsional vibration adds to the loads of a drive, without poses, in one way of running.
+
+    None where the file does not tell it: no masses and stiffness, no speed, a torque that runs in time.
+    At the speed of the duty backlash opens; over a range of speeds it counts as closed.
+    """
+    run = under(drive, case)
+    if not has_torsion(run) or not (case.speed or case.speed_range):
+        return None
+    try:
+        found = [dynamic_torque(run, speed=[case.speed])] if case.speed else []
+        if case.speed_range is not None:
+            found += _over_range(run, *case.speed_range)
+    except InputError:
+        return None
+    found = [one for one in found if np.any(one.found)]
+    if not found:
+        return None
+    chain = turning(given_chain(run), run.joints, near=True)
+    sign = -1.0 if (case.torque or 0.0) < 0.0 else 1.0
+    without = case_loads(run, replace(case, joint_angle=None))
+    loads = [_loads(chain, one) for one in found]
+    low, high = (np.concatenate([getattr(one, name)[one.found] for one in found]) for name in ("low", "high"))
+    ends = (low, high) if sign > 0.0 else (-high, -low)
+    most = {name: np.max([getattr(one, name) for one in loads], axis=0) for name in vars(without)}
+    most |= {"low": np.min(ends[0], axis=0), "high": np.max(ends[1], axis=0)}
+    return Vibration(
+        speed=np.concatenate([one.speed[one.found] for one in found]),
+        low=ends[0],
+        high=ends[1],
+        more=TurnLoads(**{name: values - getattr(without, name) for name, values in most.items()}),
+        without=without.torque,
+    )
+
+
+def _loads(chain: Chain, found: DynamicTorque) -> TurnLoads:
+    """Return the largest loads of a drive that vibrates, over all its speeds."""
+    entering, leaving = (one[found.found] for one in found.at_joints(found.angle))
+    beside = found.beside[found.found][..., None]
+    own = largest_loads(
+        chain,
+        motion(chain, found.angle),
+        np.abs(entering) + beside,
+        np.abs(leaving) + beside,
+        low=found.low[found.found],
+        high=found.high[found.found],
+    )
+    return TurnLoads(**{name: np.max(values, axis=0) for name, values in vars(own).items()})
+
+
+def _over_range(drive: Drive, low: float, high: float) -> list[DynamicTorque]:
+    """Return the torques over a range of input speeds, closer where they are largest."""
+    low = max(low, SLOWEST * high)
+    met = [one.speed for one in torsion_modes(drive).crossings]
+    near = np.asarray([speed * (1.0 + share) for speed in met for share in AROUND])
+    speed = np.unique(np.append(np.linspace(low, high, RANGE), near[(near >= low) & (near <= high)]))
+    found = [dynamic_torque(drive, speed=speed, closed=True)]
+    for _round in range(ROUNDS):
+        every = np.concatenate([one.speed for one in found])
+        size = np.concatenate([np.nan_to_num(np.max(one.high - one.low, axis=-1), nan=-1.0) for one in found])
+        order = np.argsort(every)
+        every, size = every[order], size[order]
+        k = int(np.argmax(size))
+        sides = [every[far] for far in (k - 1, k + 1) if 0 <= far < every.size]
+        more = np.concatenate([np.linspace(every[k], side, CLOSER + 2)[1:-1] for side in sides])
+        found.append(dynamic_torque(drive, speed=more, closed=True))
+    return found
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Case:
-    """Steady running at a torque and a speed, without masses and friction.
+    """Steady running at a torque and a speed, without friction, and without masses but for torsional vibration.
 
     Leading axes (...) are those of the drives.
     """
@@ -43,6 +147,8 @@ class Case:
     harmonics: tuple[Harmonic, ...] = ()  # its swinging parts
     # (...) [N·m]: mean torque that the harmonics belong to, and with which they grow; zero where they do not
     scale: Array | float = 0.0
+    # tells what torsional vibration adds, of the drive that the others vary
+    vibrating: Callable[[], Vibration | None] = lambda: None
 
     @cached_property
     def joint_angle(self) -> Array:
@@ -58,6 +164,12 @@ class Case:
     def torque_range(self) -> tuple[Array, Array]:
         """Least and largest torque of every shaft over a turn, two arrays (..., n+1) [N·m]."""
         return self._loads.low, self._loads.high
+
+    @property
+    def mean_torque(self) -> Array:
+        """Middle of the torque of every shaft over a turn without torsional vibration, array (..., n+1) [N·m]."""
+        plain = self._without_vibration
+        return 0.5 * (plain.low + plain.high)
 
     @property
     def shaft_torque(self) -> Array:
@@ -94,6 +206,15 @@ class Case:
     @cached_property
     def _loads(self) -> TurnLoads:
         """Largest loads over a turn."""
+        plain, added = self._without_vibration, self.vibrating()
+        if added is None:
+            return plain
+        found = {name: values + getattr(added.more, name) for name, values in vars(plain).items()}
+        signed = {name: found.pop(name) for name in ("low", "high")}
+        return TurnLoads(**signed, **{name: np.maximum(values, 0.0) for name, values in found.items()})
+
+    @cached_property
+    def _without_vibration(self) -> TurnLoads:
         torque = np.asarray(self.torque, dtype=float)
         if self.harmonics:
             return turn_loads(self.chain, torque, torque_at=self.torque_at, harmonics=self.harmonics, scale=self.scale)

@@ -17,6 +17,7 @@ from cardan.drive.fields.paths import with_values
 from cardan.errors import InputError, Problem, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost_of
+from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.texts import _
 
 REACH = (1e-4, 1e4)
@@ -33,6 +34,12 @@ ROUNDS = 15
 
 PLACES = 41
 """Sizes looked at in a round."""
+
+AGAIN, NEARLY = 6, 1e-3
+"""Times that sizes are looked for with the vibration of the last one found, and the change at which that ends."""
+
+LARGER, TRIED = 1.04, 24
+"""Step by which sizes grow, and how many are tried, where that does not rest."""
 
 FINE = 1e-13
 """Share of a size to which it is found."""
@@ -62,10 +69,12 @@ def solved(
         fields = skipped or ("duty.torque",)
         raise InputError(Problem(path, _("missing; the size depends on it"), "missing") for path in fields)
 
+    near = base
+
     def worst_of(factor: Array) -> Array:
         vary = {name: value * factor for name, value in free.items()}
         with np.errstate(all="ignore"):
-            verdicts = _of(check(base, only=names, vary=vary, known=rows), subject)
+            verdicts = _of(check(near, only=names, vary=vary, known=rows), subject)
         worst = np.max([np.broadcast_to(np.asarray(one.utilisation, dtype=float), factor.shape) for one in verdicts], 0)
         return np.where(np.isnan(worst), math.inf, worst)
 
@@ -79,6 +88,14 @@ def solved(
         sized = with_values(base, {name: value * factor for name, value in free.items()})
         return max(used(one) for one in _of(check(sized, only=names, known=rows), subject))
 
+    for _round in range(AGAIN if has_torsion(base) else 0):  # many sizes at once vibrate like one of them: the last
+        near = with_values(base, {name: value * factor for name, value in free.items()})
+        again = smallest(worst_of, *_range(most))
+        if again is None or abs(again / factor - 1.0) < NEARLY:
+            break
+        factor = again
+    if has_torsion(base) and alone(factor) > 1.0 + NEARLY:
+        factor = _larger(alone, factor, _range(most)[1], subject)
     factor = settled(alone, factor)
     exact = {name: value * factor for name, value in free.items()}
     values = {name: _made(name, one, series) for name, one in exact.items()}
@@ -104,6 +121,16 @@ def solved(
         skipped=skipped,
         series=series,
     )
+
+
+def _larger(alone: Callable[[float], float], factor: float, most: float, subject: str) -> float:
+    """Return the first of ever larger factors at which a part passes that vibrates differently at every size."""
+    for k in range(1, TRIED + 1):
+        larger = factor * LARGER**k
+        if larger <= most and alone(larger) <= 1.0:
+            return larger
+    text = _("no size near passes: with every one the drive vibrates in torsion too strongly")
+    raise refuse(spelled(subject), text, "out_of_range")
 
 
 def smallest(utilisation: Callable[[Array], Array], low: float, high: float) -> float | None:

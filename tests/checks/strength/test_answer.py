@@ -79,10 +79,12 @@ def test_torsional_vibration_is_named_beside_the_torques_without_it():
     drive = example("cured-drive")
     runs, (said,) = torsion_response(drive), alarms(drive)
     assert runs.floquet.verdict == Verdict.STABLE
-    assert f"{significant(float(runs.torque_highest.max()), 3)} N·m" in told(said.text, USUAL)
+    least, most = (significant(float(one[1]), 4) for one in (runs.torque_lowest, runs.torque_highest))
+    assert f"the torque in shaft 2 runs from −{least.strip('-−')} to {most} N·m" in told(said.text, USUAL)
     assert said.tone == "warning"  # 243 N·m, and the weakest part holds 818
+    assert f"{strength(drive).shafts[1].torque:.4g}" == most
     weak = replace(drive, limits=replace(drive.limits, twist=0.02))
-    assert [one.tone for one in alarms(weak)] == ["failed"]
+    assert [one.tone for one in alarms(weak)] == ["failed", "failed"]  # what failed, and what raises its torque
     assert alarms(example("car-propshaft")) == []
 
 

@@ -20,7 +20,7 @@ from cardan.drive.fields.keys import key_of
 from cardan.texts import _, mark, plural
 
 from .figure import strength_figures
-from .omitted import LeftOut
+from .omitted import LeftOut, Vibration
 from .strength import LITTLE, Strength, left_out, strength
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
@@ -217,8 +217,9 @@ def _remarks(result: Strength) -> Iterator[Remark]:
     yield from _failed(result)
     yield from unconfirmed_remark(result.binding)
     out = result.left_out
+    yield from _vibrating(result, runs_up=out is not None and out.runs_up)
     if out is not None:
-        yield from _left_out(result, out)
+        yield from _left_out(out)
     left = sum(not one.run for one in result.verdicts)
     if left and result.judged:
         text = plural(
@@ -228,7 +229,8 @@ def _remarks(result: Strength) -> Iterator[Remark]:
         )
         yield Remark(text=text.format(count=left), tone="warning")
         yield Remark(text=_("Which keys it lacks:"), command=("cardan", "check", FILE, "--missing"), tone="next")
-    if result.dynamic_factor > LITTLE and (out is None or out.journal is None):
+    counted = result.vibration is not None or (out is not None and out.journal is not None)
+    if result.dynamic_factor > LITTLE and not counted:
         text = _("Masses and friction raise the largest couple of a cross by {more}, which the stresses leave out.")
         covered = result.shock_factor >= result.dynamic_factor
         if covered:
@@ -273,17 +275,13 @@ def _failed(result: Strength) -> Iterator[Remark]:
         yield Remark(text=say(text, title=first.title))
 
 
-def _left_out(result: Strength, out: LeftOut) -> Iterator[Remark]:
+def _left_out(out: LeftOut) -> Iterator[Remark]:
     """Yield what the stresses leave out."""
-    if out.vibration is not None:
-        yield _vibrating(result, out)
-    yield Remark(
-        text=_(
-            "Stresses count what the torque of the duty makes without friction and masses; axial forces of splines, "
-            "weights and torsional vibration are not in them."
-        ),
-        tone="warning",
+    text = _(
+        "Stresses count what the torque of the duty makes without friction, masses only in torsional vibration; axial "
+        "forces of splines and weights are not in them."
     )
+    yield Remark(text=text, tone="warning")
     if out.supported:
         text = _(
             "The larger of the couples at its two ends bends a shaft; the chapter Forces adds both, as its supports do."
@@ -298,36 +296,36 @@ def _left_out(result: Strength, out: LeftOut) -> Iterator[Remark]:
         yield Remark(text=say(text, number=out.journal.joint, load=load, more=more), tone="warning")
 
 
-def _vibrating(result: Strength, out: LeftOut) -> Remark:
-    """Return what torsional vibration adds at the speed of the duty."""
-    found = out.vibration
-    assert found is not None
+def _vibrating(result: Strength, *, runs_up: bool) -> Iterator[Remark]:
+    """Yield what torsional vibration makes of the torque, or that it is not counted."""
+    found = result.vibration
+    if found is None:
+        text = _("Torsional vibration is not counted: the file says nothing of masses and stiffness (stations).")
+        if result.vibrates:
+            text = _("Torsional vibration is not counted: the file has masses or stiffness, but no motion can be told.")
+        yield Remark(text=text, tone="warning", alarm=result.vibrates)
+        return
     speed = Quantity(found.speed, "angular_speed", 3)
     if not found.stable:
         text = _(
-            "The strength leaves torsional vibration out: at {speed} it is unstable, so what torque the shafts reach "
-            "cannot be told."
+            "Torsional vibration is unstable at the speed of the duty: it grows beyond the torques counted here, which "
+            "are the least."
         )
-        return Remark(text=say(text, speed=speed), tone="failed", alarm=True)
+        yield Remark(text=text, tone="failed", alarm=True)
+        return
     text = _(
-        "The strength leaves torsional vibration out: at {speed} it takes the torque in {name} to {most}, {more} times "
-        "what is counted."
+        "Torsional vibration is counted: at {speed} the torque in {name} runs from {low:bare} to {high}, {more} times "
+        "that without it."
     )
-    beyond = result.torque_factor < found.factor
-    parts: list[Text] = [
-        say(
-            text,
-            speed=speed,
-            name=found.name,
-            most=Quantity(found.torque, "torque", 3),
-            more=Quantity(found.factor, digits=3),
-        )
-    ]
-    if beyond:
-        parts.append(_("That is more than the torque rating of the drive."))
-    if out.runs_up:
+    torques = {"low": found.low, "high": found.high}
+    told = {name: Quantity(value, "torque", 4) for name, value in torques.items()}
+    more = Quantity(found.factor, digits=3)
+    parts: list[Text] = [say(text, speed=speed, name=found.name, more=more, **told)]
+    if runs_up:
         parts.append(_("While running up it may be more: see Run-up."))
-    return Remark(text=Joined(parts, between=" "), tone="failed" if beyond else "warning", alarm=True)
+    grows = found.factor > LITTLE
+    tone: Tone = "plain" if not grows else "failed" if result.enough is False else "warning"
+    yield Remark(text=Joined(parts, between=" "), tone=tone, alarm=grows)
 
 
 def _keys(result: Strength) -> Iterator[KeyFigure]:
@@ -360,7 +358,20 @@ def _facts(result: Strength) -> dict[str, Any]:
         "governing": _named(result.governing),
         "shock_factor": result.shock_factor,
         "dynamic_factor": result.dynamic_factor,
+        "torsional_vibration": _vibration_facts(result.vibration),
         "extrapolated_shafts": result.extrapolated,
+    }
+
+
+def _vibration_facts(found: Vibration | None) -> dict[str, Any] | None:
+    if found is None:
+        return None
+    return {
+        "speed": Quantity(found.speed, "angular_speed"),
+        "low": Quantity(found.low, "torque"),
+        "high": Quantity(found.high, "torque"),
+        "factor": found.factor,
+        "stable": found.stable,
     }
 
 

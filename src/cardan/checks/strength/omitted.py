@@ -1,20 +1,20 @@
-"""What the stresses of a drive leave out, as it is told."""
+"""What the stresses of a drive count of torsional vibration, and what they leave out, as it is told."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, kw_only=True)
 class Vibration:
-    """Torsional vibration at the speed of the duty."""
+    """Torsional vibration at the speed in use at which it raises the torque most."""
 
     speed: float  # [rad/s]: input speed
-    stable: bool  # whether it dies out; where it does not, no torque is told
-    name: str = ""  # of the part whose torque it raises most
-    torque: float = math.nan  # [N·m]: largest torque there
-    factor: float = math.nan  # how many times the torque that the strength counts
+    stable: bool  # whether it dies out at the speed of the duty; else the torque is the least that is reached
+    name: str  # of the shaft whose torque it raises most
+    low: float  # low, high [N·m]: least and largest torque there, counted along its mean
+    high: float
+    factor: float  # how many times the torque without it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +30,6 @@ class Journal:
 class LeftOut:
     """What the stresses leave out, as far as it can be told and matters."""
 
-    vibration: Vibration | None = None
     journal: Journal | None = None
     supported: bool = False  # whether the supports of the drive are known, so that its forces are
     runs_up: bool = False  # whether its run-up is known, too

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -12,11 +13,12 @@ from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.load_case import Case
 from cardan.checks.verdict import Verdict
+from cardan.drive.duty import History
 from cardan.drive.shaft import Notch
 from cardan.formulas.shaft_strength import Fatigue, fatigue_cycles, shaft_fatigue
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import foremost_of
-from cardan.questions.life.rainflow import Cycles, rainflow, time_at_level
+from cardan.questions.life.rainflow import Cycles, Levels, rainflow, time_at_level
 from cardan.texts import _, mark
 
 from .section import Section, sections
@@ -91,8 +93,7 @@ def spectrum(design: Design, k: int, section: Section) -> Spectrum:
     peak, most = design.loaded[-1], max(abs(one) for one in history.torques) or 1.0
     low, high = (np.asarray(torque[..., [k]]) / most for torque in peak.torque_range)
     bending = np.asarray(peak.end_bending[..., [k]]) / most
-    counted = sorted_into_classes(rainflow(history.torques))
-    levels = time_at_level(history.times, history.torques)
+    counted, levels = _counted(history)
     spent = levels.share > 0.0
     size = np.abs(levels.value[spent])
     speed = design.value("duty.speed")
@@ -115,6 +116,12 @@ def spectrum(design: Design, k: int, section: Section) -> Spectrum:
         endurance=found[0].endurance,
         ultimate=ultimate,
     )
+
+
+@lru_cache(maxsize=8)
+def _counted(history: History) -> tuple[Cycles, Levels]:
+    """Return cycles and levels of a measured torque."""
+    return sorted_into_classes(rainflow(history.torques)), time_at_level(history.times, history.torques)
 
 
 def _duration(design: Design) -> float:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 
@@ -26,8 +25,9 @@ from cardan.maths.ties import foremost, foremost_of
 from cardan.questions.forces.forces import forces
 from cardan.questions.life.bearing_loads import bearing_loads
 from cardan.questions.life.life import duty_parts, life
+from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.questions.torsion.steady.run_stability import Verdict as StabilityVerdict
-from cardan.questions.torsion.steady.torsion_response import TorsionResponse, torsion_response
+from cardan.questions.torsion.steady.torsion_response import torsion_response
 from cardan.texts import _
 
 from . import (
@@ -101,6 +101,10 @@ class Strength:
     dynamic_factor : float
         Largest couple of a cross with masses and friction counted over that without; 1 where it cannot be told. The
         stresses leave it out: the factor for shocks is to hold it.
+    vibration : Vibration or None
+        What torsional vibration makes of the torque, which is counted; None where the file does not let it be told.
+    vibrates : bool
+        Whether the file says anything of masses and stiffness.
     extrapolated : tuple of int
         Numbers of shafts that are wider than those whose fatigue was measured.
     left_out : LeftOut or None
@@ -116,6 +120,8 @@ class Strength:
     torque: float
     shock_factor: float
     dynamic_factor: float = 1.0
+    vibration: Vibration | None = None
+    vibrates: bool = False
     extrapolated: tuple[int, ...] = ()
     left_out: LeftOut | None = None
     case: str = ""
@@ -194,11 +200,12 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
     Notes
     -----
     The largest loads over the turn of the whole drive, exactly: torque of every shaft, secondary couples at both its
-    ends, couple of every cross (`forces.turn_loads`), with the swinging parts of the torque; masses and
-    friction are not in them. Shafts: Book (261), von Mises, twist (262), Goodman's line with Marin's factors, where a
-    secondary couple turns with its shaft and swings fully; composite tubes against buckling. Splines: core, teeth,
-    flanks. Joints: Book (263)-(265), ISO 76, Hertz; life by ISO 281 where the duty asks for one. Stresses grow with the
-    torque, contact pressure with its root, life with its power -10/3: so each use tells the torque at which it ends.
+    ends, couple of every cross (`forces.turn_loads`), with the swinging parts of the torque, and with torsional
+    vibration at the speeds in use where the file tells masses and stiffness; friction is not in them. Shafts: Book
+    (261), von Mises, twist (262), Goodman's line with Marin's factors, where a secondary couple turns with its shaft
+    and swings fully; composite tubes against buckling. Splines: core, teeth, flanks. Joints: Book (263)-(265), ISO 76,
+    Hertz; life by ISO 281 where the duty asks for one. Stresses grow with the torque, contact pressure with its root,
+    life with its power -10/3: so each use tells the torque at which it ends.
 
     Examples
     --------
@@ -223,6 +230,8 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
         shock_factor=float(subject.shock),
         dynamic_factor=_dynamic(subject),
         case=subject.called(max(subject.loaded, key=lambda case: abs(float(case.torque or 0.0)))),
+        vibration=_vibration(subject),
+        vibrates=has_torsion(subject.drive),
         extrapolated=tuple(
             k + 1
             for k in parts
@@ -311,7 +320,7 @@ def _dynamic(subject: Design) -> float:
     return float(max(1.0, np.max(grown[np.isfinite(grown)], initial=1.0)))
 
 
-# What the stresses of a drive leave out: torsional vibration, friction, masses, weights and axial forces.
+# What the stresses of a drive count of torsional vibration, and what they leave out: friction, weights, axial forces.
 
 LITTLE = 1.02
 """Times the torque counted up to which torsional vibration is not worth a word."""
@@ -320,53 +329,42 @@ SLIGHT = 0.005
 """Share by which all forces together must raise the load of a journal to be told."""
 
 
-@lru_cache(maxsize=16)
-def steady_torsion(drive: Drive) -> TorsionResponse | None:
-    """Return how a drive vibrates in torsion at the speed of its duty; None where it names none."""
-    return None if drive.duty.speed is None else torsion_response(drive)
-
-
 def left_out(drive: Drive, found: Strength) -> LeftOut:
     """Return what the stresses of a drive leave out."""
     supported = drive.duty.torque is not None and bool(drive.supports)
     return LeftOut(
-        vibration=_vibration(drive, found),
         journal=_journal(drive, found) if supported else None,
         supported=supported,
         runs_up=drive.duty.run_up is not None,
     )
 
 
-def _vibration(drive: Drive, found: Strength) -> Vibration | None:
-    """Return what torsional vibration adds; None where it adds little or is not known.
+def _vibration(subject: Design) -> Vibration | None:
+    """Return what torsional vibration makes of the torque; None where the file does not let it be told.
 
-    The torque of a steady motion that grows is none that the drive keeps, so none is told of it.
+    The torque of a steady motion that grows is the least that the drive reaches.
     """
-    if not drive.stations and all(shaft.stiffness is None for shaft in drive.shafts):
+    told = [(case, one) for case in subject.loaded if (one := case.vibrating()) is not None]
+    if not told:
         return None
-    try:
-        runs = steady_torsion(drive)
-    except InputError:
-        return None
-    if runs is None or not bool(runs.steady.found):
-        return None
-    speed = abs(float(runs.speed))
-    if int(runs.floquet.verdict) == StabilityVerdict.UNSTABLE:
-        return Vibration(speed=speed, stable=False)
-    most = np.maximum(np.abs(runs.torque_lowest), np.abs(runs.torque_highest))
-    model = runs.train.model
-    plain = np.asarray(
-        [np.max([case.shaft_torque[model.shaft[a]] for case in found.cases]) for a, _b in model.elements]
+    _case, worst = foremost_of(told, lambda one: float(np.nanmax(one[1].growth)))
+    s, k = np.unravel_index(int(np.nanargmax(worst.growth)), worst.growth.shape)
+    return Vibration(
+        speed=abs(float(worst.speed[s])),
+        stable=not subject.duty.speed or _stable(subject.drive),
+        name=_("shaft {number}").format(number=int(k) + 1),
+        low=float(worst.low[s, k]),
+        high=float(worst.high[s, k]),
+        factor=float(worst.growth[s, k]),
     )
-    own = [e for e, (_a, b) in enumerate(model.elements) if runs.train.hangs[b] is None and plain[e] > 0.0]
-    if not own:
-        return None
-    e = max(own, key=lambda one: float(most[one] / plain[one]))
-    more = float(most[e] / plain[e])
-    if more <= LITTLE:
-        return None
-    name = runs.train.element_names[e]
-    return Vibration(speed=speed, stable=True, name=name, torque=float(most[e]), factor=more)
+
+
+def _stable(drive: Drive) -> bool:
+    """Tell whether torsional vibration dies out at the speed of the duty, as far as it is known."""
+    try:
+        return int(torsion_response(drive).floquet.verdict) != StabilityVerdict.UNSTABLE
+    except InputError:
+        return True
 
 
 def _journal(drive: Drive, found: Strength) -> Journal | None:

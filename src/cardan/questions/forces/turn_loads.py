@@ -17,7 +17,7 @@ from cardan.drive.joints import Joint
 from cardan.drive.models.kinematics_model import Chain, Laws, given_chain, turning
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import peak
-from cardan.questions.motion.motion import motion
+from cardan.questions.motion.motion import Motion, motion
 
 LOOK = 120
 """Places in half a turn at which loads are looked at, before a curve is laid through the largest."""
@@ -101,8 +101,7 @@ def turn_loads(
     places = round(look * period / math.pi)
     angle = np.arange(places) * (period / places)
     found = motion(chain, angle)
-    ratio, theta = found.shaft_ratio, found.yoke_rotation
-    joint_angle = np.asarray(found.joint_angle, dtype=float)[..., None]
+    ratio = found.shaft_ratio
     end = -1 if torque_at == "output" else 0
     mean = np.asarray(torque, dtype=float)[..., None]
     turned = found.shaft_angle[..., end, :]
@@ -112,8 +111,21 @@ def turn_loads(
     sign = np.where(mean < 0.0, -1.0, 1.0)
     given = sign * (mean + grown * swing)
     passing = given[..., None, :] * ratio[..., [end], :] / ratio
-    size = np.abs(passing)
-    before, after = size[..., :-1, :], size[..., 1:, :]
+    low, high = -peak(-passing), peak(passing)
+    return largest_loads(chain, found, passing[..., :-1, :], passing[..., 1:, :], low=low, high=high)
+
+
+def largest_loads(
+    chain: Chain, moved: Motion, entering: Array, leaving: Array, *, low: Array, high: Array
+) -> TurnLoads:
+    """Return the largest loads over a turn from the torques in the shafts on either side of every joint.
+
+    moved: the motion at evenly spaced places (p,) of a period; entering, leaving (..., n, p) [N·m]: torques of the
+    driving and of the driven shaft of every joint there; low, high (..., n+1) [N·m]: least and largest of each shaft.
+    """
+    ratio, theta = moved.shaft_ratio, moved.yoke_rotation
+    joint_angle = np.asarray(moved.joint_angle, dtype=float)[..., None]
+    before, after = np.abs(entering), np.abs(leaving)
     if chain.laws is None:
         lean = np.sqrt(1.0 + (np.tan(joint_angle) * np.sin(theta)) ** 2)
         couple = before * lean
@@ -124,10 +136,9 @@ def turn_loads(
         couple, on_driving, on_driven = before * np.hypot(1.0, one), before * one, before * other
     # K² = T² + M_b² on either shaft, so 4 M_b² + 3 T² = 4 K² - T².
     mises = (np.sqrt(4.0 * couple**2 - one**2) for one in (before, after))
-    high = peak(passing)
     ends = _at_ends(*(peak(one) for one in mises)) if joint_angle.shape[-2] else math.sqrt(3.0) * np.abs(high)
     return TurnLoads(
-        low=-peak(-passing),
+        low=low,
         high=high,
         couple=peak(couple),
         driving=peak(on_driving),

@@ -18,6 +18,7 @@ from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
 from cardan.maths.ties import foremost
+from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.texts import _, mark
 
 from .figure import life_figures
@@ -75,7 +76,7 @@ def answer(drive: Drive, result: Life) -> Answer:
         tone=tone,
         figures=lambda: life_figures(result),
         tables=(_joints(drive, result), *_duty_cycle(result)),
-        remarks=tuple(_remarks(result, loose)),
+        remarks=tuple(_remarks(drive, result, loose)),
         keys=tuple(_keys(result, loose)),
         facts={**_facts(result), "provenance": loose},
         full=lambda: _everything(result),
@@ -232,7 +233,7 @@ def _everything(result: Life) -> Table:
     )
 
 
-def _remarks(result: Life, loose: tuple[str, ...]) -> Iterator[Remark]:
+def _remarks(drive: Drive, result: Life, loose: tuple[str, ...]) -> Iterator[Remark]:
     if result.enough is False:
         i = result.governing - 1
         need = float(result.needed_capacity[i])
@@ -256,6 +257,7 @@ def _remarks(result: Life, loose: tuple[str, ...]) -> Iterator[Remark]:
         told = {name: Quantity(value, "torque") for name, value in torques.items()}
         yield Remark(text=say(text, count=Quantity(result.cycles.total, trim=True), **told))
     yield from _conditions(result)
+    yield _vibration(drive, result)
     yield from _cautions(result)
     if result.uncounted:
         keys = ", ".join(spelled(one.field) for one in result.uncounted)
@@ -288,6 +290,20 @@ def _conditions(result: Life) -> Iterator[Remark]:
         yield Remark(text=said, code="governing_condition")
     if result.moving:
         yield Remark(text=_("Damage is summed over the movement; joint angles and torques are its means."))
+
+
+def _vibration(drive: Drive, result: Life) -> Remark:
+    """Return whether torsional vibration is counted."""
+    most = max((one for one in result.vibration if not math.isnan(one)), default=math.nan)
+    if not math.isnan(most):
+        text = _("Torsional vibration is counted: the torque swings by up to ±{share} of its mean.")
+        return Remark(text=say(text, share=Quantity(most, "share", 3)))
+    text = _("Torsional vibration is not counted: the file says nothing of masses and stiffness (stations).")
+    if result.history is not None:
+        text = _("Torsional vibration counts as far as the measured torque holds it.")
+    elif has_torsion(drive):
+        text = _("Warning: torsional vibration is not counted: no steady motion could be told.")
+    return Remark(text=text, tone="warning" if has_torsion(drive) and result.history is None else "plain")
 
 
 def _cautions(result: Life) -> Iterator[Remark]:
@@ -349,6 +365,7 @@ def _facts(result: Life) -> dict[str, Any]:
         "shock_factor": result.shock_factor,
         "warnings": [{"code": one.code, "joint": one.joint, "message": one.message} for one in result.cautions],
         "not_rated": [{"field": spelled(one.field), "message": one.message} for one in result.uncounted],
+        "vibration": result.vibration,
         "assumed": result.assumed,
     }
     levels, cycles = result.history, result.cycles

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -18,10 +19,15 @@ from cardan.maths.arrays import Array
 from cardan.maths.curves.cycle_statistics import mean_between
 from cardan.questions.losses.chain_friction import kinks
 from cardan.questions.losses.loss_model import Model, flowing, moving
+from cardan.questions.motion.motion import Motion
+from cardan.questions.torsion.steady.dynamic_torque import DynamicTorque
 from cardan.texts import _
 
 LOOK = 720
 """Places a turn at which the largest load is looked for."""
+
+PHASES = 16
+"""Phases of a torque that swings out of step over which a mean is taken."""
 
 RESTS = 1e-10
 """Share by which a mean may still change when it rests; torques that turn about leave it a weak kink."""
@@ -32,7 +38,9 @@ class BearingLoads:
     """Loads of the bearings of a drive in some parts of its duty cycle."""
 
     joint_angle: Array  # (b, n) [rad]: bend of each joint
-    torque: Array  # (b, n) [N·m]: mean torque that enters each joint, over the turning of its driving shaft
+    # (b, n) [N·m]: mean torque that enters each joint, over the turning of its driving shaft; with torsional vibration
+    # the constant one that damages as much
+    torque: Array
     couple: Array  # (b, n) [N·m]: largest couple of each cross; over the span it is the load of a journal
     # driving, driven (b, n) [(N·m)^(10/3)]: mean of |dδ/dφ_1| K^(10/3), δ the swing in the driving and in the driven
     # yoke, K the couple of the cross
@@ -40,11 +48,21 @@ class BearingLoads:
     driven: Array  # (b, n) [(N·m)^(10/3)]
 
 
-def bearing_loads(drive: Drive, machine: Train, duty: Duty, parts: Sequence[LoadCase]) -> BearingLoads:
+def bearing_loads(
+    drive: Drive,
+    machine: Train,
+    duty: Duty,
+    parts: Sequence[LoadCase],
+    *,
+    drawn: Train | None = None,
+    vibrating: Sequence[DynamicTorque | None] = (),
+) -> BearingLoads:
     """Return what the bearings of a drive go through in each part of a duty cycle.
 
     machine: its machine half; duty: harmonics of the torque, acceleration, and at which end the torque is given.
     parts, sequence of LoadCase (b,): torque, speed and bend of each part.
+    vibrating (b,): the torques of each part with torsional vibration; None, or none at all, where it is not counted.
+    drawn: machine half for which these are, where it is another one: what vibration adds there is added here.
     Raises InputError: friction locks a joint.
     Torques go from the end where they are given through the drive, with the friction of the journals, inertia and
     resisting torques of the shafts where the drive gives them; the means by Gauss's rule between the angles at which
@@ -60,7 +78,11 @@ def bearing_loads(drive: Drive, machine: Train, duty: Duty, parts: Sequence[Load
             else replace(machine.chain, joint_angle=np.full(len(drive.joints), joint_angle))
         )
         model = _model(drive, machine, duty, chain, [parts[k] for k in own])
-        for k, one in zip(own, _of_chain(model), strict=True):
+        still = model
+        if drawn is not None and drawn is not machine:
+            still = _model(drive, drawn, duty, drawn.chain if joint_angle is None else chain, [parts[k] for k in own])
+        flow = _Flow(model, still, [vibrating[k] if vibrating else None for k in own])
+        for k, one in zip(own, _of_chain(flow), strict=True):
             found[k] = one
     rows = [one for one in found if one is not None]
     return BearingLoads(
@@ -97,27 +119,60 @@ def _model(drive: Drive, machine: Train, duty: Duty, chain: Chain, parts: Sequen
     )
 
 
-def _of_chain(model: Model) -> list[BearingLoads]:
+class _Flow:
+    """The torques of cases that share their joint angles, with what torsional vibration adds."""
+
+    def __init__(self, model: Model, drawn: Model, vibrating: Sequence[DynamicTorque | None]) -> None:
+        self.model, self.drawn, self.vibrating = model, drawn, vibrating
+        halves = round(2 * model.turns) if model.harmonics else 1
+        halves = math.lcm(halves, *(round(one.orbit.period / np.pi) for one in vibrating if one is not None))
+        self.period = halves * np.pi
+
+    def at(self, angle: Array) -> tuple[Motion, Array, Array, Array]:
+        """Return motion, couples and torques that enter each joint, and how far orders apart swing these (b, n, p)."""
+        cases = self.model.torque.size
+        moved = moving(self.model, np.broadcast_to(angle, (cases, *angle.shape)))
+        flow = flowing(self.model, moved)[0]
+        couple, entering = np.asarray(flow.couple), np.asarray(flow.leaving[..., :-1, :])
+        beside = np.zeros_like(entering)
+        if all(one is None for one in self.vibrating):
+            return moved, couple, entering, beside
+        without = entering
+        if self.drawn is not self.model:
+            other = moving(self.drawn, np.broadcast_to(angle, (cases, *angle.shape)))
+            without = np.asarray(flowing(self.drawn, other)[0].leaving[..., :-1, :])
+        lean = np.sqrt(1.0 + (np.tan(self.model.chain.joint_angle)[:, None] * np.sin(moved.yoke_rotation)) ** 2)
+        more = np.zeros_like(entering)
+        for k, one in enumerate(self.vibrating):
+            if one is not None:
+                more[k] = one.at_joints(angle)[0][0] - without[k]
+                beside[k] = one.beside[0][:, None]
+        return moved, couple + lean * more, entering + more, beside * lean
+
+
+def _of_chain(flow: _Flow) -> list[BearingLoads]:
     """Return the loads of cases that share their joint angles, one by one."""
+    model, period = flow.model, flow.period
     n, cases = model.chain.joints, model.torque.size
-    period = 2.0 * np.pi * model.turns if model.harmonics else np.pi
     places = np.ravel(kinks(model.chain)[:, None] + np.pi * np.arange(round(period / np.pi)))
-    scale = _largest(model, period)
+    scale = _largest(flow)
     size = np.where(scale > 0.0, scale, 1.0)
+    swung = np.asarray([one is not None for one in flow.vibrating])[:, None]
 
     def rows(angle: Array) -> Array:
-        moved = moving(model, np.broadcast_to(angle, (cases, *angle.shape)))
-        flow = flowing(model, moved)[0]
-        load = np.abs(flow.couple / size[..., None]) ** POWER
+        moved, couple, entering, beside = flow.at(angle)
+        load, torque = (_mean_power(one / size[..., None], beside / size[..., None]) for one in (couple, entering))
+        mean = entering * moved.shaft_ratio[..., :-1, :]
         parts = (
             np.abs(moved.cross_driving_rate) * load,
             np.abs(moved.cross_driven_rate) * load,
-            flow.leaving[..., :-1, :] * moved.shaft_ratio[..., :-1, :],
+            np.where(swung[..., None], torque, mean),
         )
         return np.concatenate([np.broadcast_to(part, (cases, n, angle.shape[-1])) for part in parts], axis=-2)
 
     mean = mean_between(rows, places, period=period, rests=RESTS)
     driving, driven, torque = (mean[:, k * n : (k + 1) * n] for k in range(3))
+    torque = np.where(swung, size * np.abs(torque) ** (1.0 / POWER), torque)
     joint_angle = np.asarray(model.chain.joint_angle, dtype=float)
     return [
         BearingLoads(
@@ -131,10 +186,19 @@ def _of_chain(model: Model) -> list[BearingLoads]:
     ]
 
 
-def _largest(model: Model, period: float) -> Array:
+def _mean_power(value: Array, beside: Array) -> Array:
+    """Return |x|^(10/3) of values, the mean over the phases of what swings out of step about them."""
+    if not np.any(beside):
+        return np.abs(value) ** POWER
+    phases = np.cos(np.pi * (np.arange(PHASES) + 0.5) / PHASES)
+    found: Array = np.mean([np.abs(value + swing * beside) ** POWER for swing in phases], axis=0)
+    return found
+
+
+def _largest(flow: _Flow) -> Array:
     """Return the largest couple of each cross, array (b, n) [N·m]: at its kinks or near them, or else on a grid."""
-    grid = np.linspace(0.0, period, round(LOOK * period / (2.0 * np.pi)) + 1)
-    angle = np.sort(np.concatenate((grid, np.remainder(kinks(model.chain), np.pi))))
-    cases = np.broadcast_to(angle, (model.torque.size, angle.size))
-    found: Array = np.max(np.abs(flowing(model, moving(model, cases))[0].couple), axis=-1)
+    grid = np.linspace(0.0, flow.period, round(LOOK * flow.period / (2.0 * np.pi)) + 1)
+    angle = np.sort(np.concatenate((grid, np.remainder(kinks(flow.model.chain), np.pi))))
+    _moved, couple, _entering, beside = flow.at(angle)
+    found: Array = np.max(np.abs(couple) + beside, axis=-1)
     return found

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.drive.conditions import Condition, LoadCase, in_poses, load_cases
+from cardan.drive.conditions import Condition, LoadCase, in_poses, load_cases, under
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.dynamics_model import train
@@ -18,6 +18,7 @@ from cardan.errors import Problem, check, refuse
 from cardan.formulas.joint_rating import POWER, book_life, lasting, nominal_torque
 from cardan.maths.arrays import Array
 from cardan.questions.motion.standing import standing
+from cardan.questions.torsion.steady.dynamic_torque import DynamicTorque, steady_torque
 from cardan.texts import _
 
 from .bearing_life import MILLION, RELIABILITIES, maker_life, reliability_factor
@@ -112,6 +113,7 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
         assumed=(*bearings.assumed, *train(drive).assumed),
         worst_pose=(rows[0].pose or _("as drawn")) if unknown else "",
         moving=any(one.moving for one in stands),
+        vibration=tuple(row.vibration for row in rows),
     )
     if bool(np.all(np.isnan(found.joints))):
         raise refuse("method", _("no joint has what {method} needs").format(method=chosen))
@@ -137,6 +139,7 @@ class _Row:
     simple: Array
     maker: Array
     book: Array
+    vibration: float  # largest alternating torque over its mean; nan where torsional vibration is not counted
 
 
 def _bound(drive: Drive, pose: str) -> bool:
@@ -147,7 +150,7 @@ def _bound(drive: Drive, pose: str) -> bool:
 def _rows(stand: Condition, bearings: JointBearings, factor: float) -> Iterator[_Row]:
     """Yield what every part of the duty does in a pose: as drawn there, or over the movements in which it acts."""
     drive, machine = stand.drive, train(stand.drive)
-    every, asked, _history, _cycles = duty_parts(drive.duty)
+    every, asked, history, _cycles = duty_parts(drive.duty)
     own = [part for part in every if part.pose == stand.pose or (not part.pose and stand.share != 0.0)]
     for movement in dict.fromkeys(part.movement for part in own):
         parts = tuple(part for part in own if part.movement == movement)
@@ -155,7 +158,8 @@ def _rows(stand: Condition, bearings: JointBearings, factor: float) -> Iterator[
         stood, when = [machine], np.ones(1)
         if moves and any(part.joint_angle is None for part in parts):
             stood, when = standing(replace(drive, movements=moves), machine)
-        loads = [bearing_loads(drive, one, asked, parts) for one in stood]
+        swung = [None if history else steady_torque(under(drive, _acting(one, asked))) for one in parts]
+        loads = [bearing_loads(drive, one, asked, parts, drawn=machine, vibrating=swung) for one in stood]
         lives = [_lives(one, bearings, parts, factor) for one in loads]
         speed = np.asarray([abs(part.speed or 0.0) for part in parts])[:, None]
         shocks = np.asarray([part.shock_factor for part in parts])[:, None]
@@ -169,13 +173,26 @@ def _rows(stand: Condition, bearings: JointBearings, factor: float) -> Iterator[
             )
         table["joint_angle"] = np.average(joint_angles, axis=0, weights=when)
         table["journal_force"] = shocks * np.max([one.couple for one in loads], axis=0) / bearings.span
+        with np.errstate(divide="ignore", invalid="ignore"):
+            grown = [math.nan if one is None else _growth(one) for one in swung]
         for k, part in enumerate(parts):
             pose = _("pose {name}").format(name=stand.pose) if stand.pose else ""
             at = "" if pose else part.path
             named = replace(part, name=", ".join(word for word in (pose, part.name) if word), path=at)
             share = part.share if part.pose else None if stand.share is None else part.share * stand.share
             row = {name: values[k] for name, values in table.items()}
-            yield _Row(part=named, pose=stand.pose, share=share, **row)
+            yield _Row(part=named, pose=stand.pose, share=share, vibration=grown[k], **row)
+
+
+def _acting(part: LoadCase, asked: Duty) -> LoadCase:
+    """Return a part of the duty with the swinging parts of the torque."""
+    return replace(part, harmonics=asked.harmonics, scale=asked.torque or 0.0, torque_at=asked.torque_at)
+
+
+def _growth(found: DynamicTorque) -> float:
+    """Return the largest alternating torque of a shaft over the size of its mean."""
+    mean = 0.5 * np.abs(found.high[0] + found.low[0])
+    return float(np.max(0.5 * (found.high[0] - found.low[0]) / mean))
 
 
 def _mean_life(lives: Sequence[Array], shares: Array) -> Array:

@@ -71,6 +71,8 @@ class Life:
         Where no share of the poses is known: the pose in which a joint fails first, of which alone this is the life.
     moving : bool
         Whether the drive moves, and damage is summed over its movements.
+    vibration : tuple of float (b,)
+        Largest alternating torque over its mean in each part, torsional vibration counted; nan where it is not.
     assumed : tuple of str
         Paths of what the drive does not say and the answer assumes.
     """
@@ -97,6 +99,7 @@ class Life:
     uncounted: tuple[Missing, ...] = ()
     worst_pose: str = ""
     moving: bool = False
+    vibration: tuple[float, ...] = ()
     assumed: tuple[str, ...] = ()
 
     @property

@@ -254,6 +254,35 @@ def linearised(
     )
 
 
+def joint_torques(model: TorsionalModel, q: Array, rate: Array, acceleration: Array) -> tuple[Array, Array]:
+    """Return the torques that enter every joint from its driving and leave it into its driven shaft.
+
+    q, rate, acceleration (..., R) [rad, rad/s, rad/s²]; every station has the number of its shaft.
+    Returns entering, leaving (..., n) [N·m]: from the output on, what a driven yoke passes on is what the stations of
+    its shaft take, Σ J F̈ - Σ τ, and what enters the joint behind them; a joint has no losses, M_1 = M_2 T'.
+    """
+    xp = namespace(q)
+    place = places(model, q)
+    wide = list(model.coordinate)
+    acting, _along, _across = _acting(model, place, _speeds(model, place, rate), 0.0)
+    inertia = _each(model.inertia, q[..., 0])
+    left = inertia * (place.first * acceleration[..., wide] + place.second * rate[..., wide] ** 2) - acting
+    entering: list[Array] = []
+    leaving: list[Array] = []
+    behind = 0.0 * q[..., 0]
+    for k, source in reversed(list(enumerate(model.driven))):
+        if source is None:
+            continue
+        passed = behind + sum(left[..., j] for j, shaft in enumerate(model.shaft) if shaft == model.shaft[k])
+        behind = passed * place.first[..., k] / place.first[..., source[0]]
+        entering.insert(0, behind)
+        leaving.insert(0, passed)
+    if not entering:
+        nothing = xp.zeros((*q.shape[:-1], 0))
+        return nothing, nothing
+    return xp.stack(entering, axis=-1), xp.stack(leaving, axis=-1)
+
+
 def energy(model: TorsionalModel, q: Array, rate: Array) -> Array:
     """Return Σ ½ J Ḟ² + Σ ½ c x_e², array (...) [J]."""
     xp = namespace(q)

@@ -1,0 +1,129 @@
+"""What torques run through the shafts and joints of a drive that vibrates in torsion while it runs steadily?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.errors import InputError
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.curves.extremes import peak
+from cardan.maths.periodic.harmonics import Status
+from cardan.questions.torsion.model.inputs import Swinging
+from cardan.questions.torsion.model.torsional_balance import element_torques, joint_torques
+from cardan.questions.torsion.model.torsional_model import TorsionalModel
+from cardan.questions.torsion.model.torsional_modes import straight_waves
+from cardan.questions.torsion.model.torsional_train import TorsionalTrain
+
+from .orbit import Orbit
+from .steady import steady_orbits
+from .torsion_response import loaded_model, parted
+
+LOOK = 120
+"""Places in half a turn at which torques are looked at."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DynamicTorque:
+    """Torques of steady torsional vibration at some speeds, all masses and the mean torque in them."""
+
+    train: TorsionalTrain
+    orbit: Orbit  # (s,): the motions
+    found: Array  # (s,) of bool: whether a motion was found
+    low: Array  # low, high (s, n+1) [N·m]: least and largest torque of every shaft; nan where no motion was found
+    high: Array
+    # (s, n) [N·m]: amplitude at every joint of torques that do not repeat within two turns, by the straight line
+    beside: Array
+
+    @property
+    def speed(self) -> Array:
+        """Input speeds, array (s,) [rad/s]."""
+        return self.orbit.speed
+
+    @property
+    def angle(self) -> Array:
+        """Evenly spaced angles of the input over a period of the torques, array (p,) [rad]."""
+        places = round(LOOK * self.orbit.period / np.pi)
+        found: Array = np.arange(places) * (self.orbit.period / places)
+        return found
+
+    def at_joints(self, angle: ArrayLike) -> tuple[Array, Array]:
+        """Return what enters and leaves every joint at input angles (p,), arrays (s, n, p) [N·m]."""
+        q, rate, acceleration = self.orbit.at(angle)
+        drives = self.orbit.drives(np.arange(self.orbit.count))
+        entering, leaving = joint_torques(drives, q, rate, acceleration)
+        return np.moveaxis(entering, -1, -2), np.moveaxis(leaving, -1, -2)
+
+
+def dynamic_torque(drive: Drive, duty: Duty | None = None, *, speed: ArrayLike, closed: bool = False) -> DynamicTorque:
+    """Return the torques of shafts and joints while a drive vibrates in torsion.
+
+    speed (s,) [rad/s]: of the input, none of them 0; closed: count backlash as closed.
+    Raises InputError: what the torsional model misses, each with the key to add.
+    """
+    chosen = drive.duty if duty is None else duty
+    speeds = np.asarray(speed, dtype=float)
+    train, whole = loaded_model(drive, chosen, speeds)
+    model, loose = parted(replace(whole, backlash=0.0 * whole.backlash) if closed else whole)
+    orbit, status = steady_orbits(model, speed=speeds)
+    found = (status == Status.CONVERGED) | (status == Status.COARSE)
+    waves = [_amplitudes(model, one.station, one.law, speeds) for one in loose if isinstance(one.law, Swinging)]
+    beside: Array = sum(waves, start=np.zeros((len(speeds), len(model.elements))))
+    part = DynamicTorque(train=train, orbit=orbit, found=found, low=beside, high=beside, beside=beside)
+    q, rate, _acceleration = orbit.at(part.angle)
+    drives = orbit.drives(np.arange(orbit.count))
+    torque = np.moveaxis(element_torques(drives, q, rate), -1, -2)
+    lowest, highest = -peak(-torque) - beside, peak(torque) + beside
+    shafts = len(drive.joints) + 1
+    at_joints = np.stack([_of_shafts(model, beside, k, shafts) for k in range(shafts)], axis=-1)
+    at_ends = np.maximum(at_joints[:, :-1], at_joints[:, 1:])
+    ends = [(-peak(-one) - at_ends, peak(one) + at_ends) for one in part.at_joints(part.angle)]
+    low, high = np.full((len(speeds), shafts), np.inf), np.full((len(speeds), shafts), -np.inf)
+    for k in range(shafts):
+        own = [e for e, (a, b) in enumerate(model.elements) if model.shaft[a] == k and train.hangs[b] is None]
+        lows, highs = [lowest[:, e] for e in own], [highest[:, e] for e in own]
+        if k < shafts - 1:
+            lows, highs = [*lows, ends[0][0][:, k]], [*highs, ends[0][1][:, k]]
+        if k > 0:
+            lows, highs = [*lows, ends[1][0][:, k - 1]], [*highs, ends[1][1][:, k - 1]]
+        low[:, k], high[:, k] = np.min(lows, axis=0), np.max(highs, axis=0)
+    lost = ~found[:, None]
+    return replace(part, low=np.where(lost, np.nan, low), high=np.where(lost, np.nan, high), beside=at_ends)
+
+
+def has_torsion(drive: Drive) -> bool:
+    """Tell whether a drive file says enough of masses and stiffness to ask how the drive vibrates in torsion."""
+    duty = drive.duty
+    stiff = any(shaft.stiffness is not None for shaft in drive.shafts)
+    return bool(drive.stations) or stiff or duty.engine is not None or duty.motor is not None
+
+
+@lru_cache(maxsize=256)
+def steady_torque(drive: Drive) -> DynamicTorque | None:
+    """Return the torques of a drive at the speed of its duty; None where its file does not tell them."""
+    if not has_torsion(drive) or not drive.duty.speed:
+        return None
+    try:
+        found = dynamic_torque(drive, speed=[drive.duty.speed])
+    except InputError:
+        return None
+    return found if bool(found.found[0]) else None
+
+
+def _amplitudes(model: TorsionalModel, station: int, law: Swinging, speeds: Array) -> Array:
+    """Return how far a torque that does not repeat swings every element, array (s, E) [N·m]."""
+    return np.abs(straight_waves(model, station, law.amplitude, law.frequency * np.abs(speeds)).torque)
+
+
+def _of_shafts(model: TorsionalModel, values: Array, k: int, shafts: int) -> Array:
+    """Return the largest value (s, E) of the elements of a shaft, or of the shaft next to it where it is rigid."""
+    for near in sorted(range(shafts), key=lambda other: abs(other - k)):
+        own = [e for e, (a, _b) in enumerate(model.elements) if model.shaft[a] == near]
+        if own:
+            found: Array = np.max(values[:, own], axis=-1)
+            return found
+    return np.zeros(len(values))
