@@ -47,6 +47,7 @@ from .strength import (
     twist,
     yoke_strength,
 )
+from .torsion import parametric_stability, torque_reversal, torsional_resonance
 from .verdict import Verdict
 
 CHECKS: dict[str, Check] = {
@@ -76,6 +77,9 @@ CHECKS: dict[str, Check] = {
         critical_speed,
         half_critical,
         gap_closure,
+        torsional_resonance,
+        parametric_stability,
+        torque_reversal,
         balance,
         design_torque,
         part_accuracy,

@@ -15,6 +15,7 @@ from cardan.catalogue import Catalogue
 from cardan.checks.checks import CHECKS, check
 from cardan.checks.figure import check_figures
 from cardan.checks.key_figures import key_figures
+from cardan.checks.torsion.line import NO_MODEL
 from cardan.checks.verdict import Verdict
 from cardan.checks.verdict_table import (
     alike,
@@ -291,6 +292,9 @@ def _remarks(result: Checked, *, sources: bool, missing: bool) -> Iterator[Remar
     if kept and not sources:
         text = plural("One rule of thumb is kept.", "{count} rules of thumb are kept.", kept)
         yield Remark(text=text.format(count=kept))
+    if any(NO_MODEL[0] in one.missing for one in result.verdicts):
+        text = _("Torsional vibration was not looked at: the file says nothing of masses and stiffness (stations).")
+        yield Remark(text=text, tone="warning")
     lacks = sum(bool(one.missing) for one in result.verdicts)
     if lacks and result.binding and not missing:
         text = plural("One check not run; which key it needs:", "{count} checks not run; which keys they need:", lacks)

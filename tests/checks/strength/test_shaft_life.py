@@ -83,6 +83,7 @@ def test_the_life_by_hand(drive):
     assert found.safety == pytest.approx(endurance / swing, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_every_verdict_tells_of_it(drive):
     """5,000 h of two swings a second are 3.6e7, beyond the knee: nothing may damage, so both safeties are one."""
     verdicts = check(drive)
@@ -97,6 +98,7 @@ def test_every_verdict_tells_of_it(drive):
     assert found.rated_torque == pytest.approx(1600.0 * safety.value / 1.5, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_short_life_uses_what_lies_below_the_knee(tmp_path):
     """A life of 54.1 h is just reached with this torque: safety 1; for half of it more torque would do."""
     hours = strength(load(written(tmp_path))).shafts[1].fatigue_life / 3600
@@ -106,6 +108,7 @@ def test_a_short_life_uses_what_lies_below_the_knee(tmp_path):
     assert float(one(check(load(written(tmp_path, life=0.5 * hours))), "tube_fatigue").value) > 1.05
 
 
+@pytest.mark.slow
 def test_the_size_that_lasts(drive):
     """The tube becomes larger, and the size found passes when it is put into the file."""
     found = size(drive, None, "tube:2")
@@ -116,6 +119,7 @@ def test_the_size_that_lasts(drive):
     assert math.isinf(after.shafts[1].fatigue_life)
 
 
+@pytest.mark.slow
 def test_a_remedy_makes_both_verdicts_pass(drive):
     thicker = [its for its in remedies(drive) if its.path == "shafts[1].outer_mm" and its.check == "tube_fatigue"]
     assert thicker
@@ -153,6 +157,7 @@ def test_very_many_different_cycles_damage_as_one_by_one(drive):
     assert rates[1] == pytest.approx(rates[0], rel=5e-3)  # classes of 0.5 % of the range at the knee
 
 
+@pytest.mark.slow
 def test_command_line_and_first_page(tmp_path, capsys):
     path = written(tmp_path)
     assert main(["check", str(path), "--json"]) == 1

@@ -84,6 +84,7 @@ def course():
     return integrated()
 
 
+@pytest.mark.slow
 def test_extremes_are_those_of_an_integration_in_time(course):
     """The shaft has no mass: what it carries enters joint 2, and times T' it enters joint 1."""
     _angle, own, first, _second = course
@@ -94,6 +95,7 @@ def test_extremes_are_those_of_an_integration_in_time(course):
     assert own.max() - own.min() > 4 * LOAD  # it does vibrate
 
 
+@pytest.mark.slow
 def test_torques_at_the_joints_follow_the_integration(course):
     angle, own, first, second = course
     entering, leaving = steady_torque(drive()).at_joints(angle)
@@ -102,6 +104,7 @@ def test_torques_at_the_joints_follow_the_integration(course):
     np.testing.assert_allclose(leaving[0, 0], own, atol=2e-4 * size)
 
 
+@pytest.mark.slow
 def test_the_life_counts_the_torque_as_it_runs(course):
     """D = (1/2π) ∮ |dδ/dφ| (K/(C d))^(10/3) dφ with the couple of the cross K = M_1 √(1 + tan²α sin²θ), by sums."""
     angle, _own, first, _second = course

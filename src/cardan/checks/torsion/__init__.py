@@ -1,0 +1,1 @@
+"""Checks of torsional vibration."""

@@ -1,0 +1,55 @@
+"""What the checks of torsional vibration ask of a drive: whether its file tells enough, and the speeds in use."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from cardan.checks.design import Design
+from cardan.drive.conditions import load_cases
+from cardan.drive.drive import Drive
+from cardan.errors import InputError
+from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
+from cardan.questions.torsion.steady.dynamic_torque import has_torsion
+
+NO_MODEL = ("stations[0].inertia",)
+"""What a file lacks that says nothing of masses and stiffness."""
+
+
+@lru_cache(maxsize=4096)
+def modes(drive: Drive) -> TorsionModes | tuple[str, ...]:
+    """Return the torsional modes of a drive, or the paths of what its file lacks for them."""
+    if not has_torsion(drive):
+        return NO_MODEL
+    try:
+        return torsion_modes(drive)
+    except InputError as error:
+        return tuple(problem.field for problem in error.problems)
+
+
+def lacking(design: Design) -> tuple[str, ...]:
+    """Return what a design lacks to be judged: a torsional model, a speed."""
+    found = modes(design.drive)
+    return (*(found if isinstance(found, tuple) else ()), *design.unmoved)
+
+
+def used(drive: Drive) -> list[tuple[float, float]]:
+    """Return the ranges of input speed in use [rad/s], either way round; one speed where both ends are alike."""
+    found: list[tuple[float, float]] = []
+    for case in load_cases(drive.duty):
+        if case.speed_range is not None:
+            found.append(case.speed_range)
+        if case.speed:
+            found.append((abs(case.speed), abs(case.speed)))
+    if drive.duty.speed_range is not None:
+        found.append(drive.duty.speed_range)
+    if drive.duty.speed:
+        found.append((abs(drive.duty.speed),) * 2)
+    return list(dict.fromkeys(found))
+
+
+def nearest_used(drive: Drive, speed: float) -> float:
+    """Return the speed in use that is nearest to a speed [rad/s], in their ratio."""
+    inside = [float(np.clip(speed, *between)) for between in used(drive) if between[1] > 0.0]
+    return min(inside, key=lambda one: abs(np.log(max(one, 1e-12) / speed)))

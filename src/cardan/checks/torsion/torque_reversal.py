@@ -1,0 +1,77 @@
+"""Whether torsional vibration turns the torque of a shaft about, so that what has backlash rattles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.load_case import Case
+from cardan.checks.verdict import Verdict
+from cardan.maths.arrays import Array
+from cardan.texts import _, mark
+
+from .line import lacking
+
+LEAST = 1e-9
+"""Mean torque that counts where there is none [N·m]."""
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    missing = (*lacking(design), *design.unloaded)
+    if missing:
+        yield Verdict(missing=missing)
+        return
+    shaking = [case for case in design.loaded if case.vibrating() is not None]
+    for k in range(design.joints + 1) if shaking else ():
+        dips, means = zip(*(_dip(case, k) for case in shaking), strict=True)
+        used = np.stack(np.broadcast_arrays(*(dip / mean for dip, mean in zip(dips, means, strict=True))))
+        worst = np.argmax(used, axis=0)[None]
+        value, limit = (
+            np.take_along_axis(np.stack(np.broadcast_arrays(*one)), worst, axis=0)[0][()] for one in (dips, means)
+        )
+        loose = _loose(design, k)
+        if not loose and not _reverses(design, k):
+            continue
+        yield Verdict(
+            title=_("dip of the torque of shaft {number} below its mean, against reversal").format(number=k + 1),
+            subject=f"shafts[{k}]",
+            value=value,
+            limit=limit,
+            source=_("where the torque passes through zero, backlash opens and strikes shut"),
+            design_variables=(*design.torque_design_variables, *loose),
+            note="" if loose else _("the file gives it no backlash: what has some will rattle"),
+            advice=not loose,
+        )
+
+
+def _dip(case: Case, k: int) -> tuple[Array, Array]:
+    """Return how far the torque of a shaft falls below its mean, and that mean, arrays (...) [N·m]."""
+    low, high = case.torque_range
+    mean = case.mean_torque[..., k]
+    return np.maximum(mean - low[..., k], 0.0) + 0.0 * high[..., k], np.maximum(mean, LEAST)
+
+
+def _reverses(design: Design, k: int) -> bool:
+    """Tell whether the torque of a shaft passes through zero in the drive that the others vary."""
+    return any(float(np.min(one.low[:, k])) < 0.0 for case in design.loaded if (one := case.vibrating()) is not None)
+
+
+def _loose(design: Design, k: int) -> tuple[str, ...]:
+    """Return the paths of the backlash in a shaft and in the joint behind it."""
+    paths = [f"shafts[{k}].spline.backlash"]
+    if k < design.joints:
+        paths.append(f"joints[{k}].backlash")
+    return tuple(path for path in paths if design.value(path))
+
+
+CHECK = Check(
+    name="torque_reversal",
+    doc=mark("torque of shafts with backlash against reversal by torsional vibration"),
+    judge=_judge,
+    title=mark("reversal of the torque"),
+    dimension="torque",
+    unit="Nm",
+)

@@ -1,0 +1,130 @@
+"""Whether the speeds in use keep away from torsional resonance, and whether the shafts bear what alternates there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from cardan.answers.quantity import Quantity, say
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.load_case import Case
+from cardan.checks.strength.section import Section, sections
+from cardan.checks.strength.shaft_life import STRENGTHS, fatigue, fatigue_variables
+from cardan.checks.verdict import Verdict
+from cardan.drive.models.kinematics_model import given_chain
+from cardan.formulas.shaft_strength import torsion_modulus
+from cardan.maths.arrays import Array
+from cardan.questions.torsion.model.torsion import Crossing
+from cardan.texts import _, mark
+
+from .line import lacking, modes, nearest_used
+
+APART = 0.1
+"""Share by which a speed should differ from one at which an excitation meets a natural frequency."""
+
+STEEP = math.radians(35.0)
+"""Joint angle from which order 4 is a twentieth of order 2: below, it shakes too little to count."""
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    missing = lacking(design)
+    if missing:
+        yield Verdict(missing=missing)
+        return
+    yield from _apart(design)
+    for k in range(design.joints + 1):
+        yield from _borne(design, k)
+
+
+def _apart(design: Design) -> Iterator[Verdict]:
+    """Yield how far the speeds in use are from the nearest meeting of an excitation with a natural frequency."""
+    found = modes(design.drive)
+    assert not isinstance(found, tuple)
+    bent = bool(np.any(given_chain(design.drive).joint_angle > STEEP))
+    met = [one for one in found.crossings if bent or one.order != 4.0 or "," in one.cause]
+    if not met:
+        return
+    used = [(one, nearest_used(design.drive, one.speed)) for one in met]
+
+    def apart(pair: tuple[Crossing, float]) -> float:
+        return abs(math.log(pair[1] / pair[0].speed))
+
+    worst, speed = min(used, key=apart)
+    running = [np.asarray(case.speed, dtype=float) for case in design.cases if case.speed is not None]
+    value = np.asarray(speed)
+    if design.varied and design.duty.speed_range is None and running:
+        every = np.stack(np.broadcast_arrays(*running))
+        nearest = np.argmin(np.abs(np.log(every / worst.speed)), axis=0)[None]
+        value = np.take_along_axis(every, nearest, axis=0)[0]
+    text = _("order {order} ({cause}) meets mode {mode} at that speed")
+    order = Quantity(worst.order, trim=True)
+    yield Verdict(
+        value=value[()],
+        limit=(worst.speed * (1.0 - APART), worst.speed * (1.0 + APART)),
+        sense="outside",
+        dimension="angular_speed",
+        unit="rpm",
+        source=_("API 617: 10 % between an excitation and a torsional natural frequency"),
+        design_variables=design.speed_design_variables,
+        note=say(text, order=order, cause=worst.cause, mode=worst.mode),
+        advice=True,
+    )
+
+
+def _borne(design: Design, k: int) -> Iterator[Verdict]:
+    """Yield the alternating torque of a shaft beside that which it bears for ever."""
+    shaking = [case for case in design.loaded if case.vibrating() is not None]
+    found = list(sections(design, k))
+    if not shaking or not found or design.drive.shafts[k].layup is not None:
+        return
+    strengths = [section.of_material(name) for section in found for name in STRENGTHS]
+    title = _("alternating torque of shaft {number} in torsional vibration")
+    if design.missing(*strengths):
+        yield Verdict(title=title, subject=f"shafts[{k}]", missing=design.missing(*strengths))
+        return
+    swings = [0.5 * (case.torque_range[1] - case.torque_range[0])[..., k] for case in shaking]
+    limits = [np.min([_bears(design, k, one, case) for one in found], axis=0) for case in shaking]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        used = [np.where(limit > 0.0, swing / limit, np.inf) for swing, limit in zip(swings, limits, strict=True)]
+    worst = np.argmax(np.stack(np.broadcast_arrays(*used)), axis=0)[None]
+
+    def at(values: list[Array]) -> Array:
+        return np.take_along_axis(np.stack(np.broadcast_arrays(*values)), worst, axis=0)[0][()]
+
+    yield Verdict(
+        title=title.format(number=k + 1),
+        subject=f"shafts[{k}]",
+        value=at(swings),
+        limit=np.maximum(at(limits), 1e-9),
+        dimension="torque",
+        unit="Nm",
+        source=_("Goodman with Marin's factors beside mean torque and secondary couples, over the safety asked for"),
+        design_variables=fatigue_variables(design, k),
+    )
+
+
+def _bears(design: Design, k: int, section: Section, case: Case) -> Array:
+    """Return the alternating torque that a stretch of a shaft bears for ever, array (...) [N·m]; 0 where none."""
+    shaft = design.drive.shafts[k]
+    now = fatigue(design, k, section, case)
+    swing = 0.5 * (case.torque_range[1] - case.torque_range[0])[..., k]
+    notch = 1.0 if shaft.notch is None else design.value(f"shafts[{k}].notch.torsion")
+    modulus = torsion_modulus(section.outer, section.inner)
+    twisted = math.sqrt(3.0) * np.asarray(notch) * swing / modulus
+    bent = np.sqrt(np.maximum(now.alternating**2 - twisted**2, 0.0))
+    ultimate = design.value(section.of_material("ultimate_strength"))
+    left = now.endurance * (1.0 / design.value("limits.fatigue_safety") - now.mean / ultimate)
+    room = np.maximum(left, 0.0) ** 2 - bent**2
+    found: Array = np.sqrt(np.maximum(room, 0.0)) * modulus / (math.sqrt(3.0) * np.asarray(notch))
+    return found
+
+
+CHECK = Check(
+    name="torsional_resonance",
+    doc=mark("speeds in use against torsional resonance, and alternating torque against what the shafts bear"),
+    judge=_judge,
+    title=mark("clearance of the speeds in use from torsional resonance"),
+)
