@@ -47,7 +47,7 @@ from .strength import (
     twist,
     yoke_strength,
 )
-from .torsion import parametric_stability, torque_reversal, torsional_resonance
+from .torsion import parametric_stability, start_fatigue, torque_reversal, torsional_resonance
 from .verdict import Verdict
 
 CHECKS: dict[str, Check] = {
@@ -80,6 +80,7 @@ CHECKS: dict[str, Check] = {
         torsional_resonance,
         parametric_stability,
         torque_reversal,
+        start_fatigue,
         balance,
         design_torque,
         part_accuracy,

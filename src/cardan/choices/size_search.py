@@ -285,8 +285,16 @@ PARTS = ("tube", "shaft", "journal", "needles", "joint")
 """What can be sized."""
 
 CHECKS = {
-    "tube": ("tube_strength", "tube_fatigue", "shaft_life", "tube_buckling", "twist", "critical_speed"),
-    "shaft": ("tube_strength", "tube_fatigue", "shaft_life", "twist", "critical_speed"),
+    "tube": (
+        "tube_strength",
+        "tube_fatigue",
+        "shaft_life",
+        "start_fatigue",
+        "tube_buckling",
+        "twist",
+        "critical_speed",
+    ),
+    "shaft": ("tube_strength", "tube_fatigue", "shaft_life", "start_fatigue", "twist", "critical_speed"),
     "journal": ("journal_strength",),
     "needles": ("bearing_life", "needle_static"),
     "joint": (

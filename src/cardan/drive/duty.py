@@ -148,6 +148,7 @@ class Duty:
     )
     torques: tuple[MachineTorque, ...] = plain((), doc="further torques on stations, positive with the rotation")
     run_up: RunUp | None = plain(None, doc="change of the input speed at a steady rate")
+    starts: float | None = plain(None, doc="run-ups, each as `run_up`, in the life asked for", above=0.0)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -13,12 +13,15 @@ from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.load_case import Case
 from cardan.checks.verdict import Verdict
+from cardan.drive.drive import Drive
 from cardan.drive.duty import History
 from cardan.drive.shaft import Notch
+from cardan.errors import InputError
 from cardan.formulas.shaft_strength import Fatigue, fatigue_cycles, shaft_fatigue
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import foremost_of
 from cardan.questions.life.rainflow import Cycles, Levels, rainflow, time_at_level
+from cardan.questions.torsion.transient.torsion_transient import run_up_torque
 from cardan.texts import _, mark
 
 from .section import Section, sections
@@ -159,10 +162,55 @@ def lasting(design: Design) -> Sequence[Case]:
 
 def fatigue_life(design: Design, k: int) -> Array:
     """Return the running time until the worst stretch of a shaft, counted from 0, breaks, array (...) [s]."""
-    rates = [_of_turns(design, k, one) + _of_history(design, k, one) for one in sections(design, k)]
+    parts = (_of_turns, _of_history, _of_starts)
+    rates = [sum((part(design, k, one) for part in parts), np.zeros(design.shape)) for one in sections(design, k)]
     with np.errstate(divide="ignore"):
         found: Array = 1.0 / np.max(np.stack(np.broadcast_arrays(*rates)), axis=0)
     return found
+
+
+def start_damage(design: Design, k: int) -> Array:
+    """Return the damage that one start does to the worst stretch of a shaft, counted from 0, array (...)."""
+    every = [_of_start(design, k, one) for one in sections(design, k)]
+    return np.asarray(np.max(np.stack(np.broadcast_arrays(*every)), axis=0))
+
+
+def _of_start(design: Design, k: int, section: Section) -> Array:
+    """Return the damage that one start does to a stretch of a shaft: its cycles by rainflow, with secondary couples.
+
+    The couples are those of the larger torque of each cycle.
+    """
+    found = start_cycles(replace(design.drive, poses=()))
+    if isinstance(found, tuple) or k not in found:
+        return np.zeros(design.shape)
+    cycles, plain = found[k], design.loaded[0]
+    bent = np.asarray(plain.end_bending[..., [k]] / plain.shaft_torque[..., [k]])
+    swing, mean = 0.5 * cycles.range, np.abs(cycles.mean)
+    loads = of_loads(design, k, section, mean, swing, bent * (mean + swing), spread=True)
+    return np.asarray(np.sum(cycles.count / np.maximum(loads.cycles, 1.0), axis=-1))
+
+
+@lru_cache(maxsize=32)
+def start_cycles(drive: Drive) -> dict[int, Cycles] | tuple[str, ...]:
+    """Return the cycles of the torque of every shaft that can twist in one start; or the paths that it lacks."""
+    try:
+        torque, shafts = run_up_torque(drive)
+    except InputError as error:
+        return tuple(problem.field for problem in error.problems)
+    if not np.all(np.isfinite(torque)):
+        return ("duty.run_up",)
+    worst = {
+        k: max((e for e, own in enumerate(shafts) if own == k), key=lambda e: np.ptp(torque[:, e])) for k in shafts
+    }
+    return {k: sorted_into_classes(rainflow(torque[:, e])) for k, e in worst.items()}
+
+
+def _of_starts(design: Design, k: int, section: Section) -> Array:
+    """Return the damage a second of the starts in the life asked for."""
+    starts, life = design.value("duty.starts"), design.value("duty.life")
+    if starts is None or life is None:
+        return np.zeros(design.shape)
+    return np.asarray(starts) / np.asarray(life) * _of_start(design, k, section)
 
 
 def _of_turns(design: Design, k: int, section: Section) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -10,6 +11,7 @@ from cardan.checks.design import Design
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
+from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
 from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 
@@ -53,3 +55,14 @@ def nearest_used(drive: Drive, speed: float) -> float:
     """Return the speed in use that is nearest to a speed [rad/s], in their ratio."""
     inside = [float(np.clip(speed, *between)) for between in used(drive) if between[1] > 0.0]
     return min(inside, key=lambda one: abs(np.log(max(one, 1e-12) / speed)))
+
+
+def worst(used: Sequence[Array], *columns: Sequence[Array]) -> tuple[Array, ...]:
+    """Return of each column, one value (...) a way of running, that of the way that uses most, arrays (...)."""
+    shape = np.broadcast_shapes(*(np.shape(one) for row in (used, *columns) for one in row))
+    every = np.stack([np.broadcast_to(one, shape) for one in used])
+    first = np.argmax(every, axis=0)[None]
+    return tuple(
+        np.take_along_axis(np.stack([np.broadcast_to(one, shape) for one in column]), first, axis=0)[0][()]
+        for column in columns
+    )

@@ -13,7 +13,7 @@ from cardan.checks.verdict import Verdict
 from cardan.maths.arrays import Array
 from cardan.texts import _, mark
 
-from .line import lacking
+from .line import lacking, worst
 
 LEAST = 1e-9
 """Mean torque that counts where there is none [N·m]."""
@@ -27,11 +27,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
     shaking = [case for case in design.loaded if case.vibrating() is not None]
     for k in range(design.joints + 1) if shaking else ():
         dips, means = zip(*(_dip(case, k) for case in shaking), strict=True)
-        used = np.stack(np.broadcast_arrays(*(dip / mean for dip, mean in zip(dips, means, strict=True))))
-        worst = np.argmax(used, axis=0)[None]
-        value, limit = (
-            np.take_along_axis(np.stack(np.broadcast_arrays(*one)), worst, axis=0)[0][()] for one in (dips, means)
-        )
+        value, limit = worst([dip / mean for dip, mean in zip(dips, means, strict=True)], dips, means)
         loose = _loose(design, k)
         if not loose and not _reverses(design, k):
             continue

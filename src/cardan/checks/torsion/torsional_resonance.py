@@ -20,10 +20,13 @@ from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torsion import Crossing
 from cardan.texts import _, mark
 
-from .line import lacking, modes, nearest_used
+from .line import lacking, modes, nearest_used, worst
 
 APART = 0.1
 """Share by which a speed should differ from one at which an excitation meets a natural frequency."""
+
+LEAST = 1e-9
+"""Alternating torque that a shaft bears where it bears none [N·m]."""
 
 STEEP = math.radians(35.0)
 """Joint angle from which order 4 is a twentieth of order 2: below, it shakes too little to count."""
@@ -52,24 +55,22 @@ def _apart(design: Design) -> Iterator[Verdict]:
     def apart(pair: tuple[Crossing, float]) -> float:
         return abs(math.log(pair[1] / pair[0].speed))
 
-    worst, speed = min(used, key=apart)
+    nearest, speed = min(used, key=apart)
     running = [np.asarray(case.speed, dtype=float) for case in design.cases if case.speed is not None]
     value = np.asarray(speed)
     if design.varied and design.duty.speed_range is None and running:
-        every = np.stack(np.broadcast_arrays(*running))
-        nearest = np.argmin(np.abs(np.log(every / worst.speed)), axis=0)[None]
-        value = np.take_along_axis(every, nearest, axis=0)[0]
+        (value,) = worst([-np.abs(np.log(one / nearest.speed)) for one in running], running)
     text = _("order {order} ({cause}) meets mode {mode} at that speed")
-    order = Quantity(worst.order, trim=True)
+    order = Quantity(nearest.order, trim=True)
     yield Verdict(
-        value=value[()],
-        limit=(worst.speed * (1.0 - APART), worst.speed * (1.0 + APART)),
+        value=np.asarray(value)[()],
+        limit=(nearest.speed * (1.0 - APART), nearest.speed * (1.0 + APART)),
         sense="outside",
         dimension="angular_speed",
         unit="rpm",
         source=_("API 617: 10 % between an excitation and a torsional natural frequency"),
         design_variables=design.speed_design_variables,
-        note=say(text, order=order, cause=worst.cause, mode=worst.mode),
+        note=say(text, order=order, cause=nearest.cause, mode=nearest.mode),
         advice=True,
     )
 
@@ -87,18 +88,13 @@ def _borne(design: Design, k: int) -> Iterator[Verdict]:
         return
     swings = [0.5 * (case.torque_range[1] - case.torque_range[0])[..., k] for case in shaking]
     limits = [np.min([_bears(design, k, one, case) for one in found], axis=0) for case in shaking]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        used = [np.where(limit > 0.0, swing / limit, np.inf) for swing, limit in zip(swings, limits, strict=True)]
-    worst = np.argmax(np.stack(np.broadcast_arrays(*used)), axis=0)[None]
-
-    def at(values: list[Array]) -> Array:
-        return np.take_along_axis(np.stack(np.broadcast_arrays(*values)), worst, axis=0)[0][()]
-
+    used = [swing / np.maximum(limit, LEAST) for swing, limit in zip(swings, limits, strict=True)]
+    swing, limit = worst(used, swings, limits)
     yield Verdict(
         title=title.format(number=k + 1),
         subject=f"shafts[{k}]",
-        value=at(swings),
-        limit=np.maximum(at(limits), 1e-9),
+        value=swing,
+        limit=np.maximum(limit, LEAST),
         dimension="torque",
         unit="Nm",
         source=_("Goodman with Marin's factors beside mean torque and secondary couples, over the safety asked for"),

@@ -443,6 +443,8 @@ def _torque_problems(drive: Described) -> Iterator[Problem]:
             yield Problem(f"duty.{name}", text)
     if duty.run_up is not None and duty.run_up.start == duty.run_up.end:
         yield Problem("duty.run_up.end", _("is the speed before; a run-up needs two"))
+    if duty.starts is not None and duty.run_up is None:
+        yield Problem("duty.run_up", _("missing; duty.starts counts run-ups"), "missing")
 
 
 # What the sizes, materials and figures must satisfy that strength and upkeep go by.

@@ -47,6 +47,9 @@ SMOOTH = 20.0
 FOLLOWED = 1_000_000
 """Turns or swings of the slowest mode that are followed at most: hours of work."""
 
+PEAKS, LONGEST = 40.0, 5000.0
+"""Samples and steps in a period of a run-up whose cycles are counted, and the periods that are followed."""
+
 AFTER = 0.2
 """Share of a run-up that is simulated behind it."""
 
@@ -173,6 +176,30 @@ def transient(
     how = _method(model, rate, length) if method is None else method
     motion = simulate(model, span=length, times=times, angle=angle, speed=rate, method=how, progress=progress)
     return Transient(train=train, motion=motion, start=start)
+
+
+def run_up_torque(drive: Drive) -> tuple[Array, tuple[int, ...]]:
+    """Return the torque of every element in a run-up as the duty has it, (t, E) [N·m], and the shafts of the elements.
+
+    Backlash counts as closed; `PEAKS` samples a period of the fastest vibration, so that no peak is missed by much.
+    Raises InputError: what the model misses, or a run-up too long to be followed.
+    """
+    joints = tuple(replace(one, backlash=0.0) if one.backlash else one for one in drive.joints)
+    shafts = tuple(
+        replace(one, spline=replace(one.spline, backlash=0.0)) if one.spline is not None else one
+        for one in drive.shafts
+    )
+    closed, course = replace(drive, joints=joints, shafts=shafts), drive.duty.run_up
+    if course is None:
+        raise refuse("duty.run_up", _("missing; duty.starts counts run-ups"), "missing")
+    model = torsional_train(closed, speed=max(course.start, course.end, key=abs)).model
+    top = 2.0 * max(abs(course.start), abs(course.end))
+    swings = max(_slowest(model), top) * (1.0 + AFTER) * course.duration / (2.0 * np.pi)
+    if swings > LONGEST:
+        text = _("the run-up takes {swings:.0f} oscillations; at most {most:.0f} are followed")
+        raise refuse("duty.run_up.duration", text.format(swings=swings, most=LONGEST), "too_large")
+    found = transient(closed, times=max(int(PEAKS * swings), 501), method=FixedStep(per_period=PEAKS))
+    return found.motion.torque, tuple(found.train.model.shaft[a] for a, _b in found.train.model.elements)
 
 
 def _held(model: TorsionalModel, force: float) -> TorsionalModel:

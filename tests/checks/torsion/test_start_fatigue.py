@@ -1,0 +1,87 @@
+"""Damage by starts: the run-up against another integration, its cycles one by one, and what fails with many of them."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan import Drive, InputError
+from cardan.checks import check
+from cardan.checks.design import design
+from cardan.checks.strength.shaft_life import start_damage
+from cardan.checks.strength.strength import strength
+from cardan.drive.duty import Duty
+from cardan.drive.joints import Hooke
+from cardan.drive.machine import RunUp
+from cardan.drive.material import Material
+from cardan.drive.shaft import Shaft
+from cardan.drive.station import Station
+from cardan.questions.life.rainflow import rainflow
+from cardan.questions.torsion.transient.torsion_transient import run_up_torque, transient
+from cardan.questions.torsion.transient.transient import Adaptive
+from cardan.units import deg, mm, rpm
+
+pytestmark = pytest.mark.slow
+
+
+def drive(**duty):
+    """A flywheel behind two unequal joints, run up through the resonance of order 2 at 307 rpm."""
+    steel = Material(yield_strength=355e6, ultimate_strength=600e6)
+    tube = Shaft(number=2, length=1.0, outer=46 * mm, wall=4 * mm, loss_factor=0.04, material=steel)
+    joints = (Hooke(joint_angle=14 * deg), Hooke(joint_angle=9 * deg))
+    return replace(
+        Drive(joints=joints, shafts=(tube,)),
+        stations=(Station(shaft=3, inertia=4.5),),
+        duty=Duty(
+            speed=540 * rpm,
+            torque=300.0,
+            life=3600.0 * 5000,
+            run_up=RunUp(end=540 * rpm, duration=4.0),
+            **duty,
+        ),
+    )
+
+
+def test_the_run_up_is_that_of_an_integration_with_steps_of_its_own():
+    torque, shafts = run_up_torque(drive())
+    exact = transient(drive(), method=Adaptive(rtol=1e-8, atol=1e-9)).motion.extremes
+    assert shafts == (1,)
+    assert torque.max() == pytest.approx(float(exact.torque_high[0]), rel=5e-3)  # 40 samples a period
+    assert torque.min() == pytest.approx(float(exact.torque_low[0]), rel=5e-3)
+
+
+def test_the_damage_of_a_start_cycle_by_cycle():
+    """σ_a = √((2M/W)² + 3(T_a/W)²), σ_m = √3 T_m/W, N = (σ_r/A)^(1/B) where Goodman's safety is below 1."""
+    subject = design(drive(starts=1.0))
+    torque, _shafts = run_up_torque(subject.drive)
+    cycles = rainflow(torque[:, 0])
+    modulus = math.pi * (0.046**4 - 0.038**4) / (16 * 0.046)
+    swing, mean = 0.5 * cycles.range / modulus, np.abs(cycles.mean) / modulus
+    case = subject.loaded[0]
+    bent = 2 * float(case.end_bending[1] / case.shaft_torque[1]) * (swing + mean)
+    endurance = 4.51 * 600**-0.265 * 1.24 * 46**-0.107 * 0.897 * 300e6
+    alternating, steady = np.sqrt(bent**2 + 3 * swing**2), math.sqrt(3) * mean
+    use = alternating / endurance + steady / 600e6
+    slope = -math.log10(0.9 * 600e6 / endurance) / 3
+    life = (alternating / (1 - steady / 600e6) / ((0.9 * 600e6) ** 2 / endurance)) ** (1 / slope)
+    by_hand = float(np.sum(np.where(use > 1.0, cycles.count / np.maximum(life, 1.0), 0.0)))
+    assert by_hand > 1e-4
+    assert float(start_damage(subject, 1)) == pytest.approx(by_hand, rel=1e-3)
+
+
+def test_many_starts_break_what_few_do_not():
+    (few,) = check(drive(starts=100.0), only=["start_fatigue"])
+    (many,) = check(drive(starts=12000.0), only=["start_fatigue"])
+    assert few.state == "passed"
+    assert many.state == "failed"
+    assert many.value == pytest.approx(120.0 * few.value, rel=1e-6)  # running alone does no damage
+    assert strength(drive(starts=12000.0)).shafts[1].fatigue_life == pytest.approx(3600.0 * 5000 / many.value)
+
+
+def test_starts_need_a_run_up_and_a_model():
+    with pytest.raises(InputError, match=r"duty\.run_up: missing"):
+        replace(drive(), duty=Duty(torque=10.0, starts=5.0))
+    (bare,) = [its for its in check(replace(drive(starts=5.0), stations=()), only=["start_fatigue"])]
+    assert bare.missing[0] == "stations[0].inertia"
+    assert not list(check(drive(), only=["start_fatigue"]))
