@@ -42,7 +42,7 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
         source=_("run-up in time, rainflow by ASTM E1049, Palmgren-Miner; S-N line of Shigley chapter 6"),
         design_variables=(*fatigue_variables(design, k), "duty.starts", "duty.life"),
         note=say(
-            _("a start uses up {share} of it, {count} starts and running the rest"),
+            _("{share} of the fatigue life per start, {count} starts"),
             share=share,
             count=Quantity(float(np.max(starts)), trim=True),
         ),

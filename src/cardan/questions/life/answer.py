@@ -296,7 +296,7 @@ def _vibration(drive: Drive, result: Life) -> Remark:
     """Return whether torsional vibration is counted."""
     most = max((one for one in result.vibration if not math.isnan(one)), default=math.nan)
     if not math.isnan(most):
-        text = _("Torsional vibration is counted: the torque swings by up to ±{share} of its mean.")
+        text = _("Torsional vibration is counted: the alternating torque reaches ±{share} of the mean.")
         return Remark(text=say(text, share=Quantity(most, "share", 3)))
     text = _("Torsional vibration is not counted: the file says nothing of masses and stiffness (stations).")
     if result.history is not None:
