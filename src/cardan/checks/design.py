@@ -27,9 +27,10 @@ from cardan.maths.ties import foremost
 from cardan.questions.accuracy.as_made import AsMade, as_made
 from cardan.questions.forces.turn_loads import TurnLoads, at_joint_angle
 from cardan.questions.motion.turning import Swing, swing
+from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.texts import _
 
-from .load_case import Case, largest, vibration
+from .load_case import Case, Vibration, largest, vibration
 from .movement_loads import Moved, largest_joint_angles, largest_of
 
 _STEP = re.compile(r"([a-z_][a-z0-9_]*)((?:\[\d+\])*)$")
@@ -230,8 +231,14 @@ class Design:
             torque_at=one.torque_at,
             harmonics=one.harmonics,
             scale=scale,
-            vibrating=lambda: None if history else vibration(replace(self.drive, poses=()), one),
+            vibrating=lambda: None if history else self._vibration(one),
         )
+
+    def _vibration(self, one: LoadCase) -> Vibration | None:
+        """Return what torsional vibration adds to the loads in a way to run, of the drive itself."""
+        if not has_torsion(self.drive):
+            return None
+        return vibration(replace(self.drive, poses=()) if self.drive.poses else self.drive, one)
 
     @property
     def loaded(self) -> tuple[Case, ...]:

@@ -147,8 +147,13 @@ class Case:
     harmonics: tuple[Harmonic, ...] = ()  # its swinging parts
     # (...) [N·m]: mean torque that the harmonics belong to, and with which they grow; zero where they do not
     scale: Array | float = 0.0
-    # tells what torsional vibration adds, of the drive that the others vary
+    # finds what torsional vibration adds
     vibrating: Callable[[], Vibration | None] = lambda: None
+
+    @cached_property
+    def vibration(self) -> Vibration | None:
+        """What torsional vibration adds, of the drive that the others vary; None where the file does not tell it."""
+        return self.vibrating()
 
     @cached_property
     def joint_angle(self) -> Array:
@@ -206,7 +211,7 @@ class Case:
     @cached_property
     def _loads(self) -> TurnLoads:
         """Largest loads over a turn."""
-        plain, added = self._without_vibration, self.vibrating()
+        plain, added = self._without_vibration, self.vibration
         if added is None:
             return plain
         found = {name: values + getattr(added.more, name) for name, values in vars(plain).items()}

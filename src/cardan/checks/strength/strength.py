@@ -344,7 +344,7 @@ def _vibration(subject: Design) -> Vibration | None:
 
     The torque of a steady motion that grows is the least that the drive reaches.
     """
-    told = [(case, one) for case in subject.loaded if (one := case.vibrating()) is not None]
+    told = [(case, one) for case in subject.loaded if (one := case.vibration) is not None]
     if not told:
         return None
     _case, worst = foremost_of(told, lambda one: float(np.nanmax(one[1].growth)))

@@ -24,7 +24,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
     if missing:
         yield Verdict(missing=missing)
         return
-    shaking = [case for case in design.loaded if case.vibrating() is not None]
+    shaking = [case for case in design.loaded if case.vibration is not None]
     for k in range(design.joints + 1) if shaking else ():
         dips, means = zip(*(_dip(case, k) for case in shaking), strict=True)
         value, limit = worst([dip / mean for dip, mean in zip(dips, means, strict=True)], dips, means)
@@ -52,7 +52,7 @@ def _dip(case: Case, k: int) -> tuple[Array, Array]:
 
 def _reverses(design: Design, k: int) -> bool:
     """Tell whether the torque of a shaft passes through zero in the drive that the others vary."""
-    return any(float(np.min(one.low[:, k])) < 0.0 for case in design.loaded if (one := case.vibrating()) is not None)
+    return any(float(np.min(one.low[:, k])) < 0.0 for case in design.loaded if (one := case.vibration) is not None)
 
 
 def _loose(design: Design, k: int) -> tuple[str, ...]:

@@ -77,7 +77,7 @@ def _apart(design: Design) -> Iterator[Verdict]:
 
 def _borne(design: Design, k: int) -> Iterator[Verdict]:
     """Yield the alternating torque of a shaft beside that which it bears for ever."""
-    shaking = [case for case in design.loaded if case.vibrating() is not None]
+    shaking = [case for case in design.loaded if case.vibration is not None]
     found = list(sections(design, k))
     if not shaking or not found or design.drive.shafts[k].layup is not None:
         return
