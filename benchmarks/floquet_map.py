@@ -1,4 +1,4 @@
-"""Stability maps over speed and bend with four degrees of freedom, against integrating the variational equations."""
+"""Stability maps and proofs, against integrating the variational equations."""
 
 from __future__ import annotations
 
@@ -9,17 +9,24 @@ from dataclasses import replace
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from cardan import Drive, example, stability
 from cardan.maths.compiled.method import Compiled
 from cardan.questions.torsion.model.inputs import Constant
 from cardan.questions.torsion.model.torsional_balance import slopes
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
 from cardan.questions.torsion.stability.floquet_map import floquet_map
+from cardan.questions.torsion.stability.proved_speeds import proved_speeds
 from cardan.questions.torsion.steady.steady import periodic_response
+from cardan.questions.torsion.steady.torsion_response import loaded_model, parted
+from cardan.units import rpm
 
 from .harness import Figure, fastest
 
 AIM = 10.0
 """Seconds for 300 × 300 points on two processors."""
+
+PROVED, FROM_FILE = 10.0, 30.0
+"""Seconds for stability proved from 500 to 3000 rpm on one processor, and for a map of 300 × 300 points of a file."""
 
 TOLERANCE = 1e-8
 
@@ -60,10 +67,38 @@ def by_scipy(speed: float) -> np.ndarray:
     return done.y[:, -1].reshape(2 * count, 2 * count)
 
 
+def _proved(stand: Drive) -> object:
+    def build(speeds: np.ndarray) -> TorsionalModel:
+        return parted(loaded_model(stand, stand.duty, speeds, disturbed=True)[1])[0]
+
+    return proved_speeds(build, 500.0 * rpm, 3000.0 * rpm, method=Compiled(threads=1))
+
+
 def figures(quick: bool) -> Iterator[Figure]:
     points = 24 if quick else 300
     model = over(points)
     seconds = fastest({"map": lambda: floquet_map(model, method=Compiled())}, rounds=1 if quick else 3)["map"]
+    stand = example("unstable-drive")
+    proof = fastest({"proof": lambda: _proved(stand)}, rounds=1 if quick else 3)["proof"]
+    yield Figure(
+        bench="stability proved from 500 to 3000 rpm, test stand with its zone",
+        value=proof,
+        unit="s",
+        yardstick=f"aim ≤ {PROVED:g} s on one processor",
+        ratio=proof / PROVED,
+    )
+    over_both = {
+        "duty.speed_rpm": np.linspace(500.0, 3000.0, points),
+        "joint_angle_deg": np.linspace(5.0, 30.0, points),
+    }
+    whole = fastest({"map": lambda: stability(stand, over=over_both)}, rounds=1)["map"]
+    yield Figure(
+        bench=f"stability map of {points} × {points} points from a drive file, stations without inertia",
+        value=whole,
+        unit="s",
+        yardstick=f"aim ≤ {FROM_FILE:g} s for 300 × 300",
+        ratio=whole / FROM_FILE,
+    )
     probes = (50.0,) if quick else (20.0, 50.0, 100.0)
     by_scipy(50.0)
     begin = time.perf_counter()

@@ -28,7 +28,9 @@ def test_a_map_without_anything_on_it_is_a_sentence() -> None:
     assert found is not None
     said = home.answer(drive, found)
     assert said.figures() == ()
-    assert told(said.sentence, USUAL).startswith("stable throughout: input speed 270 to 810 rpm; largest joint angle ")
+    assert told(said.sentence, USUAL).startswith(
+        "stable at every point: input speed 270 to 810 rpm; largest joint angle "
+    )
     assert [one.name for one in home.answer(drive, found, signs=True).figures()] == ["stability-map"]
 
 

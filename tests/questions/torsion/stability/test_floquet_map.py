@@ -11,8 +11,9 @@ from cardan.errors import InputError
 from cardan.maths.compiled.method import Compiled, Plain
 from cardan.maths.periodic.harmonics import Status
 from cardan.questions.torsion.model.inputs import Constant
-from cardan.questions.torsion.model.torsional_model import Torque
+from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
 from cardan.questions.torsion.stability.floquet_map import floquet_map
+from cardan.questions.torsion.steady import steady
 from cardan.questions.torsion.steady.run_stability import Verdict, floquet
 from cardan.questions.torsion.steady.steady import periodic_response
 from tests.builders.torsion_in_time import drive
@@ -85,6 +86,31 @@ def test_open_play_goes_the_plain_way_and_closed_play_the_fast_one() -> None:
     # what the kernel finds has the multipliers of array expressions to rounding of its sums alone
     exact = np.all(np.abs(found.floquet.modulus / one.modulus - 1.0) < 1e-11, axis=-1)
     assert exact.tolist() == opened
+
+
+def test_the_kernel_takes_coordinates_without_inertia() -> None:
+    """With a damper to hold them back and without; what has neither cannot be disturbed by itself."""
+    for damping in ([[0.4], [0.2], [0.3]], [[0.4], [0.0], [0.0]]):
+        model = torsional_line(
+            [[1.0, 0.0], [0.0, 0.0], [0.0, 0.5]], stiffness=[[3000.0], [5000.0], [4000.0]], damping=damping,
+            joint_angle=[0.3, 0.25], phase=[0.0, 1.2], torques=[Torque(station=5, law=Constant(value=-40.0))],
+            input_speed=1.0,
+        )  # fmt: skip
+        fast, slow = (floquet_map(model, speed=SPEEDS, method=how) for how in (Compiled(), Plain()))
+        np.testing.assert_allclose(fast.floquet.modulus, slow.floquet.modulus, rtol=1e-6, atol=1e-6)
+        assert np.array_equal(fast.floquet.verdict, slow.floquet.verdict)
+        assert np.array_equal(np.isnan(fast.floquet.multipliers), np.isnan(slow.floquet.multipliers))
+
+
+def test_a_chunk_without_any_motion_keeps_what_others_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(steady, "pieces_of", lambda *_all, **_named: None)  # a search of minutes
+    loads = np.concatenate([np.full(64, -1e9), np.linspace(0.0, 100.0, 70), np.full(64, -1e9)])
+    model = replace(drive(60.0), torques=(Torque(station=6, law=Constant(value=loads)),))
+    found = floquet_map(model, method=Plain()).floquet
+    assert np.all(found.verdict[:64] == Verdict.UNKNOWN)
+    assert np.all(found.verdict[64:134] == Verdict.STABLE)
+    assert np.all(found.verdict[134:] == Verdict.UNKNOWN)
+    assert found.multipliers.shape == (198, 8)
 
 
 def test_what_was_stopped_is_unknown_and_the_rest_is_kept() -> None:

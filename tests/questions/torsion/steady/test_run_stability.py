@@ -17,7 +17,8 @@ from cardan.maths.compiled.method import Compiled
 from cardan.questions.torsion.model.inputs import Asynchronous, Constant
 from cardan.questions.torsion.model.torsional_balance import slopes
 from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
-from cardan.questions.torsion.stability.floquet_map import floquet_map, unstable_speeds
+from cardan.questions.torsion.stability.floquet_map import floquet_map
+from cardan.questions.torsion.stability.proved_speeds import proved_speeds
 from cardan.questions.torsion.steady.run_stability import Kind, Verdict, floquet, nearest_zone
 from cardan.questions.torsion.steady.steady import periodic_response, steady_orbits
 from cardan.questions.torsion.steady.torsion_response import loaded_model
@@ -148,7 +149,7 @@ def test_at_small_bends_the_zone_is_mathieus(joint_angle: float) -> None:
     tau = np.tan(alpha / 2.0) ** 2
     model = torsional_line([[1.0, 0.0], [0.4]], stiffness=[[1000.0], []], joint_angle=[alpha], input_speed=1.0)
     natural = np.sqrt(1000.0 / 0.4)
-    found = unstable_speeds(model, 0.97 * natural, 1.03 * natural, points=80)
+    found = proved_speeds(model, 0.97 * natural, 1.03 * natural)
     edges = np.sort((natural / np.asarray([found.lowest[0], found.highest[0]])) ** 2)
     wanted = [brentq(lambda a, f=f: f(1, 2.0 * tau * a) - a, 0.8, 1.2) for f in (mathieu_b, mathieu_a)]
     np.testing.assert_allclose(edges, wanted, atol=2.1 * tau**2 + 1e-8)
@@ -160,7 +161,7 @@ def test_combinations_of_modes_are_found_where_they_are_expected() -> None:
         [[1.0, 0.02], [0.02, 0.3, 0.2]], stiffness=[[1500.0], [2500.0, 1200.0]], damping=[[0.02], [0.02, 0.02]],
         joint_angle=[np.radians(30)], input_speed=1.0,
     )  # fmt: skip
-    found = unstable_speeds(model, 60.0, 120.0)
+    found = proved_speeds(model, 60.0, 120.0)
     assert [found.zone.name((k,)) for k in range(len(found.worst))] == [
         "sum of modes 1 and 2",
         "sum of modes 1 and 3, zone 2",
@@ -278,5 +279,5 @@ def test_zones_are_those_of_the_frequencies() -> None:
 
 def test_ranges_that_are_none_are_refused() -> None:
     with pytest.raises(InputError) as caught:
-        unstable_speeds(drive(), -1.0, -2.0)
+        proved_speeds(drive(), 0.0, -2.0)
     assert [problem.field for problem in caught.value.problems] == ["lowest", "highest"]

@@ -24,6 +24,7 @@ from cardan.texts import _, mark
 from cardan.units import deg, rpm
 
 from .figure import SPEED, MapAxis, map_axes, plays, stability_figures
+from .proved_speeds import ProvedSpeeds
 from .torsion_stability import JOINT_ANGLE, Stability, stability
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
@@ -45,6 +46,9 @@ SIGNS = ("·", "~", "#", " ")
 
 WIDE, HIGH = 61, 17
 """Points of a map in the terminal at most."""
+
+EDGE = 6
+"""Digits of the edge of an unstable range."""
 
 
 def lacking(drive: Drive) -> Lacking:
@@ -119,6 +123,8 @@ def _point(found: Stability) -> tuple[Tone, Text]:
 
 def _mapped(found: Stability, axes: tuple[MapAxis, ...]) -> tuple[Tone, Text]:
     """Return what becomes of vibration over a path or two."""
+    if len(axes) == 1 and found.proof is not None and found.proof.looked_at:
+        return _followed(found, found.proof, axes[0])
     unstable = found.verdict == Verdict.UNSTABLE
     if not np.any(unstable):
         return _calm(found, axes)
@@ -135,10 +141,92 @@ def _mapped(found: Stability, axes: tuple[MapAxis, ...]) -> tuple[Tone, Text]:
     return "failed", say(text, share=Quantity(found.unstable_share, "share"), zones=said)
 
 
+def _followed(found: Stability, proof: ProvedSpeeds, over: MapAxis) -> tuple[Tone, Text]:
+    """Return what is proved over a range of speeds, with what the points tell of the rest."""
+    zones = _zone_texts(proof, over)
+    rest = (found.verdict == Verdict.UNSTABLE) & ~proof.shown(over.si)
+    sampled = ranges(over.si, rest, over.dimension, over.unit)
+    low, high = (_edge(one, over) for one in proof.looked)
+    if proof.stable:
+        return "good", say(_("stable from {low:bare} to {high}: proved throughout."), low=low, high=high)
+    if not zones and not np.any(rest):
+        text = _("no unstable range from {low:bare} to {high}; a zone up to {hidden} wide could hide.")
+        hidden = Quantity(proof.hidden, over.dimension, 2, unit=over.unit)
+        return "warning", say(text, low=low, high=high, hidden=hidden)
+    where = Joined([*zones, sampled] if np.any(rest) else zones)
+    if proof.proved:
+        text = _("unstable at {where}; otherwise stable from {low:bare} to {high}, proved.")
+        return "failed", say(text, where=where, low=low, high=high)
+    text = _("unstable at {where}; from {low:bare} to {high} another zone up to {hidden} wide could hide.")
+    hidden = Quantity(proof.hidden, over.dimension, 2, unit=over.unit)
+    return "failed", say(text, where=where, low=low, high=high, hidden=hidden)
+
+
+def _zone_texts(proof: ProvedSpeeds, over: MapAxis) -> list[Text]:
+    """Return the unstable ranges that were followed to their edges."""
+    pairs = zip(proof.lowest, proof.highest, strict=True)
+    text = _("{low:bare} to {high}")
+    return [say(text, low=_edge(low, over), high=_edge(high, over)) for low, high in pairs]
+
+
+def _edge(speed: Any, over: MapAxis) -> Quantity:
+    return Quantity(float(speed), over.dimension, EDGE, unit=over.unit, trim=True)
+
+
+def _unproved(found: Stability, over: MapAxis) -> Iterator[Remark]:
+    """Yield how sure the ranges of speed are."""
+    proof = found.proof
+    if proof is None:
+        return
+    if not proof.looked_at:
+        step = over.quantity(float(np.max(np.diff(np.sort(over.values)), initial=0.0)), 2)
+        text = _(
+            "Only points {step} apart were judged: narrower zones may be missed. A proof between them would take too "
+            "long for a line this stiff."
+        )
+        yield Remark(text=say(text, step=step), tone="warning")
+        return
+    for kind, text in (
+        (
+            _within(proof.unproved, proof.open),
+            _("Not proved at {where}: backlash opens there, or the steady motion jumps."),
+        ),
+        (_within(proof.unproved, proof.open, inside=False), _("Not proved at {where}: the margin is too small there.")),
+    ):
+        if len(kind):
+            where = [say(_("{low:bare} to {high}"), low=_edge(a, over), high=_edge(b, over)) for a, b in kind[:NAMED]]
+            yield Remark(text=say(text, where=Joined(where)), tone="warning")
+
+
+def _as_drawn(proof: ProvedSpeeds, over: MapAxis) -> Remark:
+    """Return what is proved of the drive as it is, beside a map of points."""
+    low, high = (_edge(one, over) for one in proof.looked)
+    zones = _zone_texts(proof, over)
+    hidden = Quantity(proof.hidden, over.dimension, 2, unit=over.unit)
+    if not zones:
+        text = _("As drawn it is stable from {low:bare} to {high}: proved throughout.")
+        if not proof.proved:
+            text = _("As drawn no zone wider than {hidden} can hide from {low:bare} to {high}.")
+        return Remark(text=say(text, low=low, high=high, hidden=hidden), tone="good")
+    text = _("As drawn it is unstable at {where}; otherwise stable from {low:bare} to {high}, proved.")
+    if not proof.proved:
+        text = _("As drawn it is unstable at {where}; from {low:bare} to {high} a zone up to {hidden} wide could hide.")
+    return Remark(text=say(text, where=Joined(zones), low=low, high=high, hidden=hidden), tone="warning")
+
+
+def _within(stretches: Any, others: Any, *, inside: bool = True) -> Any:
+    """Return the stretches in which one of the others begins, or those in which none does."""
+    held = [any(one[0] <= begin < one[1] for begin, _end in others) == inside for one in stretches]
+    return stretches[np.asarray(held, dtype=bool)]
+
+
 def _calm(found: Stability, axes: tuple[MapAxis, ...]) -> tuple[Tone, Text]:
     """Return what is said where no point is known to be unstable."""
     if np.all(found.verdict == Verdict.STABLE):
-        return "good", say(_("stable throughout: {where}."), where=Joined([_ends(one) for one in axes], between="; "))
+        hit = len(axes) == 2 and found.proof is not None and len(found.proof.lowest) > 0
+        text = _("stable at every point: {where}.")
+        where = Joined([_ends(one) for one in axes], between="; ")
+        return "failed" if hit else "good", say(text, where=where)
     if np.all(found.verdict == Verdict.UNKNOWN):
         return "failed", _("no steady motion was found.")
     neutral, lost = (int(np.sum(found.verdict == one)) for one in (Verdict.NEUTRAL, Verdict.UNKNOWN))
@@ -182,6 +270,10 @@ def _remarks(found: Stability, axes: tuple[MapAxis, ...], *, signs: bool) -> Ite
         text = _("Warning: stopped; {done} of {all} points are done.")
         done = int(np.sum(found.verdict != Verdict.UNKNOWN))
         yield Remark(text=text.format(done=done, all=found.verdict.size), tone="warning")
+    if len(axes) == 1 and found.proof is not None:
+        yield from _unproved(found, axes[0])
+    if len(axes) == 2 and found.proof is not None and found.proof.looked_at:
+        yield _as_drawn(found.proof, next(one for one in axes if one.key == SPEED))
     if not axes and int(found.verdict) == Verdict.STABLE and np.isfinite(found.zone.speed):
         text = _("The nearest zone of instability is the {zone}, at {speed}.")
         yield Remark(text=say(text, zone=found.zone.name(), speed=_speed(found.zone.speed)))
@@ -252,8 +344,28 @@ def _facts(found: Stability) -> dict[str, Any]:
         "nearest_zone": [found.zone.name(index) for index in np.ndindex(found.verdict.shape)],
         "nearest_zone_speed": Quantity(found.zone.speed, "angular_speed"),
         "least_loss_factor": found.least_loss,
+        "proof": None if found.proof is None else _proof_facts(found.proof),
         "cancelled": found.cancelled,
         "assumed": found.train.assumed,
+    }
+
+
+def _proof_facts(proof: ProvedSpeeds) -> dict[str, Any]:
+    return {
+        "speeds": Quantity(np.asarray(proof.looked), "angular_speed"),
+        "proved": proof.proved,
+        "stable": proof.stable,
+        "unstable": [
+            {
+                "speeds": Quantity(np.asarray([proof.lowest[k], proof.highest[k]]), "angular_speed"),
+                "worst": Quantity(float(proof.worst[k]), "angular_speed"),
+                "growth_rate": Quantity(float(proof.growth_rate[k]), "rate"),
+                "zone": proof.zone.name((k,)),
+            }
+            for k in range(len(proof.lowest))
+        ],
+        "unproved": Quantity(proof.unproved, "angular_speed"),
+        "widest_zone_hidden": Quantity(proof.hidden, "angular_speed"),
     }
 
 

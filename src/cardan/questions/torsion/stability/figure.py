@@ -10,7 +10,7 @@ import numpy as np
 
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.figures.axes import axis, steps, written
-from cardan.figures.figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
+from cardan.figures.figure import Axis, Band, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.steady.figure import runs, unstable_bands
 from cardan.questions.torsion.steady.run_stability import Verdict
@@ -129,7 +129,7 @@ def growth_figure(found: Stability) -> Figure:
     rate = np.where(np.isfinite(found.growth_rate), found.growth_rate, np.nan)
     panel = Panel(
         series=(
-            *unstable_bands(values, found.verdict),
+            *_bands(found, over),
             Rule(value=0.0, role="ink", dash="solid"),
             Curve(x=values, y=rate, role="accent"),
         ),
@@ -153,6 +153,18 @@ def growth_figure(found: Stability) -> Figure:
         rows=(Row(panels=(panel,), height=2.0),),
         legend=False,
     )
+
+
+def _bands(found: Stability, over: MapAxis) -> Iterator[Band]:
+    """Yield the unstable ranges: to their edges where these were followed, else as far as the points tell."""
+    if found.proof is None or not found.proof.looked_at:
+        yield from unstable_bands(over.values, found.verdict)
+        return
+    for low, high in zip(found.proof.lowest, found.proof.highest, strict=True):
+        ends = sorted(math.copysign(float(one), over.si[0]) / over.factor for one in (low, high))
+        yield Band(low=ends[0], high=ends[1], upright=True, role="failed", opacity=0.18)
+    sampled = np.where(found.proof.shown(over.si), Verdict.STABLE, found.verdict)
+    yield from unstable_bands(over.values, sampled)
 
 
 def map_figure(found: Stability) -> Figure:

@@ -54,24 +54,39 @@ class Mapped:
 
 
 def fits(model: TorsionalModel, speed: Array) -> bool:
-    """Tell whether the kernel can take drives: turning forwards, without backlash, every coordinate with inertia."""
-    inertia = [np.zeros(())] * model.coordinates
-    for k, r in enumerate(model.coordinate):
-        inertia[r] = inertia[r] + model.inertia[..., k]
-    first = 0 if model.free else 1
+    """Tell whether the kernel can take drives: turning forwards, without backlash, alike in what has no inertia."""
+    heavy = _inertia(model) > 0.0
+    alike = np.all(heavy == heavy.reshape(-1, heavy.shape[-1])[:1])
     return (
-        model.coordinates > first
+        bool(np.any(heavy))
+        and bool(alike)
         and bool(np.all(speed > 0.0))
         and not np.any(model.backlash > 0.0)
-        and all(bool(np.all(one > 0.0)) for one in inertia[first:])
         and all(type(torque.law) in KINDS for torque in model.torques)
     )
 
 
-def mapped(turning: Turning, harmonics: int, *, threads: int | None = None) -> Mapped:
+def _inertia(model: TorsionalModel) -> Array:
+    """Return the inertia of every coordinate that is not forced, joints straight, array (..., R) [kg m²]."""
+    found = np.zeros((*model.inertia.shape[:-1], model.coordinates))
+    for k, r in enumerate(model.coordinate):
+        found[..., r] += model.inertia[..., k]
+    return found[..., 0 if model.free else 1 :]
+
+
+def heavy_of(model: TorsionalModel) -> Array:
+    """Return which coordinates that are not forced turn some inertia, array of bool (R,)."""
+    found: Array = np.any(_inertia(model).reshape(-1, model.coordinates - (0 if model.free else 1)) > 0.0, axis=0)
+    return found
+
+
+def mapped(turning: Turning, harmonics: int, *, alike: int = 1, threads: int | None = None) -> Mapped:
     """Return motions and monodromy matrices of drives by the compiled kernel.
 
     turning: drives for which `fits` holds; harmonics: H.
+    alike: how many drives behind each other get as many steps, so that their matrices err alike; 1 or a multiple of 8.
+    Where a coordinate has no inertia the points are those of Radau: its speed at the beginning of a step then has no
+    share in the end, so it is carried along as a state and left out of the matrices.
     """
     count = len(turning.speed)
     padded = -(-count // LANES) * LANES
@@ -84,9 +99,13 @@ def mapped(turning: Turning, harmonics: int, *, threads: int | None = None) -> M
     )
     phase, bases, back = _tables(harmonics, turning.period)
     steps = _steps(turning)
+    if alike > 1:
+        steps = np.repeat(np.max(steps.reshape(-1, alike), axis=-1), alike)
     steps = np.max(np.append(steps, np.repeat(steps[-1:], padded - count)).reshape(-1, LANES), axis=-1)
-    nodes, begins = _nodes(sorted(set(steps.tolist())), harmonics, turning.period)
-    points, once = collocation(STAGES)
+    heavy = heavy_of(turning.model)
+    stiff = not heavy.all()
+    nodes, begins = _nodes(sorted(set(steps.tolist())), harmonics, turning.period, stiff=stiff)
+    points, once = collocation(STAGES, stiff=stiff)
     scheme = np.concatenate([[STAGES], points, once.ravel(), (once @ once[:-1]).ravel()])
     matrix, moved = np.empty(padded * states * states), np.empty(padded)
     flat = known.reshape(-1)
@@ -102,8 +121,9 @@ def mapped(turning: Turning, harmonics: int, *, threads: int | None = None) -> M
     table = flat.reshape(padded, -1)[:count, :-1].reshape(count, turning.coordinates, n)
     coefficient = table[..., : harmonics + 1].astype(complex)
     coefficient[..., 1:] -= 1j * table[..., harmonics + 1 :]
+    kept = np.append(np.ones(len(heavy), dtype=bool), heavy)
     return Mapped(
-        matrix=matrix.reshape(padded, states, states)[:count],
+        matrix=matrix.reshape(padded, states, states)[:count][:, kept][:, :, kept],
         coefficient=coefficient,
         force=flat.reshape(padded, -1)[:count, -1].copy(),
         moved=moved[:count],
@@ -200,9 +220,9 @@ def _tables(harmonics: int, period: float) -> tuple[Array, Array, Array]:
     return phase * (period / (2.0 * np.pi)), waves.ravel(), back.ravel()
 
 
-def _nodes(rungs: list[int], harmonics: int, period: float) -> tuple[Array, dict[int, int]]:
+def _nodes(rungs: list[int], harmonics: int, period: float, *, stiff: bool) -> tuple[Array, dict[int, int]]:
     """Return shaft angle and harmonics at the points of the steps, flat, and where each number of steps begins."""
-    points, _once = collocation(STAGES)
+    points, _once = collocation(STAGES, stiff=stiff)
     parts, begins, total = [], {}, 0
     for steps in rungs:
         phase = 2.0 * np.pi * ((np.arange(steps)[:, None] + points) / steps).ravel()

@@ -18,11 +18,18 @@ from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained
 from cardan.questions.torsion.steady.run_stability import Verdict, Zone
-from cardan.questions.torsion.steady.torsion_response import Progress, loaded_model, parted, zone_order
+from cardan.questions.torsion.steady.torsion_response import (
+    Progress,
+    loaded_model,
+    order_jumps,
+    parted,
+    zone_order,
+)
 from cardan.texts import _
 from cardan.units import deg
 
 from .floquet_map import floquet_map, within
+from .proved_speeds import WORK, ProvedSpeeds, proved_speeds
 
 CHUNK, FEW = 2048, 128
 """Points of a map that are judged at once: variants of one quantity beside the speed, and of two."""
@@ -35,6 +42,9 @@ JOINT_ANGLE = "joint_angle_deg"
 
 RANGE, TRIALS, ROUNDS = (1e-5, 1.0), 11, 3
 """Loss factors among which the least is looked for, how many at a time, and how often."""
+
+PROVING, LITTLE = 0.5, 8e6
+"""Share of the work after which stability over the speeds is proved, and how much that may take beside a map."""
 
 PACE = 0.001
 """Seconds that a point of a map takes, about."""
@@ -75,6 +85,9 @@ class Stability:
     least_loss : float
         Loss factor of all shafts from which the drive is stable at its point, on top of its dampers; 0 where these are
         enough; nan over a map, and where no motion was found.
+    proof : ProvedSpeeds, optional
+        Over speeds: the unstable ranges between the lowest and the highest to their edges, and a proof that there are
+        no others; on a map over something else too, of the drive as it is.
     """
 
     over: tuple[tuple[str, Array], ...]
@@ -91,6 +104,7 @@ class Stability:
     cancelled: bool = False
     units: tuple[tuple[str, str], ...] = ()
     least_loss: float = float("nan")
+    proof: ProvedSpeeds | None = None
 
     @property
     def stable(self) -> Array:
@@ -171,11 +185,13 @@ def stability(
         if stopped:
             parts.append(_unknown(parts[0], len(rows)))
             continue
-        told = within(progress, first / count, (int(rows[-1]) + 1) / count)
+        share = PROVING if variants.speeding is not None else 1.0
+        told = within(progress, share * first / count, share * (int(rows[-1]) + 1) / count)
         part, stopped = _judged(*variants.at(np.unravel_index(rows, shape) if shape else (), len(rows)), told)
         parts.append(part)
         if progress is not None and not stopped:
-            stopped = progress((int(rows[-1]) + 1) / count) == "stop" and int(rows[-1]) + 1 < count
+            stopped = progress(share * (int(rows[-1]) + 1) / count) == "stop" and int(rows[-1]) + 1 < count
+    proof = variants.proof(within(progress, PROVING, 1.0)) if not stopped else None
     found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     found = {name: values.reshape((*shape, *values.shape[1:])) for name, values in found.items()}
     zone = Zone(**{name.removeprefix("zone_"): found.pop(name) for name in list(found) if name.startswith("zone_")})
@@ -188,6 +204,7 @@ def stability(
         here=variants.here,
         cancelled=stopped,
         units=variants.units,
+        proof=proof,
         **found,
     )
 
@@ -309,6 +326,19 @@ class _Variants:
         )
         self.here = tuple((path, float(value)) for path, value in own.items() if isinstance(value, float | int))
         self.train, _model = loaded_model(drive, drive.duty, self.speeds[:1], pieces=pieces)
+
+    def proof(self, progress: Progress | None) -> ProvedSpeeds | None:
+        """Return the unstable ranges between the lowest and the highest of the speeds, of the drive as it is."""
+        low, high = float(np.min(self.speeds)), float(np.max(self.speeds))
+        if self.speeding is None or not low < high or low * high < 0.0:
+            return None
+
+        def build(speeds: Array) -> TorsionalModel:
+            return parted(loaded_model(self.drive, self.drive.duty, speeds, pieces=self.pieces, disturbed=True)[1])[0]
+
+        jumps = order_jumps(self.train.model)
+        work = LITTLE if self.others else WORK
+        return proved_speeds(build, low, high, breaks=jumps, work=work, progress=progress)
 
     def at(self, index: Sequence[Array], count: int) -> tuple[TorsionalModel, Array]:
         """Return the models (b,) and speeds (b,) of points by their places on the axes."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from enum import IntEnum
 
 import numpy as np
@@ -13,7 +13,7 @@ from cardan.questions.torsion.model.torsional_balance import slopes
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.texts import _
 
-from .orbit import Backlashed, Orbit, straight_frequencies
+from .orbit import Backlashed, Orbit, straight_frequencies, straight_stiffness
 from .steady_result import SteadyResponse
 
 NEUTRAL = 1e-7
@@ -269,7 +269,7 @@ def multipliers_of(orbit: Orbit, rows: Array) -> tuple[Array, Array, Array]:
     mass, damping, _stiffness = coefficients(np.linspace(0.0, 1.0, 5))
     heavy = np.any(mass != 0.0, axis=(0, 1))
     values, removed = _values(orbit, rows, matrix, heavy)
-    return _without_last(values, _unmoved(damping, heavy)), removed, residual
+    return without_last(values, unmoved(damping, heavy)), removed, residual
 
 
 def multipliers_in_pieces(orbit: Orbit, row: int) -> tuple[Array, Array, Array]:
@@ -283,7 +283,7 @@ def multipliers_in_pieces(orbit: Orbit, row: int) -> tuple[Array, Array, Array]:
         switching = Backlashed(orbit.turning.part(alone))
         time, _weight, x, v, a = (one[:, :1] for one in pieces.points)
         damping = switching.at(pieces.sides, pieces.omega * time, x, v, a)[0].damping
-        values = _without_last(values, _unmoved(damping.swapaxes(0, 1), pieces.heavy))
+        values = without_last(values, unmoved(damping.swapaxes(0, 1), pieces.heavy))
     return values, removed, np.full(1, np.nan)
 
 
@@ -315,7 +315,7 @@ def _values(orbit: Orbit, rows: Array, matrix: Array, heavy: Array) -> tuple[Arr
     return values_of(matrix, Turns.of(orbit.drives(rows), orbit.speed.reshape(-1)[rows], tangent))
 
 
-def _unmoved(damping: Array, heavy: Array) -> Array:
+def unmoved(damping: Array, heavy: Array) -> Array:
     """Return how many coordinates have neither inertia nor damper: they follow the others at once, array (b,).
 
     damping (b, p, R, R): at moments of the motion; a damper that lets go at any of them holds nothing back over a
@@ -330,7 +330,23 @@ def _unmoved(damping: Array, heavy: Array) -> Array:
     return found
 
 
-def _without_last(values: Array, count: Array) -> Array:
+def straight_damping(drives: TorsionalModel, speed: Array) -> Array:
+    """Return the damping between coordinates that are not forced, joints straight, array (b, 1, R, R) [N·m·s/rad].
+
+    drives (b,): with torques ready for moments in a second axis; speed (b,) [rad/s].
+    """
+    first = 0 if drives.free else 1
+    found = straight_stiffness(replace(drives, stiffness=drives.damping))
+    for k, r in enumerate(drives.coordinate):
+        found[:, r, r] += drives.ground_damping[:, k]
+    here = speed[:, None]
+    for torque in drives.torques:
+        r = drives.coordinate[torque.station]
+        found[:, r, r] -= torque.law.at(np.zeros(()), 0.0 * here, here)[2][:, 0]
+    return found[:, None, first:, first:]
+
+
+def without_last(values: Array, count: Array) -> Array:
     """Return multipliers (b, m), the largest first, without so many of the smallest."""
     last = np.sum(np.isfinite(values), axis=-1) - count
     return np.where(np.arange(values.shape[-1]) < last[:, None], values, np.nan)

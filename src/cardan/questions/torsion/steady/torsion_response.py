@@ -242,6 +242,20 @@ def zone_order(model: TorsionalModel, speeds: Array) -> Array:
     return np.where(np.isfinite(zone.speed), zone.multiple, 2.0).reshape(speeds.shape)
 
 
+def order_jumps(model: TorsionalModel) -> Array:
+    """Return the speeds at which `zone_order` jumps, and structural damping with it, array (k,) [rad/s]."""
+    if not np.any(model.loss_factor):
+        return np.zeros(0)
+    omega = straight_modes(replace(model, torques=())).omega
+    i, j = np.triu_indices(len(omega))
+    multiple = np.repeat([1.0, 2.0], len(i))
+    where = np.tile(omega[i] + omega[j], 2) / (2.0 * multiple)
+    order = np.argsort(where)
+    where, multiple = where[order], multiple[order]
+    found: Array = 0.5 * (where[1:] + where[:-1])[multiple[1:] != multiple[:-1]]
+    return found
+
+
 def _timed(duty: Duty) -> Iterator[Problem]:
     """Yield torques that run in time."""
     named = [("duty.motor", duty.motor), ("duty.load", duty.load)]

@@ -1,0 +1,323 @@
+"""At which speeds is steady running stable? Followed to the edges and proved between them, not sampled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+import numpy as np
+
+from cardan.errors import Problem, check
+from cardan.maths.arrays import Array
+from cardan.maths.compiled.method import Compiled, Method
+from cardan.maths.compiled.method import chosen as chosen_method
+from cardan.maths.periodic.floquet import monodromy
+from cardan.maths.periodic.harmonics import HarmonicBalance, Status
+from cardan.maths.periodic.inside_circle import DEGREE, Proof, inside_circle
+from cardan.questions.torsion.model.torsional_layouts import Turning, leading, period_of
+from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
+from cardan.questions.torsion.model.torsional_model import TorsionalModel
+from cardan.questions.torsion.steady.orbit import straight_frequencies, straight_stiffness
+from cardan.questions.torsion.steady.run_stability import (
+    Zone,
+    drifting,
+    linear_motion,
+    nearest_zone,
+    straight_damping,
+    vibrating,
+)
+from cardan.questions.torsion.steady.steady import closed, stays_closed, steady_orbits
+from cardan.texts import _
+
+from .floquet_map import floquet_map
+from .stability_kernel import SURE, fits, harmonics_for, heavy_of, mapped
+
+Build: TypeAlias = Callable[[Array], TorsionalModel]
+"""From speeds (n,) [rad/s] to a drive at each of them, with one leading axis or none."""
+
+Progress: TypeAlias = Callable[[float], object]
+"""Told the share done; may answer "stop"."""
+
+SMALL, MORE = 1e-6, 2.2
+"""Largest of the upper harmonics, over the largest of all, of a motion that is fine enough, and times the harmonics
+with which others are sought again."""
+
+WIDTH = 5e-8
+"""Share of the speed to which edges are found."""
+
+PHASE, FADED = 5.0, 12.0
+"""Phase of the fastest oscillation that a polynomial in the speed is to hold, to begin with; what has died out by e to
+the second power within a period does not count."""
+
+WORK = 6e7
+"""Steps of all samples times the cube of their unknowns, in thousands, that are taken on: half a minute, about."""
+
+SLACK = 1e-4
+"""Growth within a period that counts as none where nothing damps: in zone m that of one of the width 2 Ω/(πm) times it.
+"""
+
+INNER = 9
+"""Places within an unstable range at which growth is looked at."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ProvedSpeeds:
+    """Ranges of speed in which steady running is unstable; in the rest of what was looked at it is proved not to be.
+
+    Speeds count as positive, also those of a drive that turns backwards.
+    """
+
+    # lowest, highest (k,) [rad/s]: ends of each range; those at an end of what was looked at are no edges
+    lowest: Array
+    highest: Array  # (k,) [rad/s]
+    worst: Array  # (k,) [rad/s]: speed of the fastest growth in each
+    growth_rate: Array  # (k,) [1/s]
+    kind: Array  # (k,) of int: `cardan.questions.torsion.steady.run_stability.Kind` there
+    zone: Zone  # (k,)
+    unproved: Array  # (j, 2) [rad/s]: stretches of which nothing was shown
+    open: Array  # (i, 2) [rad/s]: those among them without a smooth steady motion: open backlash, jumps
+    looked: tuple[float, float]  # [rad/s]: from where to where
+    samples: int  # monodromy matrices taken
+    # whether nothing damps the drive, so that nothing decays: zones are then found down to a width, see `SLACK`
+    neutral: bool = False
+    cancelled: bool = False  # whether the work was stopped
+
+    @property
+    def proved(self) -> bool:
+        """Whether every speed is shown to be stable or unstable, but for the edges between."""
+        return not len(self.unproved) and not self.neutral
+
+    @property
+    def hidden(self) -> float:
+        """Width of the widest zone that could hide outside the ranges told [rad/s]; 0 where all is proved."""
+        least = 2.0 * SLACK / np.pi * self.looked[1] if self.neutral else 0.0
+        return float(np.max(self.unproved[:, 1] - self.unproved[:, 0], initial=least))
+
+    @property
+    def looked_at(self) -> bool:
+        """Whether a proof was tried; not where it takes too long."""
+        return self.samples > 0
+
+    @property
+    def stable(self) -> bool:
+        """Whether steady running is proved to be stable throughout."""
+        return self.proved and not len(self.lowest)
+
+    def shown(self, speed: Array) -> Array:
+        """Tell of speeds (n,) [rad/s] whether it is proved what they are."""
+        inside = (self.unproved[:, 0] <= np.abs(speed)[:, None]) & (np.abs(speed)[:, None] <= self.unproved[:, 1])
+        found: Array = ~np.any(inside, axis=-1)
+        return found
+
+    def margin(self, speed: float) -> float:
+        """Return how far a speed is from the nearest unstable range [rad/s]: negative inside, nan where none is."""
+        if not len(self.lowest):
+            return float("nan")
+        return float(np.min(np.maximum(self.lowest - abs(speed), abs(speed) - self.highest)))
+
+
+def proved_speeds(
+    build: Build | TorsionalModel,
+    lowest: float,
+    highest: float,
+    *,
+    breaks: Array | tuple[float, ...] = (),
+    work: float = WORK,
+    method: Method | None = None,
+    progress: Progress | None = None,
+) -> ProvedSpeeds:
+    """Return the ranges of speed in which steady running of a drive is unstable, proved to be all of them.
+
+    build: the drive at speeds, or one that is alike at all; its own input speed does not count.
+    lowest, highest [rad/s]: where to look; both negative for a drive that turns backwards.
+    breaks (k,) [rad/s]: speeds at which the drive jumps.
+    work: how much is taken on, see `WORK`; what takes more is not looked at and unproved as a whole.
+    The monodromy matrix about the steady motion as a polynomial of the speed, and a norm in which it is below 1: see
+    `cardan.maths.periodic.inside_circle`. Its coordinates are those of the energy of the straight drive, in which
+    vibration turns without growing. Of a drive that no torque governs the drift of the mean speed is left out.
+    """
+    check(_problems(build, lowest, highest))
+    drive = _Drive(build, 0.5 * (lowest + highest), method)
+    first = max(4, round(abs(1.0 / lowest - 1.0 / highest) * drive.period * drive.fastest / PHASE))
+    sense = 1.0 if lowest > 0.0 else -1.0
+    near, far = sorted((abs(lowest), abs(highest)))
+    if drive.work(first, near, far) > work:
+        whole, nothing = np.asarray([[near, far]]), np.zeros((0, 2))
+        proof = Proof(outside=nothing, unproved=whole, unsampled=nothing, samples=0)
+        return _described(drive, proof, (near, far), sense)
+    proof = inside_circle(
+        lambda speeds: drive.at(sense * speeds),
+        near,
+        far,
+        largest=drive.largest,
+        one_apart=drive.drifts,
+        breaks=np.abs(np.asarray(breaks, dtype=float)),
+        first=first,
+        width=WIDTH,
+        slack=SLACK if drive.neutral else 0.0,
+        progress=None if progress is None else (lambda share: progress(0.9 * share)),
+    )
+    return _described(drive, proof, (near, far), sense)
+
+
+def _described(drive: _Drive, proof: Proof, looked: tuple[float, float], sense: float) -> ProvedSpeeds:
+    """Return what is unstable with where it grows fastest, and near which zone."""
+    low, high = proof.outside.T
+    inner = low[:, None] + (high - low)[:, None] * (np.arange(INNER) + 0.5) / INNER
+    flat = sense * inner.reshape(-1)
+    found = floquet_map(drive.model(flat), speed=flat).floquet if len(flat) else None
+    growth = (
+        np.zeros(inner.shape) if found is None else np.nan_to_num(found.growth_rate, nan=-np.inf).reshape(inner.shape)
+    )
+    best = np.argmax(growth, axis=-1)[:, None]
+    kind = np.zeros(inner.shape, dtype=int) if found is None else found.kind.reshape(inner.shape)
+    worst = np.take_along_axis(inner, best, axis=-1)[:, 0]
+    kinds = np.take_along_axis(kind, best, axis=-1)[:, 0]
+    return ProvedSpeeds(
+        lowest=low,
+        highest=high,
+        worst=worst,
+        growth_rate=np.take_along_axis(growth, best, axis=-1)[:, 0],
+        kind=kinds,
+        zone=nearest_zone(np.repeat(drive.frequencies, len(worst), axis=0), worst, kinds),
+        unproved=proof.unproved,
+        open=proof.unsampled,
+        looked=looked,
+        samples=proof.samples,
+        neutral=drive.neutral,
+        cancelled=proof.stopped,
+    )
+
+
+def _problems(build: Build | TorsionalModel, lowest: float, highest: float) -> list[Problem]:
+    found = []
+    if lowest == 0.0 or lowest * highest < 0.0:
+        found.append(Problem("lowest", _("{value:.6g} given; more than 0 is needed").format(value=lowest)))
+    if not highest > lowest:
+        found.append(Problem("highest", _("{value:.6g} given; more than the lowest is needed").format(value=highest)))
+    if isinstance(build, TorsionalModel) and leading(replace(build, input_speed=None)) != ():
+        found.append(Problem("model", _("many drives given; one is needed")))
+    return found
+
+
+class _Drive:
+    """Monodromy matrices of a drive by its speed, in coordinates of its energy, without its shift in time."""
+
+    def __init__(self, build: Build | TorsionalModel, middle: float, method: Method | None) -> None:
+        self.build, self.method = build, method
+        here = np.asarray([middle])
+        model = self.model(here)
+        one = some_of(replace(model, input_speed=None if model.free else here), (1,), np.zeros(1, dtype=int))
+        self.free, self.period = model.free, period_of(model)
+        self.harmonics = harmonics_for(model, self.period)
+        self.heavy = heavy_of(one)
+        self.frequencies = straight_frequencies(one)[:, 1 if self.free else 0 :]
+        self.fastest, self.steepest = self._fastest(one, middle)
+        self.neutral = not np.any(straight_damping(one, here))
+        self.drifts = self.free and bool(np.all(drifting(one, here)))
+        first = 0 if self.free else 1
+        mass = np.zeros(one.coordinates)
+        np.add.at(mass, list(one.coordinate), one.inertia[0])
+        mass = mass[first:]
+        stiff = straight_stiffness(one)[0, first:, first:] + middle**2 * np.diag(mass)
+        size = len(mass)
+        energy = np.zeros((size + int(self.heavy.sum()),) * 2)
+        energy[:size, :size] = np.linalg.cholesky(stiff).T
+        energy[size:, size:] = np.diag(np.sqrt(mass[self.heavy]))
+        self.energy, self.back = energy, np.linalg.inv(energy)
+        even = energy[:, :size].sum(axis=-1)  # the rates in the tangent of even turning
+        self.even = even / np.linalg.norm(even)
+        self.rest = np.linalg.qr(np.column_stack([self.even, np.eye(len(even))]))[0][:, 1:]
+
+    def model(self, speeds: Array) -> TorsionalModel:
+        """Return the drive at speeds, its speed forced where it is not free."""
+        model = self.build if isinstance(self.build, TorsionalModel) else self.build(speeds)
+        return model if model.free else replace(model, input_speed=speeds)
+
+    def _fastest(self, one: TorsionalModel, middle: float) -> tuple[float, float]:
+        """Return the fastest mode that does not die out within a period, and the fastest of all [rad/s]."""
+        first = 0 if self.free else 1
+        mass = np.zeros(one.coordinates)
+        np.add.at(mass, list(one.coordinate), one.inertia[0])
+        mass = np.where(mass > 0.0, mass, np.inf)[first:]
+        root = 1.0 / np.sqrt(mass)
+        stiffness = straight_stiffness(one)[0, first:, first:]
+        light = ~self.heavy
+        if light.any():
+            across = stiffness[:, light]
+            stiffness = stiffness - across @ np.linalg.solve(stiffness[light][:, light], across.T)
+        square, shape = np.linalg.eigh(root[:, None] * stiffness * root)
+        shape = root[:, None] * shape
+        decay = 0.5 * np.sum(shape * (straight_damping(one, np.asarray([middle]))[0, 0] @ shape), axis=0)
+        omega = np.sqrt(np.maximum(square, 0.0))
+        lasting = decay * self.period / abs(middle) < FADED
+        return float(np.max(omega[lasting], initial=0.0)), float(np.max(omega, initial=0.0))
+
+    def work(self, first: int, near: float, far: float) -> float:
+        """Return what so many polynomials between two speeds take, about; see `WORK`."""
+        samples = np.linspace(near, far, 9)
+        steps = np.maximum(self.steepest * self.period / samples / 2.0, 16.0)
+        return float(np.mean(np.minimum(steps, 2048.0))) * (DEGREE + 1) * first * 0.125 * len(self.heavy) ** 3
+
+    def at(self, places: Array) -> tuple[Array, Array]:
+        """Return the matrices at speeds (n, p), and whether there is a smooth motion to have one."""
+        speeds = places.reshape(-1)
+        model = self.model(speeds)
+        whole = Turning(model, (len(speeds),), speeds, self.period).part(np.arange(len(speeds)))
+        smooth = closed(whole)
+        how = chosen_method(self.method, np, large=True)
+        if isinstance(how, Compiled) and fits(smooth.model, speeds):
+            matrix, coefficient, there = self._compiled(smooth, places.shape[-1], how.threads)
+        else:
+            orbit, status = steady_orbits(smooth.model, speed=speeds, method=HarmonicBalance(most=96))
+            there = (status == Status.CONVERGED) & np.asarray([k not in orbit.pieces for k in range(len(speeds))])
+            coefficient = orbit.coefficient[:, smooth.first :]
+            rows = np.flatnonzero(there)
+            size = len(self.energy)
+            matrix = np.full((len(speeds), size, size), np.nan)
+            if rows.size:
+                matrix[rows] = monodromy(linear_motion(orbit, rows), orbit.time[rows])
+        there = there & stays_closed(whole, coefficient)
+        matrix = np.where(there[:, None, None], matrix, 0.0)
+        found = self._reduced(self.energy @ matrix @ self.back, coefficient, whole)
+        return found.reshape(*places.shape, *found.shape[1:]), there.reshape(places.shape)
+
+    def _compiled(self, smooth: Turning, alike: int, threads: int | None) -> tuple[Array, Array, Array]:
+        """Return the matrices by the kernel, the motions, and whether each was found; coarse ones more finely."""
+        found = mapped(smooth, self.harmonics, alike=alike, threads=threads)
+        matrix, coefficient, moved = found.matrix, found.coefficient, found.moved
+        size = np.max(np.abs(coefficient), axis=1)
+        tail = np.max(size[:, -max(2, self.harmonics // 4) :], axis=-1)
+        rough = (~(tail <= SMALL * np.max(size, axis=-1))).reshape(-1, alike).any(axis=-1)
+        coarse = np.flatnonzero(np.repeat(rough, alike))
+        if coarse.size:
+            more = round(MORE * self.harmonics)
+            again = mapped(smooth.part(coarse), more, alike=alike, threads=threads)
+            coefficient = np.pad(coefficient, ((0, 0), (0, 0), (0, more - self.harmonics)))
+            matrix[coarse], coefficient[coarse], moved[coarse] = again.matrix, again.coefficient, again.moved
+        return matrix, coefficient, (moved <= SURE) & np.isfinite(matrix).all(axis=(1, 2))
+
+    def _reduced(self, matrix: Array, coefficient: Array, turning: Turning) -> Array:
+        """Return matrices without the shift in time, in a basis that changes as smoothly as they do."""
+        if not self.free:
+            return matrix
+        order = np.arange(coefficient.shape[-1]) * turning.frequency[:, None, None]
+        rate = turning.speed[:, None] + np.sum((1j * order * coefficient).real, axis=-1)
+        acceleration = -np.sum((order**2 * coefficient).real, axis=-1)[:, self.heavy]
+        tangent = np.concatenate([rate, acceleration], axis=-1) @ self.energy.T
+        with np.errstate(invalid="ignore", divide="ignore"):
+            unit = tangent / np.linalg.norm(tangent, axis=-1, keepdims=True)
+        unit = np.where(np.isfinite(unit), unit, self.even) * np.sign(turning.speed)[:, None]
+        normal = unit + self.even
+        normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
+        turn = np.eye(matrix.shape[-1]) - 2.0 * normal[:, :, None] * normal[:, None, :]
+        found: Array = self.rest.T @ turn @ matrix @ turn @ self.rest
+        return found
+
+    def largest(self, matrix: Array) -> Array:
+        """Return the largest modulus of the multipliers of vibration."""
+        values = np.linalg.eigvals(matrix)
+        values = vibrating(values, 1) if self.drifts else values
+        found: Array = np.max(np.abs(values), axis=-1, initial=0.0)
+        return found
