@@ -267,7 +267,7 @@ def solve_blocks(blocks: dict[tuple[int, int], Array], right: Array) -> Array:
 def _assembled(blocks: dict[tuple[int, int], Array], rank: int) -> Array:
     """Return whole matrices, array (B, R n, R n)."""
     count, size = next(iter(blocks.values())).shape[:2]
-    whole = np.zeros((count, rank * size, rank * size))
+    whole = np.zeros((count, rank * size, rank * size), dtype=next(iter(blocks.values())).dtype)
     for (r, s), block in blocks.items():
         whole[:, r * size : (r + 1) * size, s * size : (s + 1) * size] = block
     return whole

@@ -86,7 +86,7 @@ def test_the_response_shows_torques_and_orders() -> None:
 
 
 def test_orders_that_do_not_repeat_with_the_turn_have_their_bar() -> None:
-    """The straight line answers them, and the swing counts them: the chart must not drop them."""
+    """The swing counts them: the chart must not drop them."""
     found = torsion_response(replace(DRIVE, duty=replace(DRIVE.duty, harmonics=(Harmonic(order=1.3, torque=20.0),))))
     figure = response_figure(found)
     bars, words = drawn(figure, Bars, 1)[0], figure.panels[1].x.texts

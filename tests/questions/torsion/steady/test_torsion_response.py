@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from cardan import Drive, InputError
 from cardan.book.straight_line import line_response
@@ -14,7 +15,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.machine import ConstantTorque, Engine, HarmonicTorque, LinearTorque, TorqueHistory
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Pendulum, Station
-from cardan.questions.torsion.model.inputs import Constant
+from cardan.questions.torsion.model.inputs import Constant, Swinging
 from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
 from cardan.questions.torsion.model.torsional_modes import straight_waves
 from cardan.questions.torsion.stability import torsion_stability
@@ -22,6 +23,7 @@ from cardan.questions.torsion.stability.torsion_stability import stability
 from cardan.questions.torsion.steady.run_stability import Verdict, floquet
 from cardan.questions.torsion.steady.steady import periodic_response
 from cardan.questions.torsion.steady.torsion_response import peak_refined, torsion_response
+from cardan.questions.torsion.steady.two_frequencies import grouped
 from cardan.units import deg, rpm
 
 LINE = replace(
@@ -81,22 +83,122 @@ def test_what_changes_with_the_speed_is_taken_at_every_speed() -> None:
     np.testing.assert_allclose(swept.swing[1], alone.swing, rtol=1e-7)
 
 
-def test_an_order_that_no_turns_hold_is_answered_by_the_straight_line() -> None:
+def test_an_order_that_no_turns_hold_is_that_of_the_straight_line_where_joints_are_straight() -> None:
     swinging = HarmonicTorque(amplitude=9.0, order=6.8, phase=0.4, station="load")
     duty = replace(LINE.duty, torques=(swinging,))
-    found, plain = torsion_response(LINE, duty), torsion_response(LINE)
+    straight = replace(LINE, joints=(replace(LINE.joints[0], joint_angle=1e-3),))
+    found, plain = torsion_response(straight, duty), torsion_response(straight)
     (apart,) = found.apart
+    assert apart.exact
     chain = line_response(
         [1e12, 0.04, 0.4], [4000.0, 6000.0], [6.8 * 30.0], [0.0, 0.0, 9.0], damping=[1.0, 1.0]
     )  # an input that turns evenly is a very heavy one
-    np.testing.assert_allclose(np.abs(apart.torque), np.abs(chain.torque[:, 0]), rtol=1e-9)
-    np.testing.assert_allclose(found.torque_highest, plain.torque_highest + np.abs(apart.torque))
+    np.testing.assert_allclose(np.abs(apart.torque), np.abs(chain.torque[:, 0]), rtol=1e-4)  # it follows the swing
+    np.testing.assert_allclose(found.torque_highest, plain.torque_highest + np.abs(apart.torque), rtol=1e-3)
     nearly = torsion_response(
         replace(LINE, joints=(replace(LINE.joints[0], joint_angle=1e-4),)),
         replace(duty, torques=(replace(swinging, order=7.0),)),
     )
     waves = straight_waves(nearly.steady.model, 3, 9.0, 7.0 * 30.0)
     assert nearly.steady.torque.amplitude[:, 6] == pytest.approx(np.abs(waves.torque), rel=2e-5)  # it follows the swing
+
+
+THREE = (14 * deg, 21 * deg, 11 * deg)
+SPRINGS, MASSES, DAMPER = (9000.0, 12000.0, 11000.0, 15000.0), (0.02, 0.03, 0.02, 0.19), 2.0
+
+
+def three_joints(order: float = 3.315) -> Drive:
+    """Return a drive whose first mode the side band of order 1.315 meets at 900 rpm."""
+    return replace(
+        Drive.from_angles(THREE),
+        shafts=tuple(Shaft(number=k, stiffness=c, damping=DAMPER) for k, c in enumerate(SPRINGS, 1)),
+        stations=(
+            *(Station(shaft=k, end="start", inertia=j) for k, j in zip((2, 3, 4), MASSES, strict=False)),
+            Station(shaft=4, end="end", name="load", inertia=MASSES[3]),
+        ),
+        duty=Duty(
+            speed=900 * rpm,
+            torque=140.0,
+            torques=(HarmonicTorque(amplitude=300.0, order=order, phase=0.3, station="load"),),
+        ),
+    )
+
+
+def in_time(joint_angles: np.ndarray, phases: np.ndarray, order: float, begin: float, end: float) -> np.ndarray:
+    """Return the torques of the elements (t, 4) between two times, by scipy and equations written here."""
+    tau, c, s2 = np.tan(joint_angles / 2) ** 2, np.cos(joint_angles), np.sin(joint_angles) ** 2
+    omega, springs, masses = 900 * rpm, np.asarray(SPRINGS), np.asarray(MASSES)
+
+    def turned(q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        def angle(t: np.ndarray) -> np.ndarray:
+            return t + np.arctan2(tau * np.sin(2 * t), 1 - tau * np.cos(2 * t))
+
+        below = 1 - s2 * np.cos(q + phases) ** 2
+        return angle(q + phases) - angle(phases), c / below, -c * s2 * np.sin(2 * (q + phases)) / below**2
+
+    def torques(t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        out, by, _second = turned(q[:3])
+        ahead, speed = np.append(omega * t, out), np.append(omega, by * v[:3])
+        return springs * (ahead - q) + DAMPER * (speed - v)
+
+    def rates(t: float, y: np.ndarray) -> np.ndarray:
+        q, v = y[:4], y[4:]
+        carried = torques(t, q, v)
+        _out, by, second = turned(q[:3])
+        inner = (carried[:3] - by * carried[1:] - masses[:3] * by * second * v[:3] ** 2) / (masses[:3] * by**2)
+        last = (carried[3] - 140.0 + 300.0 * np.sin(order * q[3] + 0.3)) / masses[3]
+        return np.concatenate([v, inner, [last]])
+
+    state = np.append(np.zeros(4), np.full(4, omega))
+    settled = solve_ivp(rates, (0.0, begin), state, "DOP853", rtol=1e-8, atol=1e-9).y[:, -1]
+    times = np.linspace(begin, end, round(8000 * (end - begin)))
+    found = solve_ivp(rates, (begin, end), settled, "DOP853", times, rtol=1e-9, atol=1e-10)
+    return np.asarray([torques(t, y[:4], y[4:]) for t, y in zip(found.t, found.y.T, strict=True)])
+
+
+@pytest.mark.slow
+def test_joints_and_an_order_that_does_not_repeat_make_side_bands() -> None:
+    """Extremes of a motion that never repeats, reached sooner or later: those of four seconds lie within."""
+    found = torsion_response(three_joints())
+    model = found.train.model
+    wanted = in_time(model.joint_angle, model.phase, 3.315, 6.0, 10.0)
+    # four seconds pass the extreme within a thousandth of the swing
+    np.testing.assert_allclose(found.torque_highest, wanted.max(axis=0), atol=2e-3 * np.max(found.swing))
+    np.testing.assert_allclose(found.torque_lowest, wanted.min(axis=0), atol=2e-3 * np.max(found.swing))
+    sides = dict(found.side_orders(0.02))
+    assert sorted(round(order, 6) for order in sides)[:2] == [1.315, 5.315]
+    straight = np.abs(straight_waves(model, 7, 300.0, 3.315 * 900 * rpm).torque)
+    plain = torsion_response(replace(three_joints(), duty=replace(three_joints().duty, torques=())))
+    assert np.max(np.abs(plain.torque_highest + straight - wanted.max(axis=0))) > 5.0  # what side bands add
+
+
+@pytest.mark.slow
+def test_many_speeds_and_free_drives_have_them_too() -> None:
+    speeds = np.linspace(700.0, 1100.0, 5) * rpm
+    swept = torsion_response(three_joints(), speed=speeds)
+    for k in (0, 3):
+        alone = torsion_response(three_joints(), speed=float(speeds[k]))
+        np.testing.assert_allclose(swept.torque_highest[k], alone.torque_highest, rtol=1e-4)
+    heavy = replace(three_joints(), stations=(Station(shaft=1, inertia=1e5), *three_joints().stations))
+    free = torsion_response(heavy, replace(heavy.duty, input="free"))
+    np.testing.assert_allclose(free.swing, torsion_response(three_joints()).swing, rtol=1e-3)
+
+
+def test_orders_of_one_engine_have_one_phase() -> None:
+    orders = (3.315, 1.6575, 2.2, 6.63)
+    torques = tuple(Torque(station=0, law=Swinging(amplitude=1.0, frequency=order)) for order in orders)
+    groups = [(base, [one.law.frequency for one in group]) for base, group in grouped(torques)]
+    assert groups == [(pytest.approx(1.6575), [3.315, 1.6575, 6.63]), (2.2, [2.2])]
+
+
+def test_where_backlash_opens_the_straight_line_answers() -> None:
+    first, *rest = three_joints().joints
+    loose = replace(three_joints(), joints=(replace(first, backlash=0.002), *rest))
+    loose = replace(loose, duty=replace(loose.duty, torque=1.0))
+    found = torsion_response(loose)
+    assert not found.apart[0].exact
+    straight = np.abs(straight_waves(found.train.model, 7, 300.0, 3.315 * 900 * rpm).torque)
+    np.testing.assert_allclose(np.abs(found.apart[0].torque), straight, rtol=1e-9)
 
 
 def test_a_free_drive_needs_the_torque_that_its_losses_and_load_take() -> None:

@@ -44,6 +44,9 @@ UNEVEN = 1e-3
 SMALL = 1e-6
 """Share of the largest torque that a motion may miss its equations by between the points it was found from."""
 
+BESIDE = 0.02
+"""Side bands above this share of the alternating torque are named."""
+
 STOPPED = 3
 """Status of a speed at which the work was stopped."""
 
@@ -266,11 +269,16 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
         text = _("Warning: stopped; {done} of {all} speeds are done.")
         yield Remark(text=text.format(done=int(np.sum(status != STOPPED)), all=status.size), tone="warning")
     for one in found.apart:
-        text = _(
-            "Order {order} does not repeat within two turns (non-synchronous): its linear response, at most "
-            "±{torque}, is added to the extremes."
-        )
-        yield Remark(text=say(text, order=_order(one.order), torque=_torque(float(np.max(np.abs(one.torque))))))
+        text = _("Order {order} does not repeat within two turns (non-synchronous): at most ±{torque}{more}.")
+        more: Text = "" if np.all(one.exact) else _("; by the straight line where backlash opens, without side bands")
+        values = {"order": _order(one.order), "torque": _torque(float(np.max(np.abs(one.torque))))}
+        yield Remark(text=say(text, more=more, **values))
+    beside = found.side_orders(BESIDE)
+    if beside:
+        text = _("With the joints it makes the side bands {bands}, which may meet a mode of their own.")
+        pair = _("{order} (±{torque})")
+        bands = [say(pair, order=_order(order), torque=_torque(size)) for order, size in beside]
+        yield Remark(text=say(text, bands=Joined(bands)))
     if drive.duty.engine is not None and drive.duty.engine.mean_pressure is not None:
         yield _engine(drive.duty.engine, found)
     if found.train.model.free and not swept and bool(steady.found):
@@ -397,8 +405,10 @@ def _facts(found: TorsionResponse) -> dict[str, Any]:
         "growth_rate": Quantity(found.floquet.growth_rate, "rate"),
         "spectral_radius": found.floquet.spectral_radius,
         "nonsynchronous": [
-            {"order": one.order, "torque": Quantity(np.abs(one.torque), "torque")} for one in found.apart
+            {"order": one.order, "torque": Quantity(np.abs(one.torque), "torque"), "exact": one.exact}
+            for one in found.apart
         ],
+        "side_bands": [{"order": order, "torque": Quantity(size, "torque")} for order, size in found.side_orders(0.0)],
         "residual": steady.residual,
         "power_residual": steady.power_residual,
         "assumed": found.assumed,

@@ -129,6 +129,10 @@ def orders_of(found: TorsionResponse, e: int) -> tuple[Array, Array]:
     more = [one for one in found.apart if not np.any(np.isclose(found.steady.order, one.order))]
     order = np.append(found.steady.order, [one.order for one in more])
     own = [np.abs(one.torque)[..., e, None] for one in more]
+    for band in found.bands:
+        beside = ~np.isclose(band.order[:, None], [abs(one.order) for one in found.apart]).any(axis=-1)
+        order = np.append(order, band.order[beside])
+        own.append(np.abs(band.amplitude[:, e][..., beside]).reshape(*found.speed.shape, -1))
     amplitude = np.concatenate([found.steady.torque.amplitude[..., e, :], *own], axis=-1)
     sorting = np.argsort(order, kind="stable")
     return order[sorting], amplitude[..., sorting]

@@ -24,6 +24,7 @@ from cardan.texts import _
 from .run_stability import Floquet, floquet, nearest_zone
 from .steady import periodic_response
 from .steady_result import SteadyResponse
+from .two_frequencies import SideBands, grouped, side_bands
 
 Progress: TypeAlias = Callable[[float], object]
 """Told the share done; may answer "stop"."""
@@ -41,12 +42,12 @@ SHARE = 0.35
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class NonsynchronousOrder:
-    """A torque whose order no two turns hold a whole number of times, as the straight line answers it."""
+    """A torque whose order no two turns hold a whole number of times: what it makes of the order that is its own."""
 
     order: float  # of the input shaft
     station: int  # on which it acts
     torque: Array  # (..., E) [N·m], complex: of every element
-    angle: Array  # (..., N) [rad], complex: of every station
+    exact: Array  # (...) of bool: whether by the motion of both frequencies; else by the straight line
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -61,9 +62,11 @@ class TorsionResponse:
         Torques and speeds by their orders, true extremes.
     floquet : Floquet (...)
         Whether the motion is stable.
-    apart : tuple of Apart
-        Torques of orders that do not repeat within two turns: answered by the straight line and added by their
-        amplitudes, to first order exact; without side bands.
+    apart : tuple of NonsynchronousOrder
+        Torques of orders that do not repeat within two turns.
+    bands : tuple of SideBands
+        The exact motions under the joints and these torques, with the side bands |ν ± 2r|; where there is none, as
+        with open backlash, the straight line answers and its amplitudes are added.
     assumed : tuple of str
         Paths of what the drive does not say and the answer assumes.
     """
@@ -73,6 +76,7 @@ class TorsionResponse:
     floquet: Floquet
     apart: tuple[NonsynchronousOrder, ...]
     assumed: tuple[str, ...]
+    bands: tuple[SideBands, ...] = ()
 
     @property
     def speed(self) -> Array:
@@ -82,18 +86,36 @@ class TorsionResponse:
     @property
     def torque_highest(self) -> Array:
         """Highest torque of every element, array (..., E) [N·m]."""
-        found: Array = self.steady.torque_highest + self._beside
-        return found
+        return self._extreme(self.steady.torque_highest, 1.0)
 
     @property
     def torque_lowest(self) -> Array:
         """Lowest torque of every element, array (..., E) [N·m]; below 0 it lifts off, and backlash rattles."""
-        found: Array = self.steady.torque_lowest - self._beside
+        return self._extreme(self.steady.torque_lowest, -1.0)
+
+    def _extreme(self, alone: Array, sign: float) -> Array:
+        """Return lowest or highest torques with what does not repeat, from those without it."""
+        more = np.zeros_like(alone)
+        for one in self.apart:
+            more = more + np.where(one.exact[..., None], 0.0, sign * np.abs(one.torque))
+        for band in self.bands:
+            whole = (band.highest if sign > 0.0 else band.lowest).reshape(alone.shape)
+            more = more + np.where(band.found.reshape(self.speed.shape)[..., None], whole - alone, 0.0)
+        found: Array = alone + more
         return found
 
-    @property
-    def _beside(self) -> Array:
-        return sum((np.abs(one.torque) for one in self.apart), start=np.asarray(0.0))
+    def side_orders(self, share: float) -> list[tuple[float, float]]:
+        """Return the side bands with their largest torque, of an element and at a speed, above a share of the whole.
+
+        share: of the largest alternating torque. The orders of the torques themselves are not among them.
+        """
+        own = [abs(one.order) for one in self.apart]
+        found = []
+        for band in self.bands:
+            size = np.max(np.abs(band.amplitude[band.found]), axis=(0, 1), initial=0.0)
+            found += [(float(order), float(one)) for order, one in zip(band.order, size, strict=True)]
+        least = share * float(np.nanmax(self.swing, initial=0.0))
+        return [(order, one) for order, one in found if one > least and not np.any(np.isclose(order, own))]
 
     @property
     def swing(self) -> Array:
@@ -164,13 +186,15 @@ def torsion_response(
     steady = periodic_response(model, speed=speeds, method=method, progress=_scaled(progress, 0.0, SHARE))
     slow = parted(loaded_model(drive, chosen, speeds, pieces=pieces, disturbed=True)[1])[0]
     verdict = floquet(replace(steady.orbit, model=slow) if np.any(train.model.loss_factor) else steady)
+    bands = {base: (side_bands(steady.orbit, base, group), group) for base, group in grouped(loose)}
     if progress is not None:
         progress(1.0)
     return TorsionResponse(
         train=train,
         steady=replace(steady, stable=verdict.stable),
         floquet=verdict,
-        apart=tuple(_apart(model, loose, speeds)),
+        apart=tuple(_apart(model, tuple(bands.values()), speeds)),
+        bands=tuple(band for band, _group in bands.values()),
         assumed=train.assumed,
     )
 
@@ -273,14 +297,25 @@ def parted(model: TorsionalModel) -> tuple[TorsionalModel, tuple[Torque, ...]]:
     return replace(model, torques=tuple(t for t, fit in zip(model.torques, fits, strict=True) if fit)), loose
 
 
-def _apart(model: TorsionalModel, loose: tuple[Torque, ...], speeds: Array) -> Iterator[NonsynchronousOrder]:
-    """Yield how the straight line answers torques of other orders."""
-    for torque in loose:
-        law = torque.law
-        assert isinstance(law, Swinging)
-        amplitude = np.asarray(law.amplitude) * np.exp(1j * (np.asarray(law.phase) - 0.5 * np.pi))
-        found = straight_waves(model, torque.station, amplitude, law.frequency * np.abs(speeds))
-        yield NonsynchronousOrder(order=law.frequency, station=torque.station, torque=found.torque, angle=found.angle)
+def _apart(
+    model: TorsionalModel, bands: tuple[tuple[SideBands, tuple[Torque, ...]], ...], speeds: Array
+) -> Iterator[NonsynchronousOrder]:
+    """Yield what torques make of their own orders: by the motion of both frequencies, else by the straight line."""
+    for band, group in bands:
+        for torque in group:
+            law = torque.law
+            assert isinstance(law, Swinging)
+            amplitude = np.asarray(law.amplitude) * np.exp(1j * (np.asarray(law.phase) - 0.5 * np.pi))
+            straight = straight_waves(model, torque.station, amplitude, law.frequency * np.abs(speeds)).torque
+            k = int(np.argmin(np.abs(band.order - abs(law.frequency))))
+            exact = band.found.reshape(speeds.shape)
+            own = band.amplitude[..., k].reshape(straight.shape)
+            yield NonsynchronousOrder(
+                order=law.frequency,
+                station=torque.station,
+                torque=np.where(exact[..., None], own, straight),
+                exact=exact,
+            )
 
 
 def _scaled(progress: Progress | None, low: float, high: float) -> Progress | None:

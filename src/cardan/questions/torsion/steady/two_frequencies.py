@@ -1,0 +1,213 @@
+"""How do torques vibrate whose order no two turns hold a whole number of times, beside the joints? With side bands.
+
+The motion has two phases, that of the shaft and that of the torques, and passes every pair of them. Joints turn a
+torque of the order ν into the orders |ν ± 2r|, any of which may meet a mode.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+
+from cardan.maths.arrays import Array
+from cardan.maths.periodic.harmonics import Linearised
+from cardan.maths.periodic.torus import Torus, samples_of, torus_balance, torus_phases
+from cardan.questions.torsion.model.inputs import Swinging
+from cardan.questions.torsion.model.torsional_balance import element_torques, linearised
+from cardan.questions.torsion.model.torsional_layouts import Turning
+from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
+
+from .orbit import Orbit
+from .steady import closed, stays_closed
+
+HARMONICS = (3, 8)
+"""Least and most harmonics of half a turn."""
+
+OTHERS = (2, 3)
+"""Harmonics of the torques, and those with which motions are sought again whose last ones are not small."""
+
+SMALL = 0.03
+"""Largest of the last harmonics of the torques, over the largest of all of them, that is small: the next ones are of
+the order of its square."""
+
+CHUNK = 32
+"""Speeds solved at once."""
+
+FINE = 2
+"""Samples of a phase between two of the solution at which extremes are looked for."""
+
+DENOMINATORS = 12
+"""Orders of which one is so small a multiple of a part of another have a phase in common."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SideBands:
+    """Torques of a drive under its joints and torques that do not repeat with them; b speeds."""
+
+    base: float  # order of which those of the torques are multiples
+    order: Array  # (k,): orders of the torques and of their side bands, rising
+    amplitude: Array  # (b, E, k), complex [N·m]: of every element
+    # lowest, highest (b, E) [N·m]: extremes of the whole torque, reached sooner or later
+    lowest: Array
+    highest: Array  # (b, E) [N·m]
+    found: Array  # (b,) of bool: whether there is such a motion with all backlash closed
+
+
+def grouped(loose: tuple[Torque, ...]) -> Iterator[tuple[float, tuple[Torque, ...]]]:
+    """Yield torques whose orders are multiples of one, with that order."""
+    rest = list(loose)
+    while rest:
+        lead = abs(_order(rest[0]))
+        shares = [Fraction(abs(_order(one)) / lead).limit_denominator(DENOMINATORS) for one in rest]
+        alike = [
+            abs(float(share) * lead - abs(_order(one))) < 1e-9 * lead for one, share in zip(rest, shares, strict=True)
+        ]
+        parts = [share.denominator for share, kept in zip(shares, alike, strict=True) if kept]
+        yield lead / int(np.lcm.reduce(parts)), tuple(one for one, kept in zip(rest, alike, strict=True) if kept)
+        rest = [one for one, kept in zip(rest, alike, strict=True) if not kept]
+
+
+def _order(torque: Torque) -> float:
+    assert isinstance(torque.law, Swinging)
+    return float(torque.law.frequency)
+
+
+def side_bands(orbit: Orbit, base: float, loose: tuple[Torque, ...]) -> SideBands:
+    """Return how torques vibrate about steady motions under torques of other orders.
+
+    orbit (...): the motions without these torques; base: order of which theirs are multiples.
+    Returns: speeds counted through the leading axes.
+    """
+    parts = [_solved(orbit, rows, base, loose, OTHERS[0]) for rows in _chunks(orbit.count)]
+    order = np.unique(np.concatenate([part.order for part in parts]).round(9))
+    amplitude = np.zeros((orbit.count, len(orbit.model.elements), len(order)), dtype=complex)
+    begin = 0
+    for part in parts:
+        columns = np.searchsorted(order, part.order.round(9))
+        amplitude[begin : begin + len(part.found), :, columns] = part.amplitude
+        begin += len(part.found)
+    return SideBands(
+        base=base,
+        order=order,
+        amplitude=amplitude,
+        **{name: np.concatenate([getattr(one, name) for one in parts]) for name in ("lowest", "highest", "found")},
+    )
+
+
+def _chunks(count: int) -> Iterator[Array]:
+    for first in range(0, count, CHUNK):
+        yield np.arange(first, min(first + CHUNK, count))
+
+
+class _Driven:
+    """The drives under both: an `Equation` at the samples of two phases."""
+
+    def __init__(self, turning: Turning, base: float, loose: tuple[Torque, ...], theta: Array) -> None:
+        self.turning, self.base, self.loose, self.theta = turning, base, loose, theta
+
+    def drives(self, rows: Array, phase: Array) -> TorsionalModel:
+        """Return the drives with the torques, each counted from its own phase instead of the angle of the shaft."""
+        model = self.turning.drives(rows)
+        shaft = phase * (self.turning.period / (2.0 * np.pi))
+        more = []
+        for torque in self.loose:
+            law = torque.law
+            assert isinstance(law, Swinging)
+            phases = law.phase + law.frequency * (self.theta / self.base - shaft)
+            more.append(Torque(station=torque.station, law=replace(law, amplitude=law.amplitude, phase=phases[None])))
+        return replace(model, torques=(*model.torques, *more))
+
+    def __call__(self, rows: Array, phase: Array, x: Array, v: Array, a: Array) -> Linearised:
+        """Return the balance of the coordinates that are not forced, and its slopes."""
+        left, slopes = linearised(self.drives(rows, phase), *self.turning.motion(rows, phase, x, v, a))
+        k = self.turning.first
+        return Linearised(
+            balance=left[..., k:],
+            mass=slopes.mass[..., k:],
+            damping=slopes.damping[..., k:, k:],
+            stiffness=slopes.stiffness[..., k:, k:],
+        )
+
+
+def _solved(orbit: Orbit, rows: Array, base: float, loose: tuple[Torque, ...], others: int) -> SideBands:
+    whole = orbit.turning.part(rows)
+    turning = closed(whole)
+    start = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])[rows][:, turning.first :]
+    there = np.isfinite(start).all(axis=(1, 2)) & np.asarray([int(k) not in orbit.pieces for k in rows])
+    there &= stays_closed(whole, start)
+    begin = np.where(there[:, None, None], start, 0.0)
+    half_turns = round(turning.period / np.pi)
+    harmonics = (_needed(begin, half_turns), others)
+    ratio = base * turning.period / (2.0 * np.pi)
+    theta = torus_phases(samples_of(harmonics))[1]
+    torus = torus_balance(
+        _Driven(turning, base, loose, theta),
+        turning.frequency,
+        turning.coordinates,
+        ratio=ratio,
+        harmonics=harmonics,
+        free=turning.model.free,
+        start=begin,
+    )
+    own = np.max(np.abs(torus.coefficient), axis=(1, 2))[:, 1 : others + 1]
+    if others < OTHERS[1] and np.any(own[:, -1] > SMALL * np.max(own, axis=-1)):
+        return _solved(orbit, rows, base, loose, OTHERS[1])
+    return _read(torus, turning, whole, base, harmonics, there & torus.found)
+
+
+def _needed(start: Array, half_turns: int) -> int:
+    """Return how many harmonics of a period hold motions."""
+    size = np.max(np.abs(start), axis=(0, 1))
+    large = np.flatnonzero(size > 1e-5 * np.max(size[1:], initial=1e-300))
+    least, most = (count * half_turns for count in HARMONICS)
+    return min(max(int(np.max(large, initial=0)), least), most)
+
+
+def _read(
+    torus: Torus, turning: Turning, whole: Turning, base: float, harmonics: tuple[int, int], found: Array
+) -> SideBands:
+    """Return amplitudes and extremes of the torques from a finer grid of both phases."""
+    rows = np.arange(len(turning.speed))
+    shape = tuple(FINE * count for count in samples_of(harmonics))
+    z = torus_phases((shape[0], shape[1]))[0]
+    x, v, a = torus.at((shape[0], shape[1]))
+    rate = turning.frequency[:, None, None]
+    q, speed, _a = turning.motion(rows, z, x, rate * v, rate**2 * a)
+    torque = np.moveaxis(element_torques(turning.drives(rows), q, speed), -1, 1).reshape(len(rows), -1, *shape)
+    waves = np.fft.fft2(torque) / (shape[0] * shape[1])
+    m = np.arange(-harmonics[0], harmonics[0] + 1)
+    n = np.arange(1, harmonics[1] + 1)
+    own = 2.0 * waves[..., m[:, None], n[None, :]].reshape(*torque.shape[:2], -1)
+    order = ((2.0 * np.pi / turning.period) * m[:, None] + base * n).reshape(-1)
+    own = np.where(order < 0.0, own.conj(), own)
+    sorting = np.argsort(np.abs(order), kind="stable")
+    loose = np.any(whole.model.backlash > 0.0, axis=-1)
+    lowest, highest = (_extreme(torque, sign) for sign in (-1.0, 1.0))
+    kept = np.all((whole.model.backlash == 0.0) | (lowest * highest > 0.0), axis=-1)
+    return SideBands(
+        base=base,
+        order=np.abs(order)[sorting],
+        amplitude=own[..., sorting],
+        lowest=lowest,
+        highest=highest,
+        found=found & (kept | ~loose),
+    )
+
+
+def _extreme(values: Array, sign: float) -> Array:
+    """Return the lowest (-1) or highest (1) of values (b, E, S, T) that repeat both ways: a parabola each way."""
+    b, e, s, t = values.shape
+    flat = (sign * values).reshape(b * e, s, t)
+    i, j = np.divmod(np.argmax(flat.reshape(b * e, -1), axis=-1), t)
+    k = np.arange(b * e)
+    top = flat[k, i, j]
+    more = np.zeros_like(top)
+    beside = ((flat[k, (i - 1) % s, j], flat[k, (i + 1) % s, j]), (flat[k, i, (j - 1) % t], flat[k, i, (j + 1) % t]))
+    for before, behind in beside:
+        bend = 2.0 * top - before - behind
+        more += np.where(bend > 0.0, 0.125 * (behind - before) ** 2 / np.where(bend > 0.0, bend, 1.0), 0.0)
+    found: Array = (sign * (top + more)).reshape(b, e)
+    return found
