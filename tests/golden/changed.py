@@ -9,6 +9,7 @@ TOP = "the speeds in use end where the range is varied to end, so that a lower e
 HELD = "end shafts without a support are held by their machines, as in forces, bending and assembly"
 
 BINS = "bins are as wide as a power of two of the unit, which is per cent now"
+BANDS = "orders that do not repeat are answered with the joints, side bands and all, and no longer by the straight line"
 
 MORE = "the best settings on spline teeth over all poses stand beside those without teeth"
 
@@ -40,6 +41,11 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
     (r"phases examples/truck-rear-axle\.toml", r"settings\..*", MORE),
     (r"articulation examples/(pto-hitch|truck-rear-axle)\.toml", r"(joints|worst)\..*", TOPS),
     (r"check examples/(pto-hitch|truck-rear-axle)\.toml", r"verdicts\.(utilisation|value)", TOPS),
+    (
+        r"torsion response examples/truck-power-unit\.toml",
+        r"(max_Nm|min_Nm|nonsynchronous\.torque_Nm).*",
+        BANDS,
+    ),
     (r"strength examples/pto-hitch\.toml --size joint", r"(limits|limits_as_made|tried)\..*", WORST),
 )
 """Pattern at the start of a command line, pattern of a whole old path, why its numbers are others."""
