@@ -123,7 +123,8 @@ def _point(found: Stability) -> tuple[Tone, Text]:
 
 def _mapped(found: Stability, axes: tuple[MapAxis, ...]) -> tuple[Tone, Text]:
     """Return what becomes of vibration over a path or two."""
-    if len(axes) == 1 and found.proof is not None and found.proof.looked_at:
+    known = np.any(found.verdict != Verdict.UNKNOWN)
+    if len(axes) == 1 and known and found.proof is not None and found.proof.looked_at:
         return _followed(found, found.proof, axes[0])
     unstable = found.verdict == Verdict.UNSTABLE
     if not np.any(unstable):

@@ -23,7 +23,7 @@ from cardan.questions.torsion.model.torsional_model import Torque, TorsionalMode
 from .orbit import Orbit
 from .steady import closed, stays_closed
 
-HARMONICS = (3, 8)
+HARMONICS = (4, 6)
 """Least and most harmonics of half a turn."""
 
 OTHERS = (2, 3)
