@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from cardan import Drive, InputError, load, save
 from cardan.io import example_names, example_text, loads
+from cardan.reading.limits import limits_hold
 
 POINTS = """format = 1
 input.point_mm = [-300, 0, 0]
@@ -183,7 +184,8 @@ def test_says_what_was_meant(text: str, field: str, words: str) -> None:
     ],
 )
 def test_texts_that_are_no_tables(text: str, form: str, words: str) -> None:
-    assert any(words in message for message in problems(text, form).values())
+    with limits_hold(False):
+        assert any(words in message for message in problems(text, form).values())
 
 
 def test_json_has_numbers_that_are_none() -> None:
@@ -197,7 +199,7 @@ def test_devices_without_end_are_refused() -> None:
     endless = Path("/dev/zero")
     if not endless.exists():
         pytest.skip("no such device here")
-    with pytest.raises(InputError, match="larger than"):
+    with pytest.raises(InputError, match="bytes given; the limit is 2000000"):
         load(endless)
 
 

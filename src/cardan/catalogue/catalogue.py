@@ -15,8 +15,9 @@ from typing import Any, TypeVar
 
 from cardan.drive.fields.keys import NAMED, spelled
 from cardan.drive.material import Material
-from cardan.errors import Problem, check, refuse
+from cardan.errors import InputError, Problem, check, refuse
 from cardan.files import refusal
+from cardan.reading.limits import check_text
 from cardan.reading.scalar import nearest_of
 from cardan.reading.tree import Form, read_table
 from cardan.texts import _, language
@@ -165,7 +166,12 @@ def with_files(base: Catalogue, paths: Iterable[str | Path]) -> Catalogue:
     problems: list[Problem] = []
     for path in paths:
         try:
-            tree = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+            text = Path(path).read_text(encoding="utf-8")
+            check_text(text, str(path), counts=False)
+            tree = tomllib.loads(text)
+        except InputError as error:
+            problems += error.problems
+            continue
         except OSError as error:
             problems.append(Problem(str(path), _("cannot be read: {why}").format(why=refusal(error))))
             continue

@@ -49,13 +49,15 @@ def _reader_options(_spoken: str) -> list[Any]:
     sign = _("Sign between whole and part, a point or a comma.")
     unit: str = typer.Option("", "--unit", metavar="DIMENSION=UNIT", show_default=False, help=units)
     decimal: str = typer.Option("", "--decimal", metavar="SIGN", show_default=False, help=sign)
+    lifted = _("Read files however large or deep they are; so does CARDAN_NO_LIMITS=1.")
+    no_limits: bool = typer.Option(False, "--no-limits", show_default=False, help=lifted)
     wanted: str = typer.Option("", "--lang", metavar="|".join(LANGUAGES), show_default=False, help=text)
 
     @single.command()
-    def command(unit: str = unit, decimal: str = decimal, lang: str = wanted) -> None:
+    def command(unit: str = unit, decimal: str = decimal, no_limits: bool = no_limits, lang: str = wanted) -> None:
         pass
 
-    options = typer.main.get_command(single).params[:3]
+    options = typer.main.get_command(single).params[:4]
     for option in options:
         option.expose_value = False
     return options

@@ -9,12 +9,13 @@ from __future__ import annotations
 import gettext
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TextIO
 
 from cardan.errors import refuse
 from cardan.later import later
+from cardan.reading.limits import VARIABLE
 from cardan.texts import DOMAIN, FOLDER, LANGUAGES, _, language, speaking
 
 app, failure = later("cardan.cli.app"), later("cardan.cli.shared.failure")
@@ -38,7 +39,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _read(given: list[str]) -> int:
-    """Run one command for the reader that ``--unit`` and ``--decimal`` describe, wherever they stand."""
+    """Run one command for the reader that ``--unit`` and ``--decimal`` describe, wherever they, or no limits, stand."""
+    end = given.index("--") if "--" in given else len(given)
+    if "--no-limits" in given[:end]:
+        with _environment({VARIABLE: "1"}):
+            return _read([word for word in given[:end] if word != "--no-limits"] + given[end:])
     units, rest = _taken(given, "--unit")
     signs, rest = _taken(rest, "--decimal")
     if not units and not signs:
@@ -97,16 +102,25 @@ def _all_speaking() -> Iterator[None]:
     if language() == "en":
         yield
         return
-    names = {name: os.environ.get(name) for name in ("LANGUAGE", "CARDAN_LANG")}
     domain = gettext.textdomain()
     gettext.bindtextdomain(DOMAIN, str(FOLDER))
     gettext.textdomain(DOMAIN)
-    os.environ.update(dict.fromkeys(names, language()))
+    try:
+        with _environment(dict.fromkeys(("LANGUAGE", "CARDAN_LANG"), language())):
+            yield
+    finally:
+        gettext.textdomain(domain)
+
+
+@contextmanager
+def _environment(values: Mapping[str, str]) -> Iterator[None]:
+    """Set variables of the environment, also for processes started from here; give back the old ones."""
+    before = {name: os.environ.get(name) for name in values}
+    os.environ.update(values)
     try:
         yield
     finally:
-        gettext.textdomain(domain)
-        for name, value in names.items():
+        for name, value in before.items():
             if value is None:
                 del os.environ[name]
             else:

@@ -17,6 +17,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import KINDS, NAMED
 from cardan.errors import refuse
 from cardan.reading.fields import fields_of, spellings_of
+from cardan.reading.limits import check_text
 from cardan.texts import _
 
 from .edit import plain, removed, shaft_table
@@ -87,6 +88,7 @@ def tables_only(path: str) -> Iterator[None]:
 
 def parsed(text: str) -> Any:
     """Return the document that a text is."""
+    check_text(text, "file")
     try:
         return tomlkit.parse(text)
     except (ValueError, RecursionError) as error:  # of the parser, of Python for thousands of digits, too deep

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -14,14 +15,13 @@ from cardan.drive.fields.keys import tree_of
 from cardan.errors import Problem, check, refuse
 from cardan.files import Enclosed, folder_of, refusal
 from cardan.mechanism.mechanism import Mechanism
+from cardan.reading.limits import MAX_BYTES, check_lists, check_size, check_text, limited, limits_hold
 from cardan.texts import _
 
 from .reader import drive_from_tree, read_as
 
-MAX_BYTES = 20_000_000  # larger files are refused; no more of them is read
 
-
-def load(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Drive:
+def load(path: str | Path, *, catalogues: Sequence[str | Path] = (), limits: bool = True) -> Drive:
     """Return the drive a file describes.
 
     Parameters
@@ -30,6 +30,9 @@ def load(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Drive:
         A ``.toml`` file, or ``.json`` with the same tables.
     catalogues : sequence of str or Path
         Catalogue files beside those that the drive file names.
+    limits : bool
+        Refuse a file of more than 2 MB, 32 levels, 20,000 keys, 100 joints, or 500 tables of another list, before it
+        is parsed. False reads it however long that takes; so does ``CARDAN_NO_LIMITS=1`` in the environment.
 
     Returns
     -------
@@ -39,7 +42,8 @@ def load(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Drive:
     Raises
     ------
     InputError
-        The file cannot be read, is no TOML, or describes no drive; every problem at once, each with its path.
+        The file cannot be read, passes a limit, is no TOML, or describes no drive; every problem at once, each with
+        its path.
 
     See Also
     --------
@@ -53,17 +57,19 @@ def load(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Drive:
     'angles'
     """
     where = Path(path)
-    text, form = text_of(where)
-    return loads(text, folder=where.parent, form=form, name=str(where), catalogues=catalogues)
+    with limits_hold(limits):
+        text, form = text_of(where)
+        return loads(text, folder=where.parent, form=form, name=str(where), catalogues=catalogues)
 
 
 def text_of(where: Path) -> tuple[str, str]:
     """Return the text of a file, and whether it is ``"toml"`` or ``"json"``."""
     try:
         with where.open("rb") as stream:
-            content = stream.read(MAX_BYTES + 1)
-        if len(content) > MAX_BYTES:
-            raise refuse(str(where), _("is larger than {limit} MB; no drive file is").format(limit=MAX_BYTES // 10**6))
+            size = os.fstat(stream.fileno()).st_size
+            check_size(size, str(where))
+            content = stream.read(MAX_BYTES + 1 if limited() else -1)
+        check_size(len(content), str(where))  # of a pipe, which does not say how long it is
         text = content.decode("utf-8-sig")
     except OSError as error:
         raise refuse(str(where), _("cannot be read: {why}").format(why=refusal(error))) from None
@@ -125,6 +131,7 @@ def dumps(thing: Drive | Mechanism, *, form: str = "toml") -> str:
 def parsed(text: str, form: str, name: str) -> dict[str, Any]:
     """Return the nested tables of a text."""
     text = text.removeprefix("\ufeff")
+    check_text(text, name)
     title = "JSON" if form == "json" else "TOML"
     twice: list[str] = []
     try:
@@ -139,6 +146,7 @@ def parsed(text: str, form: str, name: str) -> dict[str, Any]:
     check(Problem(key, _("stands twice in one table")) for key in twice)
     if not isinstance(tree, dict):
         raise refuse(name, _("holds no table"))
+    check_lists(tree, mechanism=describes_mechanism(tree))
     return tree
 
 
@@ -217,13 +225,15 @@ def _key(key: str) -> str:
 # The mechanism file: links and pairs of any mechanism, load and save as a drive.
 
 
-def load_mechanism(path: str | Path) -> Mechanism:
+def load_mechanism(path: str | Path, *, limits: bool = True) -> Mechanism:
     """Return the mechanism a file describes.
 
     Parameters
     ----------
     path : str or Path
         A ``.toml`` file, or ``.json`` with the same tables.
+    limits : bool
+        As in `load`; 400 joints are allowed.
 
     Returns
     -------
@@ -246,8 +256,9 @@ def load_mechanism(path: str | Path) -> Mechanism:
     ('crank', 'rod', 'piston')
     """
     where = Path(path)
-    text, form = text_of(where)
-    return loads_mechanism(text, form=form, name=str(where))
+    with limits_hold(limits):
+        text, form = text_of(where)
+        return loads_mechanism(text, form=form, name=str(where))
 
 
 def loads_mechanism(text: str, *, form: str = "toml", name: str = "file") -> Mechanism:

@@ -8,12 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from cardan.app.state.document import DEPTH, MAX_UPLOAD, History, Workspace, read
+from cardan.app.state.document import DEPTH, History, Workspace, read
 from cardan.app.state.session import Choices, Session, choices_of
 from cardan.errors import InputError
 from cardan.files import Enclosed
 from cardan.io import dumps, example, example_text
 from cardan.io.amend import amend
+from cardan.reading.limits import MAX_BYTES
 from cardan.texts import language
 
 
@@ -147,7 +148,7 @@ def test_files_of_the_folder_come_newest_first(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "content", "words"),
     [
-        ("a.toml", b"x" * (MAX_UPLOAD + 1), "larger than"),
+        ("a.toml", b"x" * (MAX_BYTES + 1), "2000001 bytes given; the limit is 2000000"),
         ("a.toml", b"\xff\xfe\x00", "not UTF-8"),
         ("a.toml", b"[[joints]\n", "TOML"),
         ("a.json", b"{", "JSON"),

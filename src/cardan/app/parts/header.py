@@ -7,12 +7,13 @@ from collections.abc import Callable
 from nicegui import events, ui
 
 from cardan.app.state import work as papers
-from cardan.app.state.document import MAX_UPLOAD, read
+from cardan.app.state.document import read
 from cardan.app.state.jobs import Jobs
 from cardan.app.state.session import Session
 from cardan.app.state.variants import LONGEST
 from cardan.errors import InputError
 from cardan.io import starter
+from cardan.reading.limits import MAX_BYTES
 from cardan.report.block import Page
 from cardan.texts import LANGUAGES, _
 from cardan.units import DIMENSIONS, label
@@ -101,8 +102,8 @@ class Header:
             return lambda: self._sent(event.file.name, content)
 
         with self.session.speaking():
-            title = _("A drive file, at most {size} MB").format(size=MAX_UPLOAD // 10**6)
-            sending("send-file", title, taken, upload="upload", suffixes=(".toml", ".json"), most=MAX_UPLOAD)
+            title = _("A drive file, at most {size} MB").format(size=MAX_BYTES // 10**6)
+            sending("send-file", title, taken, upload="upload", suffixes=(".toml", ".json"), most=MAX_BYTES)
 
     def _sent(self, name: str, content: bytes) -> None:
         with self.session.speaking():

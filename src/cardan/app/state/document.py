@@ -14,6 +14,7 @@ from cardan.errors import InputError, Problem, refuse
 from cardan.files import Enclosed, write_text
 from cardan.io import dumps, loads
 from cardan.io.drive_file import parsed, text_of
+from cardan.reading.limits import check_size
 from cardan.texts import _
 
 from .form import tree_of
@@ -53,7 +54,6 @@ class History:
 
 # The folder a user works in: no path outside it is read or written.
 
-MAX_UPLOAD = 2_000_000  # bytes of a file that a user may send
 MAX_LISTED = 200  # files that are listed
 
 
@@ -131,8 +131,7 @@ def sent(name: str, content: bytes, folder: Enclosed) -> str:
 
     A file that is TOML but no sound drive is taken as it is: what is wrong with it is then shown beside it.
     """
-    if len(content) > MAX_UPLOAD:
-        raise refuse(name, _("is larger than {limit} MB; no drive file is").format(limit=MAX_UPLOAD // 10**6))
+    check_size(len(content), name)
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

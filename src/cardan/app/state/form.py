@@ -5,7 +5,6 @@ Made from the fields of the drive model, as the loader and the JSON Schema are: 
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, is_dataclass
 from typing import Any, Literal, TypeAlias, get_args, get_origin
@@ -13,8 +12,9 @@ from typing import Any, Literal, TypeAlias, get_args, get_origin
 from cardan.catalogue import catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import KINDS, NAMED
-from cardan.errors import Problem
+from cardan.errors import InputError, Problem
 from cardan.io.amend import kind_at, steps_of
+from cardan.io.drive_file import parsed
 from cardan.reading.fields import WORD_OR_FLAG, Field, fields_of
 from cardan.texts import _
 
@@ -80,10 +80,10 @@ class Section:
 
 
 def tree_of(text: str) -> dict[str, Any] | None:
-    """Return the tables of a text; None where it is no TOML."""
+    """Return the tables of a text; None where it is no TOML, or beyond the limits of a file."""
     try:
-        return tomllib.loads(text)
-    except (ValueError, RecursionError):  # that of the parser, of Python for a number of thousands of digits, too deep
+        return parsed(text, "toml", "file")
+    except InputError:
         return None
 
 

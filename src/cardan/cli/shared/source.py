@@ -12,6 +12,7 @@ from typing import Annotated, Any, TypeAlias
 from cardan.drive.drive import Drive
 from cardan.errors import refuse
 from cardan.io import load, loads
+from cardan.reading.limits import MAX_BYTES, check_size, limited
 from cardan.texts import _
 
 from .failure import about
@@ -69,7 +70,11 @@ def stdin_text() -> str:
     """Return what stands on standard input."""
     stream = getattr(sys.stdin, "buffer", None)
     try:
-        return stream.read().decode("utf-8-sig") if stream else sys.stdin.read()
+        if stream is None:
+            return sys.stdin.read()
+        content = stream.read(MAX_BYTES + 1 if limited() else -1)
+        check_size(len(content), "")
+        return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise refuse("", _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from error
 
