@@ -3,17 +3,30 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 from typing import Any
 
 import pytest
 
-from cardan.app.server import COOKIE, VISITOR, Guard
+from cardan.app.server import COOKIE, HEADS, VISITOR, Guard
 
 
 async def _inner(scope: Any, _receive: Any, send: Any) -> None:
     seen = dict(scope["headers"]).get(b"cookie", b"")
     await send({"type": "http.response.start", "status": 200, "headers": []})
     await send({"type": "http.response.body", "body": seen})
+
+
+def answered(guard: Guard, host: str = "localhost") -> dict[str, Any]:
+    """Return the start of an answer."""
+    sent: list[dict[str, Any]] = []
+
+    async def send(message: dict[str, Any]) -> None:
+        sent.append(message)
+
+    scope = {"type": "http", "method": "GET", "path": "/", "headers": [(b"host", host.encode())]}
+    asyncio.run(guard(scope, None, send))
+    return sent[0]
 
 
 def ask(
@@ -101,3 +114,40 @@ def test_recordings_may_be_larger_where_files_are_sent(length: str, status: int)
 def test_a_name_that_is_none_is_turned_away() -> None:
     assert ask(Guard(_inner), host="[::1")[0] == 421
     assert ask(Guard(_inner), origin="http://[::1")[0] == 421
+
+
+@pytest.mark.parametrize(("host", "status"), [("localhost", 200), ("evil.example", 421)])
+def test_every_answer_says_where_a_page_may_load_from_and_that_none_may_frame_it(host: str, status: int) -> None:
+    start = answered(Guard(_inner), host)
+    assert start["status"] == status
+    heads = dict(start["headers"])
+    assert heads.items() >= dict(HEADS).items()
+    policy = dict(part.split(" ", 1) for part in heads[b"content-security-policy"].decode().split("; "))
+    assert policy["default-src"] == policy["connect-src"] == "'self'"
+    assert policy["frame-ancestors"] == policy["object-src"] == policy["base-uri"] == "'none'"
+    assert not any("*" in where or "http" in where for where in policy.values())
+    assert heads[b"x-content-type-options"] == b"nosniff"
+    assert heads[b"referrer-policy"] == b"same-origin"
+
+
+@pytest.mark.parametrize("kept", ["[" * 100_000, '{"units":' * 50_000, "1" * 5000, "%ff", '"text"', "null"])
+def test_a_cookie_that_makes_no_sense_is_left_at_the_defaults(kept: str) -> None:
+    page = pytest.importorskip("cardan.app.page")
+    assert page.kept_choices({page.CHOSEN: kept}) == {}
+
+
+@pytest.mark.parametrize(
+    ("message", "error", "told"),
+    [
+        ("http://127.0.0.1:8321/nowhere not found", None, False),
+        ("Exception in ASGI application", ConnectionResetError(), False),
+        (BrokenPipeError(), None, False),
+        ("Exception in ASGI application", ValueError(), True),
+        (ValueError("of ours"), None, True),
+    ],
+)
+def test_the_log_tells_faults_but_no_browser_that_left(message: Any, error: Any, told: bool) -> None:
+    page = pytest.importorskip("cardan.app.page")
+    info = (type(error), error, None) if error else None
+    record = logging.LogRecord("nicegui", logging.ERROR, __file__, 1, message, (), info)
+    assert page.worth_telling(record) is told

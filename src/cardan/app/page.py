@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
@@ -10,6 +11,8 @@ from typing import Any
 from urllib.parse import quote, unquote
 
 from nicegui import ui
+from nicegui.client import ClientConnectionTimeout
+from starlette.requests import ClientDisconnect
 from starlette.responses import Response
 
 from cardan.drive.bodies.solids import solids
@@ -143,6 +146,16 @@ def serve_files(app: Any) -> None:
     app.add_api_route("/cardan-examples/{name}.svg", _picture)
 
 
+# What is raised where a browser leaves before it was answered.
+GONE = (ConnectionError, ClientDisconnect, ClientConnectionTimeout)
+
+
+def worth_telling(record: logging.LogRecord) -> bool:
+    """Tell whether a record of the log is worth it: not that an address leads nowhere, nor that a browser is gone."""
+    error = record.exc_info[1] if record.exc_info else record.msg
+    return not isinstance(error, GONE) and not record.getMessage().endswith(" not found")
+
+
 def _picture(name: str) -> Any:
     """Answer with the picture of a shipped example."""
     text = example_picture(name)
@@ -163,7 +176,7 @@ def kept_choices(cookies: Mapping[str, str]) -> Mapping[str, Any]:
     """Return the choices that the browser kept; none where they make no sense."""
     try:
         kept = json.loads(unquote(cookies.get(CHOSEN, "{}")))
-    except ValueError:
+    except (ValueError, RecursionError):
         return {}
     return kept if isinstance(kept, dict) else {}
 

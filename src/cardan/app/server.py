@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import logging
 import secrets
 import socket
 from collections.abc import Mapping
@@ -70,6 +71,8 @@ def start(how: Start) -> None:
         with session.speaking():
             page.build(session, jobs)
 
+    for name in ("nicegui", "uvicorn.error"):
+        logging.getLogger(name).addFilter(page.worth_telling)
     app.add_middleware(Guard, names=() if how.shared else LOCAL, token=token, apart=how.shared)
     address = f"http://{'localhost' if how.host in ('0.0.0.0', '::') else how.host}:{port}/"
     told = address + (f"?token={token}" if token else "")
@@ -146,6 +149,27 @@ LARGEST = 4_000_000  # bytes of a request at most: a drive file of the largest s
 LARGEST_SENT = 102_000_000  # the same of a request that sends a file: a recording of the largest size
 SENT = "/_nicegui/client/"  # where NiceGUI takes the files that a page is sent
 
+POLICY = {
+    "default-src": "'self'",
+    # NiceGUI starts its pages by scripts within them, and Vue makes functions of templates
+    "script-src": "'self' 'unsafe-inline' 'unsafe-eval'",
+    "style-src": "'self' 'unsafe-inline'",
+    "img-src": "'self' data: blob:",  # plotly draws a picture to be saved by way of a blob
+    "font-src": "'self' data:",
+    "connect-src": "'self'",
+    "object-src": "'none'",
+    "base-uri": "'none'",
+    "form-action": "'self'",
+    "frame-ancestors": "'none'",
+}
+"""Where a page may load from and send to: here alone, so that nothing of a drive leaves; and no page may frame it."""
+
+HEADS = [
+    (b"content-security-policy", "; ".join(f"{what} {where}" for what, where in POLICY.items()).encode()),
+    (b"x-content-type-options", b"nosniff"),
+    (b"referrer-policy", b"same-origin"),  # an address may hold the token
+]
+
 App: TypeAlias = Any
 
 
@@ -184,7 +208,7 @@ class Guard:
             told = "; ".join([*filter(None, [headers.get("cookie")]), f"{VISITOR}={cookies[VISITOR]}"])
             rest = [pair for pair in scope["headers"] if pair[0] != b"cookie"]
             scope = {**scope, "headers": [*rest, (b"cookie", told.encode())]}
-        await self.app(scope, receive, _remembering(send, cookies) if cookies else send)
+        await self.app(scope, receive, _heading(send, cookies))
 
     def _named(self, headers: Mapping[str, str]) -> bool:
         try:
@@ -223,13 +247,13 @@ def _small(scope: Mapping[str, Any], headers: Mapping[str, str]) -> bool:
     return length.isascii() and length.isdigit() and int(length[:12]) <= (LARGEST_SENT if sends else LARGEST)
 
 
-def _remembering(send: Any, cookies: Mapping[str, str]) -> Any:
-    """Return what sends an answer on with cookies that scripts cannot read."""
+def _heading(send: Any, cookies: Mapping[str, str]) -> Any:
+    """Return what sends an answer on with the heads of all answers, and cookies that scripts cannot read."""
+    lines = [f"{name}={value}; Path=/; HttpOnly; SameSite=Strict" for name, value in cookies.items()]
+    added = [*HEADS, *((b"set-cookie", line.encode()) for line in lines)]
 
     async def sent(message: dict[str, Any]) -> None:
         if message["type"] == "http.response.start":
-            lines = [f"{name}={value}; Path=/; HttpOnly; SameSite=Strict" for name, value in cookies.items()]
-            added = [(b"set-cookie", line.encode()) for line in lines]
             message = {**message, "headers": [*message.get("headers", []), *added]}
         await send(message)
 
@@ -240,6 +264,6 @@ async def _refused(scope: Mapping[str, Any], send: Any, status: int, text: str) 
     if scope["type"] == "websocket":
         await send({"type": "websocket.close", "code": 1008})
         return
-    head = [(b"content-type", b"text/plain; charset=utf-8")]
+    head = [*HEADS, (b"content-type", b"text/plain; charset=utf-8")]
     await send({"type": "http.response.start", "status": status, "headers": head})
     await send({"type": "http.response.body", "body": text.encode()})
