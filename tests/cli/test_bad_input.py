@@ -53,7 +53,7 @@ FILES = {
         f"format = 1\n{JOINT}joint_angle_deg=5\n{JOINT}joint_angle_deg=5\n[[shafts]]\nnumber=2\nspline.teeth = 1.5\n",
         ["teeth", "1.5"],
     ),
-    "10,000 joints": ("format = 1\n" + f"{JOINT}joint_angle_deg = 5\n" * 10_000, ["10000", "1000"]),
+    "10,000 joints": ("format = 1\n" + f"{JOINT}joint_angle_deg = 5\n" * 10_000, ["10000", "400"]),
 }
 
 

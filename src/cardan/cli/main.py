@@ -15,11 +15,11 @@ from typing import TextIO
 
 from cardan.errors import refuse
 from cardan.later import later
-from cardan.reading.limits import VARIABLE
 from cardan.texts import DOMAIN, FOLDER, LANGUAGES, _, language, speaking
 
 app, failure = later("cardan.cli.app"), later("cardan.cli.shared.failure")
 """The parser, and what is said when something goes wrong: they load while an early ctrl-C is answered already."""
+limits = later("cardan.reading.limits")
 readers = later("cardan.answers.reader")  # in what units and signs the reader is told; the help needs none
 
 
@@ -42,7 +42,7 @@ def _read(given: list[str]) -> int:
     """Run one command for the reader that ``--unit`` and ``--decimal`` describe, wherever they, or no limits, stand."""
     end = given.index("--") if "--" in given else len(given)
     if "--no-limits" in given[:end]:
-        with _environment({VARIABLE: "1"}):
+        with _environment({limits().VARIABLE: "1"}):
             return _read([word for word in given[:end] if word != "--no-limits"] + given[end:])
     units, rest = _taken(given, "--unit")
     signs, rest = _taken(rest, "--decimal")
