@@ -89,7 +89,20 @@ def test_help_speaks_the_language_and_fits(spoken, command):
 KEPT = {
     *("cardan", "motion", "phasing", "articulation", "forces", "losses", "life", "strength", "balance", "select"),
     *("joint", "accuracy", "bending", "assembly", "mobility", "torsion", "check", "report", "init", "example"),
-    *("convert", "schema", "catalogue", "calc", "modes", "response", "simulate", "stability", "absorber", "optimise"),
+    *(
+        "convert",
+        "schema",
+        "catalogue",
+        "calc",
+        "keys",
+        "help",
+        "modes",
+        "response",
+        "simulate",
+        "stability",
+        "absorber",
+        "optimise",
+    ),
     *("path", "float", "toml", "html", "json", "list", "truck", "bool", "beta_deg", "alpha_deg", "diagnose", "faults"),
     *("signal", "measured", "traces", "stderr", "rotor", "sweep", "length", "torque", "lbft"),
 }

@@ -72,7 +72,7 @@ def stdin_text() -> str:
     try:
         if stream is None:
             return sys.stdin.read()
-        content = stream.read(MAX_BYTES + 1 if limited() else -1)
+        content: bytes = stream.read(MAX_BYTES + 1 if limited() else -1)
         check_size(len(content), "")
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
