@@ -44,7 +44,7 @@ def file_keys(under: str = "") -> tuple[FileKey, ...]:
     >>> [key.path for key in file_keys("input")]
     ['input', 'input.point_mm', 'input.start_phase_deg']
     >>> file_keys("joints[1].cross.span_mm")[0].value
-    'number, more than 0'
+    'number, more than 0 mm'
     """
     wanted = re.sub(r"\[\d*\]", "", under)
     found = (_key(path, fields) for path, fields in _paths().items())
