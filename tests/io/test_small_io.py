@@ -18,8 +18,9 @@ def test_plain():
 
 
 def test_tables():
-    assert [title for title, cls in tables()][:5] == [
+    assert [title for title, cls in tables()][:6] == [
         "the head of the file",
+        "[report]",
         "[settings]",
         "[input]",
         "[output]",

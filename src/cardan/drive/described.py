@@ -12,7 +12,7 @@ from .joints import Joint
 from .joints.joint import Point
 from .movement import Movement
 from .pose import Pose
-from .settings import Settings
+from .settings import Settings, TitleBlock
 from .shaft import Shaft
 from .station import Station
 from .steering import Steering
@@ -46,6 +46,7 @@ class Described:
 
     name: str = plain("", doc="name of the drive")
     note: str = plain("", doc="what the reader of the report should know")
+    report: TitleBlock = plain(TitleBlock(), doc="title block of the report")
     settings: Settings = plain(Settings(), doc="surroundings of the drive")
     input: Input = plain(Input(), doc="the driving end")
     output: Output = plain(Output(), doc="the driven end")

@@ -1,4 +1,4 @@
-"""What holds for the drive as a whole."""
+"""What holds for the drive as a whole, and the title block of its report."""
 
 from __future__ import annotations
 
@@ -19,3 +19,17 @@ class Settings:
         doc="row of angle_norms in the catalogue: limits of angular accelerations; without it that of the application",
     )
     catalogues: tuple[str, ...] = plain((), doc="catalogue files of the user's own, beside this file")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class TitleBlock:
+    """Whom the report is for and who answers for it."""
+
+    client: str = plain("", doc="client, in the head of the report")
+    project: str = plain("", doc="project, in the head of the report")
+    drawing_number: str = plain("", doc="number of the drawing, in the head of the report")
+    revision: str = plain("", doc="revision of the drawing, in the head of the report")
+    author: str = plain("", doc="author of the report, in its head")
+    checked_by: str = plain("", doc="who checked the report, in its head")
+    date: str = plain("", doc="date of the report, told in its head")
+    logo: str = plain("", doc="PNG or SVG file with the logo in the head of the report, beside this file")

@@ -21,7 +21,7 @@ from cardan.drive.machine import LAWS, Engine, EngineHarmonic, RunUp
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
 from cardan.drive.pose import Pose
-from cardan.drive.settings import Settings
+from cardan.drive.settings import Settings, TitleBlock
 from cardan.drive.shaft import Layup, Notch, Ply, PointMass, Segment, Shaft, Spline, Unbalance
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.steering import Steering
@@ -166,6 +166,7 @@ def sections() -> tuple[tuple[str, type], ...]:
     """Return title and class of every table of the drive file."""
     return (
         ("Head of the file", Drive),
+        ("`[report]`", TitleBlock),
         ("`[settings]`", Settings),
         ("`input`", Input),
         ("`output`", Output),

@@ -98,6 +98,7 @@ def test_a_text_that_is_no_toml_has_no_form() -> None:
         "limits",
         "steering",
         "settings",
+        "report",
     ]
 
 

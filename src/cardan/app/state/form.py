@@ -108,6 +108,7 @@ def parts(tree: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     yield "limits", _("Limits")
     yield "steering", _("Steering")
     yield "settings", _("Surroundings")
+    yield "report", _("Title block of the report")
     for name, title in (("movements", _("Movement {number}")), ("poses", _("Pose {number}"))):
         for k, table in enumerate(tables(tree, name)):
             yield f"{name}[{k}]", _titled(title.format(number=k + 1), table)
