@@ -2,6 +2,7 @@
 
 import dataclasses
 import re
+import sys
 from functools import cache
 from html.parser import HTMLParser
 
@@ -13,9 +14,11 @@ from cardan.errors import InputError
 from cardan.figures.axes import percent
 from cardan.io import example, example_names, example_text
 from cardan.questions.motion.equivalence import equivalent_joint
-from cardan.report.block import Page, Words
-from cardan.report.content import moved, phased
+from cardan.questions.phases import answer as yokes
+from cardan.report.block import Picture, Table, shown
+from cardan.report.content import content, moved, phased
 from cardan.report.report import page, report
+from cardan.report.subject import Subject
 from cardan.units import deg
 from tests.report.first_page import key_rows
 
@@ -63,15 +66,15 @@ def parsed(text: str) -> Nesting:
     return seen
 
 
-def proof(yokes: Page) -> str:
-    """Return what the page of the yokes says of the sides of the polygon."""
-    return next(one.text for one in yokes.blocks if isinstance(one, Words))
+def proof(on: Subject) -> str:
+    """Return what the appendix says of the sides of the polygon."""
+    return shown(yokes.proof(on.drive, on.phasing))
 
 
 @cache
 def of_example(name: str) -> str:
     """Return the report of an example, made once for all tests."""
-    return page(example(name), source_text=example_text(name))
+    return page(example(name), source_text=example_text(name), full=True)
 
 
 @pytest.mark.parametrize("name", example_names())
@@ -130,9 +133,9 @@ def test_a_drive_even_but_for_rounded_coordinates_is_not_called_uneven():
     on = asked(example("pto-spline-thrust"), None, None)
     assert on.rounded
     assert not on.phasing.feasible
-    yokes = phased(on)
-    drawn = yokes.blocks[0].figure.sentence
-    said = [uniformity(on).text, yokes.answer, proof(yokes), drawn, moved(on.drive)[0].answer]
+    (drawn,) = (one for one in yokes.answer(on.drive, on.phasing).figures() if one.name == "polygon")
+    polygon = Picture(figure=drawn).figure.sentence
+    said = [uniformity(on).text, phased(on).answer, proof(on), polygon, moved(on.drive).answer]
     assert all("but for the rounding" in text.lower() for text in said)
     rows = {row[0].text: row for row in key_rows(on.drive)}
     assert rows["angle error of the output, ±"][1].text == "9.283·10⁻⁶"
@@ -144,8 +147,7 @@ def test_joints_that_turn_evenly_by_themselves_are_said_to():
 
     for name in ("front-halfshaft", "pto-hitch"):
         on = asked(example(name), None, None)
-        yokes = phased(on)
-        told = (proof(yokes), yokes.answer, moved(on.drive)[0].answer)
+        told = (proof(on), phased(on).answer, moved(on.drive).answer)
         assert all("joint turns uniformly by itself" in text for text in told)
         assert ["as drawn" in text.lower() for text in told] == 3 * [bool(on.drive.movements)]
 
@@ -154,7 +156,7 @@ def test_the_bend_that_would_close_is_told_of_the_hooke_joint_that_turns_alike()
     from cardan.report.subject import asked
 
     on = asked(example("double-cardan-propshaft"), None, None)
-    text = proof(phased(on))
+    text = proof(on)
     assert "if the Hooke joint that turns like that joint had an angle of 1.00°. α is the angle of the Hooke" in text
 
 
@@ -204,14 +206,20 @@ def test_a_degree_off_costs_something_where_the_slope_is_zero():
 def test_spline_travel_is_judged_and_a_spline_that_does_not_follow_is_told_once():
     drive = example("pto-hitch")
     held = "".join(parsed(page(drive)).words)
-    judged = held[held.index("shortest engaged length of the spline, shaft 2") :].split()
-    assert judged[8:14] == ["189.0", "mm", "≥", "150", "0.79", "✓passed"]
+    first, _sign, _rest = held.partition("The drive as understood")
+    assert "shortest engaged length" not in first
+    judged = first[first.rindex("engaged length of the spline of shaft 2") :].split()
+    at = judged.index("189.0")
+    assert judged[at : at + 6] == ["189.0", "mm", "≥", "150", "0.79", "✓passed"]
     tight = dataclasses.replace(drive.shafts[1].spline, gap=0.003)
     shafts = (drive.shafts[0], dataclasses.replace(drive.shafts[1], spline=tight), *drive.shafts[2:])
     failed = "".join(parsed(page(dataclasses.replace(drive, shafts=shafts))).words)
     assert failed.count("the spline of shaft 2 bottoms") == 1
     assert "A spline does not follow the movement." in failed
-    assert "too little" in failed
+    assert re.search(
+        r"remaining travel of the spline of shaft 2, while the drive moves\s+−61.64\s+mm\s+≥ 0.*?failed", failed, re.S
+    )
+    assert "least remaining travel" not in failed
 
 
 def test_changes_come_with_the_most_helpful_first():
@@ -264,7 +272,7 @@ def test_a_duty_may_be_given_beside_the_drive():
 
 def test_words_of_the_user_cannot_break_the_page():
     drive = Drive.from_angles([0.2, 0.1], name="<script>alert(1)</script>")
-    text = page(drive, source_text="# <b>&amp; </pre>")
+    text = page(drive, source_text="# <b>&amp; </pre>", full=True)
     assert "<script>" not in text
     parsed(text)
 
@@ -292,3 +300,33 @@ def test_progress_rises_to_one_and_may_stop_the_work():
     words = "".join(parsed(page(example("pto-hitch"), progress=lambda share: "stop")).words)
     assert "Stopped by the reader" in words
     assert "Articulation" not in words
+
+
+def test_what_few_ask_for_stands_in_the_appendix_and_only_where_asked():
+    drive, text = example("two-piece-rear-drive"), example_text("two-piece-rear-drive")
+    short, full = content(drive, source_text=text), content(drive, source_text=text, full=True)
+    assert [one.name for one in short.pages] == [one.name for one in full.pages]
+    assert not short.appendix
+    assert [one.title for one in full.appendix] == ["Phase polygon", "Classical approximations", "Method and evidence"]
+    told = "".join(parsed(page(drive, source_text=text)).words)
+    assert not re.search("Appendix|classical|Poincaré|Möbius map|format = 1", told)
+    words = "".join(parsed(of_example("two-piece-rear-drive")).words)
+    assert words.index("Checks") < words.index("Poincaré") < words.index("format = 1")
+
+
+@pytest.mark.parametrize("name", ["two-piece-rear-drive", "truck-duty-cycle", "pto-hitch", "single-20deg"])
+def test_no_number_of_the_limits_is_told_again_by_the_key_figures(name):
+    said = content(example(name))
+    assert isinstance(said.lights, Table)
+    limits = {(row[1].full, row[2].text) for row in said.lights.rows}
+    assert limits
+    assert not limits & {(row[1].full, row[2].text) for row in said.figures.rows}
+    assert len(said.figures.rows) > 1
+
+
+def test_a_self_check_that_fails_is_named_on_the_first_page_without_the_appendix(monkeypatch):
+    on = Subject(drive=example("z-arrangement"))
+    broken = tuple(dataclasses.replace(one, residual=1.0) for one in on.checks[:1])
+    monkeypatch.setattr(sys.modules[Subject.__module__], "evidence", lambda _drive: broken)
+    told = [one.text for one in content(on.drive).warnings]
+    assert f"A self-check failed: {broken[0].name}." in told

@@ -135,6 +135,7 @@ class KeyFigure:
     verdict: str = ""  # how good that is, in a word
     tone: Tone = "plain"  # how good that is
     used: float | None = None  # share of the limit that is used, where it is not the quotient of value and limit
+    check: str = ""  # check that judges it, whose verdict may tell the same
 
     @property
     def called(self) -> Text:

@@ -62,7 +62,16 @@ def _joint_angle(drive: Drive, allowed: dict[str, Verdict]) -> KeyFigure:
     tone: Tone = "good" if use < AMBER else "failed" if use > 1.0 and judged else "warning"
     verdict = _("passed") if use < AMBER else _("near the limit") if use <= 1.0 else _("too much")
     bound = Quantity(limit, "angle", 6, trim=True)
-    return KeyFigure(name="joint_angle", title=title, place=at, value=value, limit=bound, verdict=verdict, tone=tone)
+    return KeyFigure(
+        name="joint_angle",
+        title=title,
+        place=at,
+        value=value,
+        limit=bound,
+        verdict=verdict,
+        tone=tone,
+        check="joint_angle",
+    )
 
 
 def _in_poses(drive: Drive) -> list[tuple[str, Array, Array]]:

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table
-from cardan.answers.quantity import Say, say
+from cardan.answers.quantity import Quantity, Say, Text, say
 from cardan.answers.question import Lacking
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import Catalogue
@@ -31,6 +31,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
 from cardan.drive.fields.paths import bare_path, in_words
 from cardan.texts import _, mark, plural
+from cardan.units import dimension_of, factor
 
 from .remedy import Remedy, most_helpful, remedies, typed
 
@@ -204,35 +205,39 @@ def _tables(drive: Drive, result: Checked, *, sources: bool, missing: bool) -> I
 def remedy_table(drive: Drive, result: Checked, *, helpful: bool = False) -> Table:
     """Return the smallest changes of single keys that make failed verdicts pass, those that help most first.
 
-    helpful: only those that help most, with a word on what has no remedy.
+    helpful: only those that help most, parts by name and values with units, with a word on what has no remedy.
     """
     found = result.remedies
     best = list(most_helpful(found))
     shown = best if helpful else [*best, *_others(found, best)]
-    counted = any("[" in one.path for one in shown)
+    counted = not helpful and any("[" in one.path for one in shown)
     notes = [_("Keys count from 0: joints[0] is joint 1, shafts[0] is shaft 1.")] if counted else []
     if 0 < len(best) < len(shown):
         text = plural("The first change helps most.", "The first {count} changes together help most.", len(best))
         notes.insert(0, text.format(count=len(best)))
     if helpful:
         notes.extend(_unremedied(result))
+    words = [in_words(bare_path(drive, one.path)) for one in shown]
+    keys = Column(key="", heading=_("key to change"), values=[one.path for one in shown], left=True)
     return Table(
         title=_("Changes that help most") if helpful else _("Corrective changes (one parameter each)"),
         columns=(
-            Column(key="", heading=_("key to change"), values=[one.path for one in shown], left=True),
-            Column(
-                key="",
-                heading=_("what"),
-                values=[in_words(bare_path(drive, one.path)) for one in shown],
-                left=True,
-                depth="full",
-            ),
-            Column(key="", heading=_("now"), values=[typed(one.now) for one in shown]),
-            Column(key="", heading=_("to"), values=[typed(one.value) for one in shown]),
+            *(() if helpful else (keys,)),
+            Column(key="", heading=_("what"), values=words, left=True, depth="full"),
+            Column(key="", heading=_("now"), values=[_value(one, one.now, helpful) for one in shown]),
+            Column(key="", heading=_("to"), values=[_value(one, one.value, helpful) for one in shown]),
             Column(key="", heading=_("then passes"), values=[_effect(one) for one in shown], left=True, wrap=True),
         ),
         note=" ".join(notes),
     )
+
+
+def _value(one: Remedy, value: float | int | str, told: bool) -> Text:
+    """Return a value of a change as its key takes it; told: with its unit, as who reads here is used to."""
+    if isinstance(value, str) or not told or not one.unit:
+        return typed(value)
+    dimension = dimension_of(one.unit)
+    return Quantity(value * factor(dimension, one.unit), dimension, 6, unit=one.unit, trim=True)
 
 
 def _others(found: Sequence[Remedy], best: Sequence[Remedy]) -> Iterator[Remedy]:

@@ -119,6 +119,7 @@ def verdict_columns() -> tuple[Column, ...]:
 
 # An answer as a page of the report, for one reader: HTML, PDF, workbook and app show it.
 
+SAME = 1e-6  # numbers that differ by less of them are one and the same
 MOST = 1000.0  # a limit that is exceeded more often is told as exceeded beyond that
 
 
@@ -157,6 +158,18 @@ def key_figures(told: Iterable[Sequence[KeyFigure]]) -> list[KeyFigure]:
     for keys in told:
         found.update({name: [one for one in keys if one.name == name] for name in dict.fromkeys(k.name for k in keys)})
     return [one for keys in found.values() for one in keys]
+
+
+def untold(keys: Sequence[KeyFigure], limits: Sequence[KeyFigure]) -> list[KeyFigure]:
+    """Return the key figures that no verdict of the table of limits tells already."""
+    return [key for key in keys if not any(_same(key, one) for one in limits)]
+
+
+def _same(key: KeyFigure, verdict: KeyFigure) -> bool:
+    """Tell whether a verdict tells the figure that its check judges: the same number of the same dimension."""
+    own, told = key.value, verdict.value
+    judges = bool(key.check) and verdict.name.partition(" ")[0] == key.check
+    return judges and own.dimension == told.dimension and math.isclose(own.value, told.value, rel_tol=SAME)
 
 
 def key_table(keys: Sequence[KeyFigure]) -> Table:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import datetime
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
-from cardan.answers.reader import reader
+from cardan.answers.reader import reader, reading
 from cardan.book import answer as classical
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
@@ -14,6 +15,7 @@ from cardan.drive.duty import Duty
 from cardan.errors import InputError
 from cardan.figures import Figure
 from cardan.figures.drive import space_figure
+from cardan.files import Enclosed
 from cardan.questions.gathering import gather, principal
 from cardan.questions.motion import answer as motion
 from cardan.questions.motion import articulation_answer as articulation
@@ -30,12 +32,15 @@ from .answers import (
     refused,
     warnings_by_laws,
 )
-from .block import Page, Table, Words, key_figures, key_table, page
+from .block import Page, Picture, Table, Words, key_figures, key_table, page, shown, untold
 from .description import description
 from .method import method
 from .subject import Subject, asked
 from .summary import changes, judgement, warnings
+from .title_block import Head, Noting, logo_of, rows
 from .verdicts import Judged, judged
+
+POLYGON = "polygon"  # name of the figure of the yokes that stands in the appendix
 
 
 def today() -> str:
@@ -51,6 +56,7 @@ class Content:
     note: str  # what its file says about it
     version: str  # version of cardan that calculated it
     date: str  # day of the report, as in 2026-01-31
+    head: Head  # client, drawing, author, logo, units
     judgement: Words  # the sentence the reader came for
     warnings: tuple[Words, ...]  # what the reader must not overlook
     lights: Table | None  # the verdicts that matter most; None where nothing was judged
@@ -59,6 +65,7 @@ class Content:
     figures: Table  # key figures with their limits
     changes: Table | Words  # changes that make the output more even
     pages: tuple[Page, ...]  # what follows the summary, in order
+    appendix: tuple[Page, ...] = ()  # what few ask for, at the end; empty where it was not asked for
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -77,59 +84,85 @@ def content(
     duty: Duty | None = None,
     *,
     source_text: str | None = None,
+    full: bool = False,
     progress: Callable[[float], object] | None = None,
     known: Catalogue | None = None,
+    folder: str | Path | Enclosed = ".",
 ) -> Content:
     """Return what the report of a drive says.
 
     drive: the drive; duty: what it does; None takes the drive's own duty.
-    source_text: text of the drive file, shown in full at the end.
+    source_text: text of the drive file, shown in the appendix.
+    full: with the appendix: phase polygon, classical approximations, method and evidence, the drive file.
     progress: called with the share done; answering "stop" leaves out what is still to be calculated.
     known: norms, types and sizes that it is judged by; the shipped ones when not given.
+    folder: where the logo is looked for.
     """
-    on = replace(asked(drive, duty, progress), known=known)
-    pages: list[Page] = [description(on), *moved(on.drive), phased(on), *_articulated(on), *loaded(on)]
+    logo, who = logo_of(drive, folder), Noting(units=reader().units, decimal=reader().decimal)
+    with reading(who):
+        on = replace(asked(drive, duty, progress), known=known)
+        said = _said(on)
+        if full:
+            said = replace(said, appendix=tuple(_appendix(on, source_text)))
+    return replace(said, head=Head(rows=tuple(rows(drive.report)), units=who.line(), logo=logo))
+
+
+def _said(on: Subject) -> Content:
+    """Return what a report says, without its head and its appendix."""
+    pages: list[Page] = [description(on), moved(on.drive), phased(on), *_articulated(on), *loaded(on)]
     limits = judged(on) if on.complete else Judged()
     if limits.page is not None:
         pages.append(limits.page)
-    pages.append((method_by_laws if on.by_laws else method)(on, source_text))
+    keys = key_figures([*(one.keys for one in pages), limits.keys])
     return Content(
-        title=drive.name or _("Universal-joint drive"),
-        note=drive.note,
+        title=on.drive.name or _("Universal-joint drive"),
+        note=on.drive.note,
         version=VERSION,
         date=today(),
+        head=Head(),
         judgement=(judgement_by_laws if on.by_laws else judgement)(on, pages),
         warnings=tuple((warnings_by_laws if on.by_laws else warnings)(on, pages)),
         lights=limits.lights,
         remedies=limits.changes,
         sketch=space_figure(on.drive, on.seen, name="sketch"),
-        figures=key_table(key_figures([*(one.keys for one in pages), limits.keys])),
+        figures=key_table(untold(keys, limits.urgent)),
         changes=changes_by_laws(on) if on.by_laws else changes(on),
         pages=tuple(pages),
     )
 
 
-def moved(drive: Drive) -> list[Page]:
-    """Return the pages of the motion: joints have their angles on the page before, shafts theirs in a table."""
+def moved(drive: Drive) -> Page:
+    """Return the page of the motion: joints have their angles on the page before, shafts theirs in a table."""
     said = gather(QUESTIONS["motion"], drive, motion.answer(drive, motion.ask(drive)))
     drawn = [one for one in said.figures() if one.name != "speed_fluctuation"]
     tables = [one for one in said.tables if one.name != "joints"]
-    pages = [page(replace(said, tables=tables, figures=lambda: drawn), reader())]
-    seen = classical.ask(drive)
-    if seen is not None and classical.differ(seen):
-        pages.append(page(gather(QUESTIONS["classical"], drive, classical.answer(drive, seen)), reader()))
-    return pages
+    return page(replace(said, tables=tables, figures=lambda: drawn), reader())
 
 
 def phased(on: Subject) -> Page:
-    """Return the page of the yokes; where joints turn by laws of their own mostly why there is none."""
+    """Return the page of the yokes, without their polygon; where joints turn by own laws mostly why there is none."""
     try:
         said = yokes.answer(on.drive, on.phasing)
-        return page(gather(QUESTIONS["phasing"], on.drive, said), reader())
     except InputError as error:
         if not on.by_laws:
             raise
         return replace(refused("phasing", _("Phasing of the yokes"), error), alarms=())
+    said = gather(QUESTIONS["phasing"], on.drive, said)
+    drawn, proof = [one for one in said.figures() if one.name != POLYGON], shown(yokes.proof(on.drive, on.phasing))
+    remarks = [one for one in said.remarks if shown(one.text) != proof]
+    return page(replace(said, remarks=remarks, figures=lambda: drawn), reader())
+
+
+def _appendix(on: Subject, source_text: str | None) -> Iterator[Page]:
+    """Yield what few ask for: the polygon of the yokes, classical approximations, the method with the drive file."""
+    if not on.by_laws:
+        drawn = [Picture(figure=one) for one in yokes.answer(on.drive, on.phasing).figures() if one.name == POLYGON]
+        proof = yokes.proof(on.drive, on.phasing)
+        yield Page(name=POLYGON, title=_("Phase polygon"), answer=proof, blocks=drawn)
+    seen = classical.ask(on.drive)
+    if seen is not None and classical.differ(seen):
+        yield page(gather(QUESTIONS["classical"], on.drive, classical.answer(on.drive, seen)), reader())
+    yield (method_by_laws if on.by_laws else method)(on, source_text)
 
 
 def _articulated(on: Subject) -> Iterator[Page]:

@@ -9,7 +9,7 @@ from cardan.answers.reader import Reader, reading
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.files import write_bytes
+from cardan.files import Enclosed, write_bytes
 
 from .content import content
 from .render.html import text
@@ -22,11 +22,13 @@ def report(
     path: Path | str,
     *,
     source_text: str | None = None,
+    full: bool = False,
     interactive: bool = False,
     progress: Callable[[float], object] | None = None,
     known: Catalogue | None = None,
     units: Mapping[str, str] | None = None,
     decimal: str = "",
+    folder: str | Path | Enclosed = ".",
 ) -> Path:
     """Write the report of a drive as one file that needs nothing else.
 
@@ -40,7 +42,9 @@ def report(
         Where the report goes; its ending chooses the form, see `cardan.report.render.renderer.RENDERERS`. Written
         whole or not at all.
     source_text : str, optional
-        Text of the drive file, shown in full at the end.
+        Text of the drive file, shown in the appendix.
+    full : bool
+        With the appendix: phase polygon, classical approximations, method and evidence, and the drive file.
     interactive : bool
         Draw figures to point at, zoom and turn, at the price of some megabytes; only in HTML.
     progress : function, optional
@@ -52,6 +56,8 @@ def report(
     decimal : str
         Sign between whole and part, ``"."`` or ``","``, by default that of the language; workbooks show numbers as the
         spreadsheet is set.
+    folder : str, Path or Enclosed
+        Where the logo that the drive names is looked for.
 
     Returns
     -------
@@ -61,8 +67,8 @@ def report(
     Raises
     ------
     InputError
-        The path does not end like a report or cannot be written, its form has no figures to point at, or there is no
-        such unit.
+        The path does not end like a report or cannot be written, its form has no figures to point at, there is no such
+        unit, or the logo is no picture.
     MissingExtraError
         What writes that form is not installed.
 
@@ -81,7 +87,7 @@ def report(
     written = renderer_for(place, interactive=interactive)
     who = Reader(units=units or {}, decimal=decimal)  # refuses what is no unit before any work is done
     with reading(who):
-        said = content(drive, duty, source_text=source_text, progress=progress, known=known)
+        said = content(drive, duty, source_text=source_text, full=full, progress=progress, known=known, folder=folder)
         write_bytes(place, written(said))
     if progress is not None:
         progress(1.0)
@@ -93,11 +99,12 @@ def page(
     duty: Duty | None = None,
     *,
     source_text: str | None = None,
+    full: bool = False,
     progress: Callable[[float], object] | None = None,
     known: Catalogue | None = None,
 ) -> str:
     """Return the report of a drive as the text of an HTML page; see `report`."""
-    said = text(content(drive, duty, source_text=source_text, progress=progress, known=known))
+    said = text(content(drive, duty, source_text=source_text, full=full, progress=progress, known=known))
     if progress is not None:
         progress(1.0)
     return said

@@ -226,8 +226,9 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
         yield from (Words(text=text, tone="failed" if text in failed else "warning") for text in on.moving.warnings)
     if not on.complete:
         yield Words(text=_("Stopped by the reader: what was not calculated by then is left out."), tone="warning")
-    if not all(check.passed for check in on.checks):
-        yield Words(text=_("A self-check failed; see the last part."), tone="failed")
+    for check in on.checks:
+        if not check.passed:
+            yield Words(text=_("A self-check failed: {name}.").format(name=check.name), tone="failed")
 
 
 def steep_joints(drive: Drive, joint_angles: Array) -> Iterator[Words]:

@@ -25,6 +25,7 @@ class Judged:
 
     page: Page | None = None  # all of them; None where nothing was judged
     lights: Table | None = None  # those that matter most, for the first page
+    urgent: Sequence[KeyFigure] = ()  # the same as figures with their limits
     changes: Table | None = None  # the changes that help most, for the first page; None where nothing fails
     keys: Sequence[KeyFigure] = ()  # key figures with their limits
 
@@ -43,4 +44,4 @@ def judged(on: Subject) -> Judged:
     rows = [row(one, reader()) for one in shown]
     lights = Table(columns=verdict_columns(), rows=rows, title=_("Limits"), note=note) if rows else None
     changes = table(remedy_table(on.drive, result, helpful=True)) if result.remedies else None
-    return Judged(page=page(said, reader()), keys=said.keys, lights=lights, changes=changes)
+    return Judged(page=page(said, reader()), keys=said.keys, lights=lights, urgent=shown, changes=changes)

@@ -66,16 +66,19 @@ class Cells(HTMLParser):
 
 def without_pictures(said: Content) -> Content:
     """Return the same without what takes a reader of PDF files long and says nothing in words."""
-    pages = tuple(
-        dataclasses.replace(page, blocks=[one for one in page.blocks if not isinstance(one, Picture)])
-        for page in said.pages
+    pages, appendix = (
+        tuple(
+            dataclasses.replace(page, blocks=[one for one in page.blocks if not isinstance(one, Picture)])
+            for page in pages
+        )
+        for pages in (said.pages, said.appendix)
     )
-    return dataclasses.replace(said, sketch=BLANK, pages=pages)
+    return dataclasses.replace(said, sketch=BLANK, pages=pages, appendix=appendix)
 
 
 @cache
 def of_example(name: str) -> Content:
-    return without_pictures(content(example(name), source_text=example_text(name)))
+    return without_pictures(content(example(name), source_text=example_text(name), full=True))
 
 
 @cache
@@ -112,14 +115,14 @@ def test_the_pdf_says_what_the_html_report_says(name):
     assert len(opened(name).pages) > 3
     assert close(said.judgement.text) in seen
     assert all(close(warning.text) in seen for warning in said.warnings)
-    for page in said.pages:
+    for page in (*said.pages, *said.appendix):
         assert close(page.title) in seen
         assert close(page.answer) in seen
         for block in page.blocks:
             if isinstance(block, Points):
                 assert all(close(one) in seen for one in block.items)
     formulas = {
-        cell.text for page in said.pages for block in page.blocks if isinstance(block, Table)
+        cell.text for page in (*said.pages, *said.appendix) for block in page.blocks if isinstance(block, Table)
         for row in block.rows for cell in row if cell.formula
     }  # fmt: skip
     cells = [cell for cell in Cells(html.text(said)).cells if cell not in formulas]
@@ -131,12 +134,15 @@ def test_the_pdf_says_what_the_html_report_says(name):
 def test_every_page_is_found_by_its_bookmark_and_in_the_contents(name):
     pdf, said = opened(name), of_example(name)
     marks = [mark for mark in pdf.outline if not isinstance(mark, list)]
-    titles = [re.sub(r"^\d+\s+", "", mark.title) for mark in marks]
-    assert titles == ["Summary", *(page.title for page in said.pages)]
+    numbered = [re.fullmatch(r"(?:(\d+|[A-C])\s+)?(.*)", mark.title).groups("") for mark in marks]
+    titles = [title for _number, title in numbered]
+    assert titles == ["Summary", *(one.title for one in said.pages), "Appendix", *(one.title for one in said.appendix)]
     first = close(pdf.pages[0].extract_text())
-    for k, mark in enumerate(marks, start=1):
+    count = 1 + len(said.pages)
+    assert [number for number, _title in numbered] == [*map(str, range(1, count + 1)), "", *"ABC"[: len(said.appendix)]]
+    for mark, (number, title) in zip(marks, numbered, strict=True):
         page = pdf.get_destination_page_number(mark) + 1
-        assert close(f"{k}{titles[k - 1]}{page}") in first
+        assert close(f"{number}{title}{page}") in first
 
 
 def test_the_file_tells_what_it_is_and_can_be_read_aloud():
@@ -191,7 +197,7 @@ def test_words_of_the_user_are_never_code():
     drive = dataclasses.replace(
         example("two-piece-rear-drive"), name=" ".join(NASTY), note="\n".join(NASTY), joints=named
     )
-    said = content(drive, source_text="\n".join(NASTY) + "\n```#panic()")
+    said = content(drive, source_text="\n".join(NASTY) + "\n```#panic()", full=True)
     cells = [[Cell(text=one), Cell(text=one, tone="failed")] for one in NASTY]
     table = Table(
         title=NASTY[0], columns=[Column(heading=NASTY[0], left=True), Column(heading="$", unit="*")], rows=cells

@@ -64,7 +64,7 @@ def small_pictures() -> Iterator[None]:
 
 @cache
 def said(name: str) -> Content:
-    return content(example(name), source_text=example_text(name))
+    return content(example(name), source_text=example_text(name), full=True)
 
 
 @cache
@@ -121,7 +121,7 @@ def tables(told: Content) -> Iterator[tuple[int, Table]]:
     for table in (told.lights, told.remedies, told.figures, told.changes):
         if isinstance(table, Table):
             yield 0, table
-    for k, page in enumerate(told.pages, start=1):
+    for k, page in enumerate((*told.pages, *told.appendix), start=1):
         yield from ((k, block) for block in page.blocks if isinstance(block, Table))
 
 
@@ -161,7 +161,7 @@ def test_the_number_behind_a_cell_is_the_one_it_says(name: str) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_the_words_of_every_page_stand_there(name: str) -> None:
     book, told = opened(file_of(name)), said(name)
-    for k, page in enumerate(told.pages, start=1):
+    for k, page in enumerate((*told.pages, *told.appendix), start=1):
         sheet = book.worksheets[k]
         text = "\n".join(str(cell) for row in sheet.iter_rows(values_only=True) for cell in row if cell is not None)
         assert (page.title, page.answer) == (sheet.cell(1, 1).value, sheet.cell(2, 1).value or "")
@@ -265,7 +265,8 @@ def awkward() -> Content:
     )
     blocks = [Words(text=EVIL[0]), Words(text=EVIL[5], title=EVIL[6]), table, Picture(figure=figure)]
     page = Page(name="evil", title=EVIL[0], answer=EVIL[1], blocks=blocks)
-    return replace(told, title=EVIL[0], note=EVIL[3], pages=(page, replace(page, title=EVIL[0].lower())))
+    pages = (page, replace(page, title=EVIL[0].lower()))
+    return replace(told, title=EVIL[0], note=EVIL[3], pages=pages, appendix=())
 
 
 def test_nothing_that_a_user_writes_becomes_a_formula_or_a_link() -> None:

@@ -34,7 +34,7 @@ class Question:
     def key(self) -> str:
         """The same for questions with the same answer."""
         files = []
-        for name in self.drive.settings.catalogues:
+        for name in (*self.drive.settings.catalogues, *filter(None, [self.drive.report.logo])):
             try:
                 told = (Enclosed(self.folder) / name).stat()
                 files.append((name, told.st_mtime_ns, told.st_size))

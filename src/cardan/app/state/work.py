@@ -86,7 +86,7 @@ def made(question: Question, known: Catalogue | None, progress: Progress | None 
     """
     how = dict(question.choices)
     if question.name == REPORT:
-        return _report(question.drive, how, known, progress)
+        return _report(question, how, known, progress)
     if question.name == PART:
         return _part(question.drive, how)
     if question.name == COMPARE:
@@ -95,11 +95,14 @@ def made(question: Question, known: Catalogue | None, progress: Progress | None 
     raise refuse("question", _("{name} is not a question").format(name=question.name))
 
 
-def _report(drive: Drive, how: dict[str, Any], known: Catalogue | None, progress: Progress | None) -> Exported:
+def _report(question: Question, how: dict[str, Any], known: Catalogue | None, progress: Progress | None) -> Exported:
     form = how["form"]
     suffix = "html" if form == "interactive" else form
     write = None if form == "json" else renderer_for(Path(f"{_('report')}.{suffix}"), interactive=form == "interactive")
-    said = content(drive, source_text=how["source"], known=known, progress=_most(progress))
+    folder = Enclosed(question.folder)
+    said = content(
+        question.drive, source_text=how["source"], full=True, known=known, folder=folder, progress=_most(progress)
+    )
     if write is None or form != "interactive":
         return exported(said, suffix, title="")
     return Exported(content=write(said), media_type="text/html; charset=utf-8", name=f"{safe(said.title)}.html")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import webbrowser
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from cardan.answers.answer import Answer, Remark
 from cardan.answers.quantity import Quantity, say
@@ -15,13 +15,22 @@ from cardan.cli.shared.output import check_speed, check_target
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.source import STDIN, AsJson, DriveFile, SpeedRpm, read_with_text
 from cardan.cli.shared.tell import tell
+from cardan.drive.settings import TitleBlock
 from cardan.io.drive_file import known_to
 from cardan.questions.motion.answer import sentence
 from cardan.questions.motion.turning import each_shaft
+from cardan.reading.fields import fields_of
+from cardan.report.block import capital
 from cardan.report.render.renderer import renderer_for
 from cardan.report.report import report as write
 from cardan.texts import _
 from cardan.units import rpm
+
+
+def _headed(name: str) -> Any:
+    """Return the option that stands in for a key of the title block."""
+    key = fields_of(TitleBlock)[name].key
+    return option(f"--{name.replace('_', '-')}", "TEXT", capital(_(key.doc)) + ".")
 
 
 def report(
@@ -35,7 +44,20 @@ def report(
     interactive: Annotated[
         bool, flag("--interactive", _("Figures to point at, zoom and turn; some megabytes more."))
     ] = False,
+    full: Annotated[
+        bool, flag("--full", _("With the appendix: phase polygon, classical approximations, method, the drive file."))
+    ] = False,
     open_: Annotated[bool, flag("--open", _("Open the report when it is written."))] = False,
+    client: Annotated[str | None, _headed("client")] = None,
+    project: Annotated[str | None, _headed("project")] = None,
+    drawing_number: Annotated[str | None, _headed("drawing_number")] = None,
+    revision: Annotated[str | None, _headed("revision")] = None,
+    author: Annotated[str | None, _headed("author")] = None,
+    checked_by: Annotated[str | None, _headed("checked_by")] = None,
+    date: Annotated[str | None, _headed("date")] = None,
+    logo: Annotated[
+        Path | None, option("--logo", "PATH", _("PNG or SVG file with the logo in the head of the report."))
+    ] = None,
     speed_rpm: SpeedRpm = None,
     json: AsJson = False,
 ) -> int:
@@ -47,19 +69,34 @@ def report(
     drive, text = read_with_text(file)
     if speed_rpm is not None:
         drive = replace(drive, duty=replace(drive.duty, speed=speed_rpm * rpm))
+    folder = Path() if file == STDIN else file.parent
+    given = {
+        "client": client,
+        "project": project,
+        "drawing_number": drawing_number,
+        "revision": revision,
+        "author": author,
+        "checked_by": checked_by,
+        "date": date,
+        "logo": None if logo is None else str(logo.resolve()),
+    }
+    head = replace(drive.report, **{key: value for key, value in given.items() if value is not None})
+    drive = replace(drive, report=head)
     who = reader()
     with watching(_("writing the report")) as progress:
-        known = known_to(drive, "." if file == STDIN else file.parent)
+        known = known_to(drive, folder)
         write(
             drive,
             None,
             place,
             source_text=text,
+            full=full,
             interactive=interactive,
             progress=progress,
             known=known,
             units=who.units,
             decimal=who.decimal,
+            folder=folder,
         )
 
     opened = open_ and _opened(place)

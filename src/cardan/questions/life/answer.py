@@ -349,6 +349,7 @@ def _keys(result: Life, loose: tuple[str, ...]) -> Iterator[KeyFigure]:
         better="more",
         tone=tone,
         verdict={"failed": _("too short"), "warning": near, "good": _("passed")}[tone],
+        check="bearing_life",
     )
 
 

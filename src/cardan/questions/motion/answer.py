@@ -376,13 +376,15 @@ def _keys(drive: Drive, result: Turning) -> Iterator[KeyFigure]:
         limit=None if allowed is None else Quantity(allowed, "share", trim=True),
         verdict={"plain": "", "good": _("passed"), "failed": _("too much")}[tone],
         tone=tone,
+        check="speed_fluctuation",
     )
     angles = {
-        "equivalent_joint_angle": (_("equivalent joint angle of the drive"), each.joint_angle),
-        "angle_error": (_("angle error of the output, ±"), each.max_angle_error),
+        "equivalent_joint_angle": (_("equivalent joint angle of the drive"), each.joint_angle, ""),
+        "angle_error": (_("angle error of the output, ±"), each.max_angle_error, "output_error"),
     }
-    for name, (title, values) in angles.items():
-        yield KeyFigure(name=name, title=title, value=Quantity(0.0 if even else float(values[-1]), "angle"))
+    for name, (title, values, check) in angles.items():
+        angle = Quantity(0.0 if even else float(values[-1]), "angle")
+        yield KeyFigure(name=name, title=title, value=angle, check=check)
     steep = 0.0 if even else float(_largest(result)[-1])
     if speed is None:
         title = _("largest acceleration of the output over ω₁²")
@@ -393,6 +395,7 @@ def _keys(drive: Drive, result: Turning) -> Iterator[KeyFigure]:
             title=_("largest acceleration of the output"),
             place=say(_("at {speed}"), speed=Quantity(abs(float(speed)), "angular_speed")),
             value=Quantity(steep, "angular_acceleration"),
+            check="acceleration",
         )
     place = say(_("joint {number}"), number=joint + 1)
     value = Quantity(float(joint_angle[joint]), "angle")

@@ -387,6 +387,7 @@ def spline_key(drive: Drive, shaft: int, field: str, left: float, *, failed: boo
         better="more",
         tone=tone,
         verdict={"failed": _("too little"), "warning": _("near the limit"), "good": _("passed")}[tone],
+        check="spline_overlap",
     )
 
 

@@ -295,7 +295,7 @@ def _remarks(drive: Drive, found: Phasing, fixed: Mapping[int, float], nearest: 
     if not found.complete:
         text = _("Warning: the search was stopped; these are the best settings so far.")
         yield Remark(text=text, tone="warning")
-    yield Remark(text=_proof(drive, found), depth="full")
+    yield Remark(text=proof(drive, found), depth="full")
     if not found.feasible and not wants_fluctuation(drive):
         yield from _limits(drive, found)
     if meaning := letters(found, nearest=nearest):
@@ -438,8 +438,8 @@ def command(fixed: Mapping[int, float], *more: str, nearest: bool) -> tuple[str,
     return ("cardan", "phasing", FILE, *fixes, *(["--goal", "nearest"] if nearest else []), *more)
 
 
-def _proof(drive: Drive, found: Phasing) -> Text:
-    """Return what the sides of the phase polygon say."""
+def proof(drive: Drive, found: Phasing) -> Text:
+    """Return what the sides of the phase polygon say of a drive."""
     drawn = _("This concerns the drive as drawn, standing still.") if drive.movements else ""
     if each_uniform(drive):
         said = _("Every joint turns uniformly by itself, straight or of constant velocity: there is nothing to cancel.")
@@ -628,7 +628,15 @@ def _keys(drive: Drive, found: Phasing) -> Iterator[KeyFigure]:
     verdict, tone = _uniformity(drive, found)
     title, share = _("speed fluctuation δ of the output"), float(found.as_built.speed_fluctuation)
     drawn, value = _("as drawn") if drive.movements or drive.poses else "", Quantity(share, "share")
-    yield KeyFigure(name="speed_fluctuation", title=title, place=drawn, value=value, verdict=verdict, tone=tone)
+    yield KeyFigure(
+        name="speed_fluctuation",
+        title=title,
+        place=drawn,
+        value=value,
+        verdict=verdict,
+        tone=tone,
+        check="speed_fluctuation",
+    )
     posed = found.as_built.pose_speed_fluctuation
     if posed.size and float(np.max(posed)) > share + UTMOST:
         place = say(_("in the pose {name}"), name=found.poses[int(foremost(posed))])

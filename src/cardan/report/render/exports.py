@@ -151,10 +151,13 @@ def content_data(content: Content) -> dict[str, Any]:
     """Return a report as dicts, lists, numbers and words."""
     said: dict[str, Any] = {"title": content.title, "note": content.note, "version": content.version}
     said["date"] = content.date
+    said["head"] = {"rows": dict(content.head.rows), "units": content.head.units}
     for name in ABOVE:
         part = getattr(content, name)
         said[name] = [block_data(one) for one in part] if isinstance(part, tuple) else part and block_data(part)
-    return {**said, "pages": [page_data(page) for page in content.pages]}
+    for name in ("pages", "appendix"):
+        said[name] = [page_data(page) for page in getattr(content, name)]
+    return said
 
 
 def page_data(page: Page) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from cardan.figures.render_svg import inline_svg
 from cardan.later import later
 from cardan.report.block import Listing, Picture, Points, Table, Words
 from cardan.report.content import Content, Excerpt
+from cardan.report.title_block import Logo
 from cardan.texts import _, language
 
 jinja2 = later("jinja2")
@@ -40,8 +42,15 @@ def excerpt(part: Excerpt) -> bytes:
 
 def _page(said: Content | Excerpt, drawn: Callable[[Figure], str], program: str, name: str = "report.html") -> str:
     template = _template(name)
-    page: str = template.render(_=_, language=language(), report=said, drawn=drawn, kind=_kind, program=program)
+    page: str = template.render(
+        _=_, language=language(), report=said, drawn=drawn, kind=_kind, pictured=_pictured, program=program
+    )
     return page
+
+
+def _pictured(logo: Logo) -> str:
+    """Return the address that holds a logo itself."""
+    return f"data:{logo.media_type};base64,{base64.b64encode(logo.content).decode()}"
 
 
 def _kind(block: object) -> str:

@@ -30,6 +30,7 @@ INCH, DPI = 100.0, 150.0  # pixels of a sheet, and of a picture, for an inch of 
 WIDEST_CHART = 900.0  # Pixels
 TOP = 6.0 * LINE  # pixels of a printed page that are no reason to begin another one: a title and what it comes to
 HIGHEST_ROW = 545.0  # Pixels
+LOGO = (240.0, 64.0)  # pixels across and down that a logo is no larger than
 SQUEEZED = 0.72  # share of its height to which a picture or a chart shrinks to stay on a page with what is above it
 
 
@@ -258,6 +259,20 @@ class Paper:
         }
         self._sheet.insert_image(self.row, 0, f"{figure.name}.png", options)
         self._down(high)
+
+    def logo(self, png: bytes, name: str) -> None:
+        """Insert a logo, as high as a few lines."""
+        across, down = (int.from_bytes(png[start : start + 4], "big") for start in (16, 20))
+        scale = min(LOGO[0] / across, LOGO[1] / down)
+        options = {
+            "image_data": io.BytesIO(png),
+            "x_scale": scale,
+            "y_scale": scale,
+            "y_offset": 4,
+            "object_position": 2,
+        }
+        self._sheet.insert_image(self.row, 0, "logo.png", {**options, "description": name})
+        self._down(scale * down)
 
     def _down(self, pixels: float) -> None:
         """Go below what is so high."""

@@ -16,9 +16,10 @@ from cardan.figures.render_svg import inline_svg
 from cardan.later import later
 from cardan.report.block import SIGNS, Block, Cell, Listing, Page, Points, Table, Tone, Words
 from cardan.report.content import Content, Excerpt
-from cardan.texts import _, language
+from cardan.report.title_block import Head, Logo
+from cardan.texts import _, language, mark
 
-typst = later("typst")
+typst = later("typst", mark("an SVG logo in a workbook needs typst: pip install 'cardan[pdf]', or give a PNG"))
 matplotlib = later("matplotlib")
 
 TEMPLATE = Path(__file__).parent / "templates" / "report.typ"
@@ -26,6 +27,9 @@ TEMPLATE = Path(__file__).parent / "templates" / "report.typ"
 FONTS = "'DejaVu Sans'"  # font of the words in figures: matplotlib brings it wherever cardan is installed
 STANDARD: Final = "ua-1"  # the PDF can be read aloud: tagged, with words for every picture
 
+
+ALONE: Final = b"""#set page(width: auto, height: auto, margin: 0pt, fill: none)
+#image(bytes(json(bytes(sys.inputs.logo))), height: 2cm)"""  # a page that is nothing but a logo
 
 UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufeff\ufffe\uffff]")
 """Marks of control, halves of characters and what is none."""
@@ -77,17 +81,34 @@ def as_data(content: Content) -> dict[str, Any]:
         "note": content.note,
         "version": content.version,
         "date": content.date,
+        "head": _head(content.head),
         "judgement": _block(content.judgement),
         "warnings": [_block(one) for one in content.warnings],
         "sketch": _picture(content.sketch),
         "tables": [_block(one) for one in (content.lights, content.remedies, content.figures, content.changes) if one],
         "pages": [_page(page) for page in content.pages],
+        "appendix": [_page(page) for page in content.appendix],
     }
+
+
+def _head(head: Head) -> dict[str, Any]:
+    logo = head.logo and {"form": head.logo.form, "bytes": list(head.logo.content), "alt": _("Logo")}
+    return {"rows": [list(one) for one in head.rows], "units": head.units, "logo": logo}
+
+
+def pixels_of(logo: Logo) -> bytes:
+    """Return a logo as a PNG."""
+    if logo.form == "png":
+        return logo.content
+    inputs = {"logo": json.dumps(list(logo.content))}
+    found = typst().compile(ALONE, format="png", ppi=200, sys_inputs=inputs)
+    assert isinstance(found, bytes)  # a single page, and no place was given to write it to
+    return found
 
 
 def _words() -> dict[str, str]:
     """Return the words of the template itself."""
-    return {"kicker": _("Drive report"), "summary": _("Summary"), "contents": _("Contents")}
+    return {"kicker": _("Drive report"), "summary": _("Summary"), "contents": _("Contents"), "appendix": _("Appendix")}
 
 
 def _printable(data: Any) -> Any:

@@ -16,6 +16,7 @@ from cardan.texts import _
 from .chart_data import CODE, ChartData, Looks
 from .charts import split
 from .sheet import LINE, Paper
+from .typeset import pixels_of
 
 SKETCH = 260.0  # pixels of the drive on the first page, from top to bottom
 HEADER = 90  # letters of the drive's name above a printed page
@@ -28,7 +29,7 @@ def written(content: Content) -> bytes:
     foot = f"cardan {content.version} · {content.date}"
     sheets = Sheets(book, content.title, foot)
     summary = sheets.new(_("Summary"))
-    names = [sheets.page(page) for page in content.pages]
+    names = [sheets.page(page) for page in (*content.pages, *content.appendix)]
     _summary(Paper(book, summary, sheets.looks, _tables_of(content)), content, names)
     sheets.fill(summary.get_name())
     book.close()
@@ -109,6 +110,12 @@ def _summary(paper: Paper, content: Content, names: Sequence[str]) -> None:
     """Write the first page: the judgement, what must not be overlooked, limits, changes, key figures, contents."""
     paper.head(content.title, content.note)
     paper.line(f"cardan {content.version} · {content.date}", font_size=9, color="muted")
+    if content.head.logo is not None:
+        paper.logo(pixels_of(content.head.logo), _("Logo"))
+    for name, told in content.head.rows:
+        paper.line(f"{name}: {told}")
+    if content.head.units:
+        paper.line(content.head.units, font_size=9, color="muted")
     paper.remark(content.judgement)
     for one in content.warnings:
         paper.remark(one)
@@ -123,7 +130,9 @@ def _summary(paper: Paper, content: Content, names: Sequence[str]) -> None:
     paper.block(content.changes)
     paper.keep(1.5 * LINE * (1 + len(names)))
     paper.heading(_("Contents"))
-    for page, name in zip(content.pages, names, strict=True):
+    for k, (page, name) in enumerate(zip((*content.pages, *content.appendix), names, strict=True)):
+        if k == len(content.pages):
+            paper.heading(_("Appendix"))
         paper.entry(page.title, page.answer, name)
     paper.close()
 
