@@ -155,6 +155,6 @@ def test_columns_that_leave_a_movement_out_say_so(cardan, tmp_path):
     path.write_text(MOVING.replace("DRIVE", (EXAMPLES / "pto-hitch.toml").as_posix()), "utf8")
     said = cardan("sweep", path, "--json").content
     (remark,) = [one["text"] for one in said["remarks"] if one.get("code") == "as_drawn"]
-    assert remark == "speed_fluctuation: of the drive as drawn at its duty; movements do not count there."
+    assert remark == "speed_fluctuation_percent: of the drive as drawn at its duty; movements do not count there."
     assert said["table"]["moving_speed_fluctuation"][0] == pytest.approx(0.006841006, rel=1e-6)
     assert said["table"]["speed_fluctuation"][0] < 1e-12

@@ -172,9 +172,9 @@ def test_a_turn_between_yokes_is_told_as_the_line_that_other_pages_name():
 
 def test_key_figures_name_the_pose_that_is_worst():
     rows = {row[0].text: row[1].text for row in key_rows(example("rolling-mill-upper-spindle"))}
-    assert rows["largest joint angle, joint 1, in the pose roll change"] == "3.719"
+    assert rows["largest joint angle, joint 1 (pinion stand), in the pose roll change"] == "3.719"
     rows = {row[0].text: row[1] for row in key_rows(example("truck-rear-axle"))}
-    assert float(rows["largest joint angle while moving, joint 2, in the pose empty"].full) == pytest.approx(
+    assert float(rows["largest joint angle while moving, joint 2 (axle), in the pose empty"].full) == pytest.approx(
         13.5, abs=0.1
     )
     assert float(rows["speed fluctuation δ of the output, in the pose empty"].full) == pytest.approx(0.251, abs=1e-3)

@@ -51,7 +51,7 @@ def test_the_page_holds_every_verdict_and_names_what_is_missing():
     lacking = [row[1].text for row in rows["Checks not run, and the keys they need"]]
     assert lacking == [
         "angle error of the output (±)",
-        "speed times angle n·α of joint 1 (and 2)",
+        "speed times angle n·α of joint 1 (gearbox) (and 2)",
         "clearance of the speeds in use from torsional resonance",
         "damping against parametric resonance",
         "reversal of the torque",
@@ -138,7 +138,7 @@ def test_joints_that_differ_in_number_alone_are_lacking_in_one_row():
     assert page is not None
     rows = next(one.rows for one in page.blocks if isinstance(one, Table) and one.title.startswith("Checks not run"))
     assert [row[1].text for row in rows if "rating.max_torque" in row[0].text] == [
-        "largest torque of joint 1 (and 2, 3, 4, 5, 6)"
+        "largest torque of joint 1 (engine) (and 2, 3, 4, 5, 6)"
     ]
     assert len(rows) < 25
 
