@@ -31,7 +31,7 @@ from .test_report import of_example, parsed
 
 WITH = {
     "truck-supports": {"mobility", "forces", "losses", "bending", "balance"},
-    "two-piece-rubber-bearing": {"assembly", "bending", "balance"},
+    "two-piece-rubber-bearing": {"assembly", "mobility", "bending", "balance"},
     "pto-spline-thrust": {"mobility", "forces", "losses"},
     "instrument-joint": {"mobility", "forces", "losses", "accuracy"},
     "overconstrained-pump": {"accuracy", "mobility", "forces", "losses", "assembly", "bending"},
@@ -44,7 +44,7 @@ WITH = {
     "composite-propshaft": {"bending", "balance"},
     "mill-spindle": {"bending", "balance"},
     "pto-drive": {"bending", "balance"},
-    "truck-duty-cycle": {"forces", "bending", "balance"},
+    "truck-duty-cycle": {"forces", "mobility", "bending", "balance"},
     "double-cardan-propshaft": {"bending", "balance"},
     "propshaft-with-rzeppa": {"mobility", "forces", "bending", "balance"},
 }

@@ -27,42 +27,15 @@ def crack_compliance(
 ) -> CrackCompliance:
     """Return the local compliance of an open crack with a straight edge.
 
-    Parameters
-    ----------
-    radius : array (...) [m]
-        R of the shaft.
-    depth_ratio : array (...)
-        Depth over R, from 0 to below 1.6; in a tube deep enough to go through the wall.
-    youngs : array (...) [Pa]
-        E.
-    inner : array (...) [m]
-        Inner radius of a tube, 0 of a solid shaft.
-    poisson : array (...)
-        ν.
-
-    Returns
-    -------
-    CrackCompliance
-
-    Raises
-    ------
-    InputError
-        A depth, radius or modulus out of range; a tube whose wall the crack does not reach through.
-
-    Notes
-    -----
+    radius (...) [m]: R of the shaft.
+    depth_ratio (...): depth over R, from 0 to below 1.6; in a tube deep enough to go through the wall.
+    youngs (...) [Pa]: E; inner (...) [m]: inner radius of a tube, 0 of a solid shaft; poisson (...): ν.
     Castigliano: c = 2(1-ν²)/E ∫∫ (K/M)² dA over the crack. Solid: strips of the height h' = 2√(R²-y²) across the edge,
     K = σ√(πa) F(a/h'), with F of a strip in bending for the moment about the edge and in tension for the other
     (A. D. Dimarogonas, S. A. Paipetis, Analytical Methods in Rotor Dynamics, 1983; H. Tada, The Stress Analysis of
     Cracks Handbook). Tube: through the wall over ±β, cos β = 1 - depth/R_m, K = σ√(πR_mβ) F_b(β, R_m/t), F_b of
     A. Zahoor, J. Pressure Vessel Technology 107 (1985), for 5 ≤ R_m/t ≤ 20 and taken at the nearer end beyond; across
     by the square of the stress there, ∫ sin²/∫ cos² over the crack.
-
-    Examples
-    --------
-    >>> found = crack_compliance(0.015, [0.2, 0.5], 2.06e11)
-    >>> (1e6 * found.along).round(3), (1e6 * found.across).round(3)
-    (array([0.189, 1.599]), array([0.012, 0.323]))
     """
     r, ratio, e, bore, nu = np.broadcast_arrays(
         *(np.asarray(one, dtype=float) for one in (radius, depth_ratio, youngs, inner, poisson))

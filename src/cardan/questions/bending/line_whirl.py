@@ -63,49 +63,23 @@ FAINT = 1e-7
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LineWhirl:
-    """Steady whirl of the whole line over the speed.
+    """Steady whirl of the whole line over the speed."""
 
-    Attributes
-    ----------
-    speed : array (k,) [rad/s]
-        Of the input.
-    order : array of int (N,)
-        By the turns of the input; negative ones run backward.
-    place : array (p,) [m]
-        Along the line from joint 1 on.
-    shaft : array of int (p,)
-        Number of the shaft at each place.
-    deflection : complex array (k, N, p) [m]
-        Z_n of X + iY = Σ Z_n e^(inφ_1), X down and Y 90° ahead in the sense of rotation.
-    support : tuple of int
-        Numbers of the supports that give way, for `support_force`.
-    support_force : complex array (k, N, s) [N]
-        Force of the line on each of them, springs and dampers together.
-    used : (float, float) or None [rad/s]
-        Lowest and highest speed of running.
-    damping_ratio : array (m,)
-        Of each mode, without the dampers of the supports.
-    cracked : tuple of int
-        Shafts with a crack that counts.
-    residual : float
-        What the basis of modes and static shapes misses of all finite elements where the line whirls most, over the
-        motion there; without cracks.
-    assumed : tuple of str
-        Paths of what the drive does not say and the answer assumes.
-    """
-
-    speed: Array
-    order: Array
-    place: Array
-    shaft: Array
+    speed: Array  # (k,) [rad/s]: of the input
+    order: Array  # (N,) of int: by the turns of the input; negative ones run backward
+    place: Array  # (p,) [m]: along the line from joint 1 on
+    shaft: Array  # (p,) of int: number of the shaft at each place
+    # (k, N, p) [m], complex: Z_n of X + iY = Σ Z_n e^(inφ_1), X down and Y 90° ahead in the sense of rotation
     deflection: Array
-    support: tuple[int, ...]
-    support_force: Array
-    used: tuple[float, float] | None
-    damping_ratio: Array
-    cracked: tuple[int, ...]
+    support: tuple[int, ...]  # numbers of the supports that give way, for `support_force`
+    support_force: Array  # (k, N, s) [N], complex: force of the line on each of them, springs and dampers together
+    used: tuple[float, float] | None  # [rad/s]: lowest and highest speed of running
+    damping_ratio: Array  # (m,): of each mode, without the dampers of the supports
+    cracked: tuple[int, ...]  # shafts with a crack that counts
+    # what the basis of modes and static shapes misses of all finite elements where the line whirls most, over the
+    # motion there; without cracks
     residual: float
-    assumed: tuple[str, ...] = ()
+    assumed: tuple[str, ...] = ()  # paths of what the drive does not say and the answer assumes
 
     @property
     def whirl(self) -> Array:
@@ -124,10 +98,7 @@ class LineWhirl:
     def peak(self, order: int | None = None) -> tuple[float, float, float]:
         """Return amplitude [m], speed [rad/s] and place [m] where the line whirls most within the speeds in use.
 
-        Parameters
-        ----------
-        order : int, optional
-            One order alone; all of them together but for the mean when not given.
+        order: one order alone; all of them together but for the mean when not given.
         """
         size = self.whirl
         if order is not None:
@@ -160,35 +131,12 @@ def line_whirl(
 ) -> LineWhirl:
     """Return how the whole line of a drive whirls over the speed.
 
-    Parameters
-    ----------
-    drive : Drive
-        With bodies of its shafts, unbalances, supports with stiffness and `damping`, cracks with their depth.
-    duty : Duty, optional
-        Speeds of running and torque; those of the drive by default.
-    speed : array (k,), optional [rad/s]
-        Speeds of the input; by default up to beyond the highest in use.
-    damping_ratio : float, optional
-        ζ of all modes; by default half the loss factors of steel shafts and of supports, by their share in the energy
-        of each mode. The dampers of supports come on top.
-    progress : function, optional
-        Told the share done; when it answers "stop" the work ends.
+    drive: with bodies of its shafts, unbalances, supports with stiffness and `damping`, cracks with their depth.
+    duty: speeds of running and torque; those of the drive by default.
+    speed (k,) [rad/s]: speeds of the input; by default up to beyond the highest in use.
+    damping_ratio: ζ of all modes; by default half the loss factors of steel shafts and of supports, by their share in
+    the energy of each mode. The dampers of supports come on top.
 
-    Returns
-    -------
-    LineWhirl
-
-    Raises
-    ------
-    InputError
-        The drive does not say enough, or a speed is out of range.
-
-    See Also
-    --------
-    bending_speeds, rotor_response, balance
-
-    Notes
-    -----
     Timoshenko's beams of `bending_speeds`, hinged at the joints, M z̈ + (C - iΩG) ż + K z = Σ F_n e^(inΩt), in complex
     z = X + iY: (K + nΩ²G - n²Ω²M + inΩC) Z_n = F_n in a basis of the lowest modes and of the static shapes of all that
     pushes the line. Forces are the unbalances as their shafts turn, behind joints with their further odd orders (the
@@ -197,15 +145,7 @@ def line_whirl(
     couples order n with the conjugate of -n. A crack is a hinge with the local compliance of its depth (strain energy
     release rates of a straight edge, Dimarogonas and Papadopoulos 1983; a tube as one through the wall), which breathes
     with the weight; all orders of it are solved together.
-
-    Examples
-    --------
-    >>> from cardan.io import example
-    >>> from cardan.units import rpm
-    >>> found = line_whirl(example("two-piece-rubber-bearing"))
-    >>> size, at, place = found.peak()
-    >>> print(f"{1e6 * size:.0f} μm at {at / rpm:.0f} rpm, {place:.2f} m behind joint 1")
-    310 μm at 1523 rpm, 0.72 m behind joint 1
+    See bending_speeds, rotor_response, balance
     """
     chosen = drive.duty if duty is None else duty
     used = used_speeds(chosen)
