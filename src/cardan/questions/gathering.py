@@ -34,7 +34,7 @@ WORSE: tuple[Tone, ...] = ("good", "plain", "next", "warning", "failed")
 
 OUTERMOST = mark(
     "Of the movement those instants are looked at where a joint bends most, a shaft is longest or shortest, or a shaft "
-    "turns most unevenly."
+    "turns least uniformly."
 )
 
 LOOKS = 12

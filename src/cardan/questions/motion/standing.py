@@ -186,7 +186,7 @@ def outermost(drive: Drive) -> tuple[float, ...]:
     """Return the instants [s] at which a moving drive lies or turns least as drawn.
 
     drive: with movements.
-    Where a joint bends most, a shaft between two joints is longest or shortest, or a shaft turns most unevenly.
+    Where a joint bends most, a shaft between two joints is longest or shortest, or a shaft turns least uniformly.
     """
 
     def course(times: Array) -> Array:

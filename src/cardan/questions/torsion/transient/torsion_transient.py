@@ -196,8 +196,8 @@ def run_up_torque(drive: Drive) -> tuple[Array, tuple[int, ...]]:
     top = 2.0 * max(abs(course.start), abs(course.end))
     swings = max(_slowest(model), top) * (1.0 + AFTER) * course.duration / (2.0 * np.pi)
     if swings > LONGEST:
-        text = _("the run-up takes {swings:.0f} oscillations; at most {most:.0f} are followed")
-        raise refuse("duty.run_up.duration", text.format(swings=swings, most=LONGEST), "too_large")
+        text = _("the run-up takes {oscillations:.0f} oscillations; at most {most:.0f} are followed")
+        raise refuse("duty.run_up.duration", text.format(oscillations=swings, most=LONGEST), "too_large")
     found = transient(closed, times=max(int(PEAKS * swings), 501), method=FixedStep(per_period=PEAKS))
     return found.motion.torque, tuple(found.train.model.shaft[a] for a, _b in found.train.model.elements)
 
