@@ -107,3 +107,8 @@ def test_a_file_that_leaves_bearings_out_says_nothing():
     assert lacking(PUMP) == ()
     assert lacking(Drive.from_angles([0.3])) == (("supports",),)
     assert lacking(replace(PUMP, supports=())) == (("supports",),)
+
+
+def test_a_mechanism_without_an_input_is_answered():
+    free = replace(example_mechanism("three-joints-a"), input_link="", output_link="")
+    assert answer(free, mobility(free)).sentence

@@ -120,7 +120,7 @@ def _figures(result: Mobility, around: Turned | None) -> tuple[Figure, ...]:
 def _tone(result: Mobility, around: Turned | None) -> Tone:
     if result.driven == 0 or (around is not None and not around.positions.turns):
         return "failed"
-    return "warning" if result.redundant or result.parasitic or result.driven > 1 else "good"
+    return "warning" if result.redundant or result.underconstrained else "good"
 
 
 def _sentence(result: Mobility) -> Say:
@@ -130,7 +130,7 @@ def _sentence(result: Mobility) -> Say:
         return say(_("locked: its input cannot move; {redundant}."), **values)
     if result.redundant:
         return say(_("mobility {n}, {redundant} (overconstrained): part errors cause internal loads."), **values)
-    if result.parasitic or result.driven > 1:
+    if result.underconstrained:
         return say(_("mobility {n}, underconstrained; no redundant constraints."), **values)
     return say(_("mobility {n}, no redundant constraints: part errors cause no internal loads."), **values)
 

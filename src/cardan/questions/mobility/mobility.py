@@ -115,6 +115,11 @@ class Mobility:
         return (self.mobility, self.redundant) == (self.loop_mobility, self.loop_redundant)
 
     @property
+    def underconstrained(self) -> bool:
+        """Whether something can move that should not: links while the input stands still, or the input more than once."""
+        return bool(self.parasitic) or (self.driven or 0) > 1
+
+    @property
     def strained(self) -> tuple[str, ...]:
         """Names of the joints that parts which are off can strain."""
         return tuple(one.id for one in self.joints if one.strained)
