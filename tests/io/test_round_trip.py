@@ -164,7 +164,7 @@ duties = things(
     | st.just((Block(torque=1 / 3, speed=100.0, share=0.3), Block(torque=0.0, speed=1e-3, share=0.7))),
     torque_history=st.none(),
     vehicle=st.none() | vehicles,
-)
+).map(lambda duty: duty if duty.run_up is not None else replace(duty, starts=None))  # starts are run-ups
 
 
 @st.composite

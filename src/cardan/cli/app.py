@@ -312,7 +312,7 @@ def _entry(question: Question, command: str, panel: str) -> Entry:
     )
 
 
-def _entries() -> dict[str, Entry]:
+def commands() -> dict[str, Entry]:
     """Return the commands of all questions of the register, then those that ask none of them."""
     found: dict[str, Entry] = {}
     for question in register.QUESTIONS.values():
@@ -331,7 +331,7 @@ class Commands(Group):
     """All commands."""
 
     def __init__(self, **settings: Any) -> None:
-        self.entries = _entries()
+        self.entries = commands()
         super().__init__(**settings)
 
 

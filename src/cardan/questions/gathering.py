@@ -224,14 +224,15 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
     before |= {key.name: key for key in answer.keys}
     governing = [(key, _governing(key, told)) for key in before.values()]
     keys = [*(one for _key, one in governing), *keys]
-    if _same(told):
+    same = _same(told)
+    if same:
         remarks.append(Remark(text=_("The same holds in every pose, load case and movement."), code="same"))
     else:
         remarks[:0] = _worst([one for key, one in governing if one is not key], len(told))
     return replace(
         answer,
         keys=keys,
-        tables=(*answer.tables, *_tables(told)),
+        tables=answer.tables if same else (*answer.tables, _table(told)),
         remarks=_after(answer, remarks),
         full=answer.full or ((lambda: answer.tables[-1]) if answer.tables else None),
     )
@@ -308,11 +309,9 @@ def _varies(told: Sequence[Told], name: str) -> bool:
     return len(values) < len(told) or not bool(np.all(alike(values)) and np.all(alike(values, least=True)))
 
 
-def _tables(told: Sequence[Told]) -> Iterator[Table]:
-    """Yield the key figures of all conditions side by side; sentences where there are none."""
+def _table(told: Sequence[Told]) -> Table:
+    """Return the key figures of all conditions side by side; sentences where there are none."""
     keys = list({key.name: key for one in told for key in one.answer.keys}.values())
-    if _same(told):
-        return
     shares = [one.way.share for one in told]
     columns = [
         Column(key="condition", heading=_("condition"), values=[_called(one.way.name) for one in told], left=True)
@@ -338,4 +337,4 @@ def _tables(told: Sequence[Told]) -> Iterator[Table]:
         said = [one.answer.sentence for one in told]
         columns.append(Column(key="answer", heading=_("answer"), values=said, left=True, wrap=True))
     depth: Depth = "full" if keys else "brief"
-    yield Table(name="conditions", title=_("In each condition"), columns=columns, records=True, depth=depth)
+    return Table(name="conditions", title=_("In each condition"), columns=columns, records=True, depth=depth)

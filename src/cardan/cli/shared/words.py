@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from cardan.calc import CALCULATIONS
 from cardan.checks import CHECKS
+from cardan.cli.app import commands
 from cardan.drive.joints import JOINTS
 from cardan.io.keys import file_keys
-from cardan.register import QUESTIONS
 from cardan.texts import _
 
 SYNONYMS = (
@@ -91,15 +91,9 @@ def _everything() -> Iterator[Find]:
     yield from (Find("formula", one.name, _(one.doc)) for one in CALCULATIONS.values())
 
 
-def _commands() -> Iterable[Find]:
-    """Return the commands of all questions and those that ask none."""
-    own = {question.command or question.name: _(question.help) for question in QUESTIONS.values()}
-    other = {
-        "diagnose": _("What is likely wrong with a drive that shakes, by a recording of it."),
-        "sweep": _("Parameter sweep over grids, lists and random samples."),
-        "select": _("Which types and sizes of joints do a job, and why not the others."),
-        "report": _("Everything on one page: a self-contained HTML file that prints well."),
-        "joint": _("How kinds of joints turn by themselves, one or several beside each other."),
-        "catalogue": _("Materials, types and sizes of joints, standards: each row with its source."),
-    }
-    return (Find("command", name, text) for name, text in (other | own).items())
+def _commands() -> Iterator[Find]:
+    """Yield the commands, those of groups by both words."""
+    for name, entry in commands().items():
+        if entry.module:
+            yield Find("command", name, entry.help)
+        yield from (Find("command", f"{name} {second}", inner.help) for second, inner in entry.entries.items())

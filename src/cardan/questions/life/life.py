@@ -160,9 +160,9 @@ def _rows(stand: Condition, bearings: JointBearings, factor: float) -> Iterator[
             stood, when = standing(replace(drive, movements=moves), machine)
         swung = [None if history else steady_torque(under(drive, _acting(one, asked))) for one in parts]
         loads = [bearing_loads(drive, one, asked, parts, drawn=machine, vibrating=swung) for one in stood]
-        lives = [_lives(one, bearings, parts, factor) for one in loads]
         speed = np.asarray([abs(part.speed or 0.0) for part in parts])[:, None]
         shocks = np.asarray([part.shock_factor for part in parts])[:, None]
+        lives = [_lives(one, bearings, speed, shocks, factor) for one in loads]
         table = {name: _mean_life([one[name] for one in lives], when) for name in lives[0]}
         joint_angles, torques = (np.stack([getattr(one, name) for one in loads]) for name in ("joint_angle", "torque"))
         table["torque"] = torques[0]
@@ -176,9 +176,8 @@ def _rows(stand: Condition, bearings: JointBearings, factor: float) -> Iterator[
         with np.errstate(divide="ignore", invalid="ignore"):
             grown = [math.nan if one is None else _growth(one) for one in swung]
         for k, part in enumerate(parts):
-            pose = _("pose {name}").format(name=stand.pose) if stand.pose else ""
-            at = "" if pose else part.path
-            named = replace(part, name=", ".join(word for word in (pose, part.name) if word), path=at)
+            path = "" if stand.pose else part.path
+            named = replace(part, name=replace(stand, case=part.name).name, path=path)
             share = part.share if part.pose else None if stand.share is None else part.share * stand.share
             row = {name: values[k] for name, values in table.items()}
             yield _Row(part=named, pose=stand.pose, share=share, vibration=grown[k], **row)
@@ -253,12 +252,8 @@ def duty_parts(duty: Duty) -> tuple[tuple[LoadCase, ...], Duty, Levels | None, C
     return parts, replace(duty, torque_at="output", harmonics=()), levels, rainflow(history.torques)
 
 
-def _lives(
-    loads: BearingLoads, bearings: JointBearings, parts: tuple[LoadCase, ...], factor: float
-) -> dict[str, Array]:
-    """Return the lives of every joint in every part by every method, arrays (b, n) [s]."""
-    speed = np.asarray([abs(part.speed or 0.0) for part in parts])[:, None]
-    shock = np.asarray([part.shock_factor for part in parts])[:, None]
+def _lives(loads: BearingLoads, bearings: JointBearings, speed: Array, shock: Array, factor: float) -> dict[str, Array]:
+    """Return the lives of every joint in every part by every method, arrays (b, n) [s]; speeds, shocks (b, 1)."""
     whole = factor * MILLION * 2.0 * math.pi / speed
     strength = (bearings.span * bearings.capacity / shock) ** POWER
     mean = (np.abs(loads.torque)) ** POWER * 2.0 * loads.joint_angle / math.pi

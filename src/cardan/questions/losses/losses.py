@@ -127,6 +127,11 @@ class Losses:
         """Heat of all parts [W]."""
         return float(np.sum(self.joints) + np.sum(self.supports) + np.sum(self.splines))
 
+    def at(self, name: str, share: float | None) -> LossesAt:
+        """Return what of it is told beside other conditions, under a name and with a share of the time."""
+        powers = {"efficiency": self.efficiency, "heat": self.heat}
+        return LossesAt(name=name, share=share, speed=self.speed, torque=self.torque, **powers)
+
     @property
     def status(self) -> Turning:
         """Whether friction lets the drive turn."""
@@ -217,17 +222,7 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
     every = conditions(whole)
     timed = [one for one in every if one.share is None or one.share > 0.0] or every[:1]
     found = [_steady(one.drive) for one in timed]
-    each = tuple(
-        LossesAt(
-            name=one.name,
-            share=one.share,
-            speed=its.speed,
-            torque=its.torque,
-            efficiency=its.efficiency,
-            heat=its.heat,
-        )
-        for one, its in zip(timed, found, strict=True)
-    )
+    each = tuple(its.at(one.name, one.share) for one, its in zip(timed, found, strict=True))
     if len(timed) == 1:
         return found[0]
     if any(one.share is None for one in timed):
@@ -250,15 +245,7 @@ def _steady(drive: Drive) -> Losses:
         return stood
     stands, shares = standing(drive, parts.train, fewest=FEW if model.holding is not None else FEWEST)
     models = [model_of(drive, drive.duty, replace(parts, train=one)) for one in stands]
-    drawn = LossesAt(
-        name="",
-        share=None,
-        speed=stood.speed,
-        torque=stood.torque,
-        efficiency=stood.efficiency,
-        heat=stood.heat,
-    )
-    return replace(_losses(drive, drive.duty, parts, model, uncounted, models, shares), drawn=drawn)
+    return replace(_losses(drive, drive.duty, parts, model, uncounted, models, shares), drawn=stood.at("", None))
 
 
 def _losses(

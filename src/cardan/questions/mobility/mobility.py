@@ -116,7 +116,7 @@ class Mobility:
 
     @property
     def underconstrained(self) -> bool:
-        """Whether something can move that should not: links while the input stands still, or the input more than once."""
+        """Whether something can move that should not: links while the input stands still, or the input in two ways."""
         return bool(self.parasitic) or (self.driven or 0) > 1
 
     @property
