@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -444,23 +445,11 @@ def _by_grade(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Reme
             row for row in known.rows(Grade).values() if (row.yield_strength or 0.0) > (here.yield_strength or 0.0)
         ]
         others.sort(key=lambda row: (not set(row.parts) & set(here.parts), row.yield_strength))
-        for steps, row in enumerate(others, start=1):
-            new = made_of(drive, path, row.id, known)
-            after = next(
-                (one for one in check(new, only=[verdict.check], known=known) if one.title == verdict.title), None
-            )
-            if after is not None and after.run and after.passed:
-                yield Remedy(
-                    check=verdict.check,
-                    subject=verdict.subject,
-                    title=verdict.title,
-                    path=f"{path}.grade",
-                    now=here.id,
-                    value=row.id,
-                    change=SIZE_STEP * steps,
-                    note=", ".join(row.names),
-                )
-                break
+        yield from _replaced(verdict, f"{path}.grade", here, others, partial(_graded, drive, path, known), known)
+
+
+def _graded(drive: Drive, path: str, known: Catalogue, row: Grade) -> Drive:
+    return made_of(drive, path, row.id, known)
 
 
 def _by_size(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Remedy]:
@@ -475,22 +464,35 @@ def _by_size(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Remed
     ):
         return
     larger = [row for row in known.offered(here.id) if row.type == here.type and _bulk(row) > _bulk(here)]
-    for steps, row in enumerate(sorted(larger, key=_bulk), start=1):
+    better = sorted(larger, key=_bulk)
+    yield from _replaced(verdict, f"joints[{i}].size", here, better, lambda row: sized(drive, i, row.id, known), known)
+
+
+def _replaced(
+    verdict: Verdict,
+    path: str,
+    here: Grade | JointSize,
+    rows: Sequence[Any],
+    changed: Callable[[Any], Drive],
+    known: Catalogue,
+) -> Iterator[Remedy]:
+    """Yield the first of better rows of the catalogue in place of the one here with which a verdict passes."""
+    for steps, row in enumerate(rows, start=1):
         try:
-            new = sized(drive, i, row.id, known)
-            verdicts = check(new, only=[verdict.check], known=known)
+            verdicts = check(changed(row), only=[verdict.check], known=known)
         except InputError:
             continue
-        after = next((one for one in verdicts if one.title == verdict.title and one.run), None)
-        if after is not None and after.passed:
+        after = next((one for one in verdicts if one.title == verdict.title), None)
+        if after is not None and after.run and after.passed:
             yield Remedy(
                 check=verdict.check,
                 subject=verdict.subject,
                 title=verdict.title,
-                path=f"joints[{i}].size",
+                path=path,
                 now=here.id,
                 value=row.id,
                 change=SIZE_STEP * steps,
+                note=", ".join(row.names) if isinstance(row, Grade) else "",
             )
             return
 

@@ -11,6 +11,7 @@ from cardan.cli.app import commands
 from cardan.drive.joints import JOINTS
 from cardan.io.keys import file_keys
 from cardan.texts import _
+from cardan.units import nearest
 
 SYNONYMS = (
     ("joint angle", "operating angle", "deflection angle", "working angle"),
@@ -63,8 +64,10 @@ def finds(word: str) -> list[Find]:
 
 
 def commands_for(word: str) -> list[str]:
-    """Return the commands that a word of the trade leads to, at most three."""
-    return [one.name for one in finds(word) if one.sort == "command"][:3]
+    """Return the commands that a word of the trade, or the word nearest to a misspelt one, leads to: at most three."""
+    found = [one.name for one in finds(word) if one.sort == "command"][:3]
+    near = "" if found else nearest(word.casefold(), [*commands(), *(term for same in SYNONYMS for term in same)])
+    return commands_for(near) if near else found
 
 
 MISSED = 4
