@@ -156,5 +156,5 @@ def test_columns_that_leave_a_movement_out_say_so(cardan, tmp_path):
     said = cardan("sweep", path, "--json").content
     (remark,) = [one["text"] for one in said["remarks"] if one.get("code") == "as_drawn"]
     assert remark == "speed_fluctuation_percent: of the drive as drawn at its duty; movements do not count there."
-    assert said["table"]["moving_speed_fluctuation"][0] == pytest.approx(0.006841006, rel=1e-6)
-    assert said["table"]["speed_fluctuation"][0] < 1e-12
+    assert said["table"]["moving_speed_fluctuation_percent"][0] == pytest.approx(0.6841006, rel=1e-6)
+    assert said["table"]["speed_fluctuation_percent"][0] < 1e-10

@@ -97,7 +97,7 @@ def test_the_page_of_the_motion_asks_nothing_about_the_yokes(monkeypatch):
 
     monkeypatch.setattr(QUESTIONS["phasing"].home, "ask", never)
     monkeypatch.setattr(QUESTIONS["articulation"].home, "ask", never)
-    assert moved(example("truck-power-unit"))[0].blocks
+    assert moved(example("truck-power-unit")).blocks
     assert answered("motion", Subject(drive=example("truck-power-unit"))).blocks
 
 
