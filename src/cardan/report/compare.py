@@ -22,6 +22,7 @@ from cardan.errors import InputError, refuse
 from cardan.io.differences import differences
 from cardan.questions.motion.figures.motion import variants_figure
 from cardan.questions.motion.motion import motion
+from cardan.register import QUESTIONS
 from cardan.texts import _, plural
 
 from .answers import answered, subject
@@ -30,12 +31,6 @@ from .subject import Progress, Subject
 
 Sense: TypeAlias = Literal["less", "more", ""]
 """Whether a smaller or a greater figure is better; empty where neither is."""
-
-PAGES = (
-    "motion", "phasing", "articulation", "forces", "losses", "accuracy", "torsion", "bending", "life", "strength",
-    "mobility", "assembly",
-)  # fmt: skip
-"""Parts of the report whose key figures are compared."""
 
 ALIKE = 1e-9  # relative difference below which two figures are the same
 MOST = 40  # verdicts listed
@@ -111,10 +106,10 @@ def _told(progress: Progress | None, k: int, count: int, share: float) -> object
 
 def _keys(one: Variant, progress: Callable[[float], object]) -> list[KeyFigure]:
     """Return the key figures of a drive."""
-    told = []
-    for k, name in enumerate(PAGES):
+    told, names = [], [name for name, question in QUESTIONS.items() if question.report]
+    for k, name in enumerate(names):
         told.append(answered(name, one.subject).keys)
-        if progress((k + 1) / (len(PAGES) + 1)) == "stop":
+        if progress((k + 1) / (len(names) + 1)) == "stop":
             break
     return key_figures([*told, tuple(verdict_figures(one.drive, one.verdicts))])
 
