@@ -239,7 +239,11 @@ COMMANDS = {
         "files.report",
         QUESTIONS,
         _("Everything on one page: a self-contained HTML file that prints well."),
-        ("cardan report truck.toml", "cardan report truck.toml -o truck.html --open"),
+        (
+            "cardan report truck.toml",
+            "cardan report truck.toml -o truck.pdf --full",
+            "cardan report truck.toml other.toml -o compared.html",
+        ),
     ),
     "init": Entry("files.init", FILES, _("Write a commented drive file to start from."), ("cardan init my.toml",)),
     "example": Entry(

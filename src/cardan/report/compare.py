@@ -32,7 +32,7 @@ from .subject import Progress, Subject
 Sense: TypeAlias = Literal["less", "more", ""]
 """Whether a smaller or a greater figure is better; empty where neither is."""
 
-ALIKE = 1e-9  # relative difference below which two figures are the same
+ALIKE = 1e-3  # relative difference below which two figures are as good as each other
 MOST = 40  # verdicts listed
 MOST_USED = 1000.0  # a limit that is exceeded more often is told as exceeded beyond that
 
@@ -125,7 +125,7 @@ def _figures(variants: Sequence[Variant], found: Sequence[Sequence[KeyFigure]]) 
     lines = [_kept(variants)] if any(one.verdicts for one in variants) else []
     lines += [_line(keys, variants) for keys in grouped.values()]
     columns = (Column(heading=_("what"), left=True), Column(heading="", left=True), *_columns(variants), _best())
-    note = _("✓ is the best of them; figures that are as good stand together.")
+    note = _("✓ is the best of them; those within 0.1 % of it are as good.")
     return Table(columns=columns, rows=lines, title=_("Key figures"), note=note)
 
 

@@ -3,25 +3,31 @@
 from __future__ import annotations
 
 import webbrowser
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
 from cardan.answers.answer import Answer, Remark
-from cardan.answers.quantity import Quantity, say
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.reader import reader
-from cardan.cli.shared.options import flag, option
+from cardan.cli.shared.options import argument, flag, option
 from cardan.cli.shared.output import check_speed, check_target
 from cardan.cli.shared.progress import watching
 from cardan.cli.shared.source import STDIN, AsJson, DriveFile, SpeedRpm, read_with_text
 from cardan.cli.shared.tell import tell
+from cardan.drive.drive import Drive
 from cardan.drive.settings import TitleBlock
+from cardan.errors import Problem, check
+from cardan.files import write_bytes
 from cardan.io.drive_file import known_to
 from cardan.questions.motion.answer import sentence
 from cardan.questions.motion.turning import each_shaft
 from cardan.reading.fields import fields_of
 from cardan.report.block import capital
-from cardan.report.render.renderer import renderer_for
+from cardan.report.compare import Variant, compared
+from cardan.report.content import Excerpt
+from cardan.report.render.renderer import form_of, renderer_for
 from cardan.report.report import report as write
 from cardan.texts import _
 from cardan.units import rpm
@@ -35,6 +41,9 @@ def _headed(name: str) -> Any:
 
 def report(
     file: DriveFile,
+    others: Annotated[
+        list[Path] | None, argument("[FILE]...", _("More drive files: the report then sets them side by side."))
+    ] = None,
     out: Annotated[
         Path | None,
         option(
@@ -61,15 +70,11 @@ def report(
     speed_rpm: SpeedRpm = None,
     json: AsJson = False,
 ) -> int:
-    """Put everything on one page."""
+    """Put everything on one page, or several drives side by side."""
     place = out or Path("report.html" if file == STDIN else f"{file.stem}.html")
     renderer_for(place, interactive=interactive, field="--out")
     check_target(place, "--out")
     check_speed(speed_rpm)
-    drive, text = read_with_text(file)
-    if speed_rpm is not None:
-        drive = replace(drive, duty=replace(drive.duty, speed=speed_rpm * rpm))
-    folder = Path() if file == STDIN else file.parent
     given = {
         "client": client,
         "project": project,
@@ -80,8 +85,18 @@ def report(
         "date": date,
         "logo": None if logo is None else str(logo.resolve()),
     }
-    head = replace(drive.report, **{key: value for key, value in given.items() if value is not None})
-    drive = replace(drive, report=head)
+    head: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
+    if others:
+        only = {"--full": full, "--interactive": interactive, "--speed-rpm": speed_rpm is not None}
+        only |= {f"--{key.replace('_', '-')}": True for key in head}
+        alone = _("is for the report of one drive; several are set side by side as their files say")
+        check(Problem(option, alone) for option, used in only.items() if used)
+        return _compared([file, *others], place, open_=open_, json=json)
+    drive, text = read_with_text(file)
+    if speed_rpm is not None:
+        drive = replace(drive, duty=replace(drive.duty, speed=speed_rpm * rpm))
+    folder = Path() if file == STDIN else file.parent
+    drive = replace(drive, report=replace(drive.report, **head))
     who = reader()
     with watching(_("writing the report")) as progress:
         known = known_to(drive, folder)
@@ -98,7 +113,29 @@ def report(
             decimal=who.decimal,
             folder=folder,
         )
+    return _told(place, sentence(drive, each_shaft(drive)), file, drive, open_=open_, json=json)
 
+
+def _compared(files: Sequence[Path], place: Path, *, open_: bool, json: bool) -> int:
+    """Write several drives side by side."""
+    again = [one for k, one in enumerate(files) if one in files[:k]]
+    check(Problem("FILE", _("{path} is given twice").format(path=one)) for one in dict.fromkeys(again))
+    stems = [one.stem for one in files]
+    names = stems if len(set(stems)) == len(stems) else [str(one) for one in files]
+    variants = []
+    for name, file in zip(names, files, strict=True):
+        drive = read_with_text(file)[0]
+        variants.append(Variant(name=name, drive=drive, known=known_to(drive, file.parent)))
+    with watching(_("comparing the drives")) as progress:
+        page = compared(variants, progress)
+    write_bytes(place, form_of(place, "--out").excerpt(Excerpt(title=", ".join(names), page=page)))
+    return _told(place, page.answer, open_=open_, json=json)
+
+
+def _told(
+    place: Path, said: Text, file: Path | None = None, drive: Drive | None = None, *, open_: bool, json: bool
+) -> int:
+    """Say what was written."""
     opened = open_ and _opened(place)
     browsed = place.suffix.lower() in (".html", ".htm")
     hint = _("Open {path} in a browser, or print it.") if browsed else _("Open {path}, or print it.")
@@ -111,7 +148,7 @@ def report(
         Answer(
             name="report",
             title=_("Report"),
-            sentence=sentence(drive, each_shaft(drive)),
+            sentence=said,
             remarks=(
                 Remark(text=say(_("Report written: {path}, {size} kB."), path=str(place), size=size)),
                 Remark(text=hint.format(path=place), tone="next"),
