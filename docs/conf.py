@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE / "extensions")]
+sys.path[:0] = [str(HERE), str(HERE / "extensions"), str(HERE.parent)]
 
 import cardan  # noqa: E402
 

@@ -28,6 +28,7 @@ def write(folder: Path) -> None:
         "catalogue.md": rows(),
         "joint-types.md": joint_types(),
         "faults.md": faults(),
+        "validation.md": validation(),
     }
     for name, text in pages.items():
         file = folder / name
@@ -49,6 +50,13 @@ def drive_file() -> str:
     from cardan.io import reference
 
     return reference()
+
+
+def validation() -> str:
+    """Return the table of how far every formula is from its independent computations."""
+    from tests.reference.residuals import table
+
+    return table()
 
 
 def mechanism_file() -> str:
