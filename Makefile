@@ -11,7 +11,7 @@ WORKERS ?= 2
 
 FILE ?=
 
-.PHONY: help report app test quick lint docs bench clean all
+.PHONY: help report app test quick lint docs dist bench clean all
 
 help:
 	@echo "make report   the report of a shipped example (EXAMPLE=$(EXAMPLE)) as out/$(EXAMPLE).html"
@@ -20,6 +20,7 @@ help:
 	@echo "make quick    the tests but for the slow ones, in under 3 minutes on two cores; one: make quick FILE=tests/drive/test_line.py"
 	@echo "make lint     format, lint, types, import contracts"
 	@echo "make docs     the documentation as docs/_build/html/index.html"
+	@echo "make dist     wheel and source archive in dist/, checked and tried in an empty environment; list of parts out/sbom.json"
 	@echo "make bench    benchmarks as JSON lines, each against its yardstick"
 	@echo "make clean    remove everything made here"
 
@@ -48,6 +49,17 @@ docs: $(VENV)/.docs
 	@touch docs/_build/.whole
 	@echo "docs/_build/html/index.html"
 
+dist: $(VENV)/.dist
+	rm -rf dist out/empty
+	$(BIN)/python -m build --outdir dist .
+	$(BIN)/twine check --strict dist/*
+	@mkdir -p out
+	$(PYTHON) -m venv out/empty
+	out/empty/bin/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt dist/*.whl
+	cd out && empty/bin/cardan example $(EXAMPLE) --force && empty/bin/cardan report $(EXAMPLE).toml
+	$(BIN)/cyclonedx-py environment --output-file out/sbom.json out/empty/bin/python
+	@ls dist out/sbom.json
+
 bench: $(VENV)/.run
 	$(BIN)/python -m benchmarks
 
@@ -71,6 +83,10 @@ $(VENV)/.test: $(VENV)/.made pyproject.toml constraints.txt
 
 $(VENV)/.lint: $(VENV)/.made pyproject.toml constraints.txt
 	$(PIP) --editable '.[lint]'
+	@touch $@ $(VENV)/.run
+
+$(VENV)/.dist: $(VENV)/.made pyproject.toml constraints.txt
+	$(PIP) --editable '.[release]'
 	@touch $@ $(VENV)/.run
 
 $(VENV)/.docs: $(VENV)/.made pyproject.toml constraints.txt

@@ -9,6 +9,7 @@ import sys
 import pytest
 
 from cardan.register import QUESTIONS
+from cardan.version import VERSION
 from tests.cli.conftest import EXAMPLES
 
 TRUCK = EXAMPLES / "truck-printed-angles.toml"
@@ -42,7 +43,7 @@ def test_motion_imports_no_plotting_and_no_compiler():
 
 def test_version_and_help(process):
     done = process("--version", capture_output=True, text=True)
-    assert (done.returncode, done.stdout) == (0, "cardan 0.1.0\n")
+    assert (done.returncode, done.stdout) == (0, f"cardan {VERSION}\n")
     bare = process(capture_output=True, text=True)
     helped = process("--help", capture_output=True, text=True)
     assert bare.returncode == helped.returncode == 0
