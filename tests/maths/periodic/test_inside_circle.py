@@ -23,7 +23,7 @@ def meissner(speed, damping=1e-5):
     return np.exp(-2.0 * damping * half)[..., None, None] * whole
 
 
-def largest(matrix):
+def largest(matrix, _falls=None):
     return np.max(np.abs(np.linalg.eigvals(matrix)), axis=-1)
 
 
@@ -32,7 +32,7 @@ def edge(a, b):
 
 
 def everywhere(places):
-    return meissner(places), np.ones(places.shape, dtype=bool)
+    return meissner(places), np.ones(places.shape, dtype=bool), np.zeros(places.shape)
 
 
 def test_a_zone_that_any_grid_misses_is_found_to_its_edges() -> None:
@@ -48,7 +48,7 @@ def test_a_zone_that_any_grid_misses_is_found_to_its_edges() -> None:
 
 def test_a_zone_that_damping_closes_is_proved_to_be_closed() -> None:
     def damped(places):
-        return meissner(places, 3e-4), np.ones(places.shape, dtype=bool)
+        return meissner(places, 3e-4), np.ones(places.shape, dtype=bool), np.zeros(places.shape)
 
     found = inside_circle(damped, 0.55, 3.0, largest=largest)
     assert not len(found.outside)
@@ -66,9 +66,9 @@ def test_one_real_eigenvalue_may_be_left_out() -> None:
         whole[..., 0, 0] = 1.0 + 1e-4 * np.sin(3.0 * places)
         whole[..., 1:, 1:] = meissner(places, 2e-3)
         whole[..., 0, 1] = 0.1
-        return mixed @ whole @ np.linalg.inv(mixed), np.ones(places.shape, dtype=bool)
+        return mixed @ whole @ np.linalg.inv(mixed), np.ones(places.shape, dtype=bool), np.zeros(places.shape)
 
-    def others(matrix):
+    def others(matrix, _falls):
         values = np.linalg.eigvals(matrix)
         near = np.argmin(np.where(np.abs(values.imag) < 1e-9, np.abs(values - 1.0), 9.0), axis=-1)
         values[np.arange(len(values)), near] = 0.0
@@ -84,7 +84,7 @@ def test_one_real_eigenvalue_may_be_left_out() -> None:
 
 def test_where_there_is_no_matrix_nothing_is_proved() -> None:
     def sample(places):
-        return meissner(places, 3e-4), (places < 1.5) | (places > 1.7)
+        return meissner(places, 3e-4), (places < 1.5) | (places > 1.7), np.zeros(places.shape)
 
     found = inside_circle(sample, 0.55, 3.0, largest=largest)
     assert found.unproved[0, 0] <= 1.5
@@ -95,7 +95,8 @@ def test_where_there_is_no_matrix_nothing_is_proved() -> None:
 
 def test_a_jump_that_is_known_costs_nothing() -> None:
     def sample(places):
-        return meissner(places, np.where(places < 1.2345, 3e-4, 6e-4)), np.ones(places.shape, dtype=bool)
+        damping = np.where(places < 1.2345, 3e-4, 6e-4)
+        return meissner(places, damping), np.ones(places.shape, dtype=bool), np.zeros(places.shape)
 
     known = inside_circle(sample, 0.55, 3.0, largest=largest, breaks=(1.2345,))
     assert not len(known.unproved)

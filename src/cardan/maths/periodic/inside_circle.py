@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cache
 from typing import TypeAlias
 
@@ -43,11 +43,14 @@ BATCH = 1024
 DOUBLINGS = 26
 """Of the sum that gives Lyapunov's norm: 2^26 periods."""
 
-Sample: TypeAlias = Callable[[Array], tuple[Array, Array]]
-"""From places (n, p), a polynomial a row, to matrices (n, p, m, m), and whether each is one (n, p)."""
+Sample: TypeAlias = Callable[[Array], tuple[Array, Array, Array]]
+"""From places (n, p), a polynomial a row, to matrices (n, p, m, m), whether each is one (n, p), and numbers (n, p).
 
-Largest: TypeAlias = Callable[[Array], Array]
-"""From matrices (p, m, m) to the largest modulus that counts, (p,)."""
+Where the number falls with the place, the eigenvalue apart may be above 1.
+"""
+
+Largest: TypeAlias = Callable[[Array, Array], Array]
+"""From matrices (p, m, m) and whether the number falls there (p,) to the largest modulus that counts, (p,)."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -70,22 +73,21 @@ class _Stretches:
     low: Array  # (n,)
     high: Array  # (n,)
     control: Array  # (n, DEGREE+1, m, m)
+    number: Array  # (n, DEGREE+1): the same of the number beside them
     missed: Array  # (n,): what the polynomial is off, about
 
     def some(self, rows: Array) -> _Stretches:
-        return _Stretches(
-            low=self.low[rows], high=self.high[rows], control=self.control[rows], missed=self.missed[rows]
-        )
+        return _Stretches(**{one.name: getattr(self, one.name)[rows] for one in fields(_Stretches)})
 
     def halves(self) -> _Stretches:
         """Return both halves of each, by de Casteljau."""
         first, last = _tables().halves
         middle = 0.5 * (self.low + self.high)
-        parts = [np.einsum("ij,njab->niab", one, self.control) for one in (first, last)]
         return _Stretches(
             low=np.concatenate([self.low, middle]),
             high=np.concatenate([middle, self.high]),
-            control=np.concatenate(parts),
+            control=np.concatenate([np.einsum("ij,njab->niab", one, self.control) for one in (first, last)]),
+            number=np.concatenate([self.number @ one.T for one in (first, last)]),
             missed=np.concatenate([self.missed, self.missed]),
         )
 
@@ -106,7 +108,8 @@ def inside_circle(
     """Return where on an interval no eigenvalue is outside the unit circle, and where that is not so or not shown.
 
     sample: the matrices; largest: the modulus that decides at a place.
-    one_apart: whether one real eigenvalue, that nearest to 1, does not count; all others are then shown to be inside.
+    one_apart: whether one real eigenvalue does not count, the largest above 1 where the number falls, else that nearest
+    to 1; all others are then shown to be inside.
     breaks: places at which the matrix is not smooth, as far as known.
     first: polynomials to begin with; width: share of the number at which halving ends.
     slack: by which a modulus may exceed 1 where nothing else is seen: of matrices whose moduli all are 1.
@@ -174,6 +177,7 @@ class _Tables:
     control: Array  # (n, n): from values at the nodes to control points
     tail: Array  # (3, n): the last coefficients by Chebyshev's polynomials
     halves: tuple[Array, Array]  # (n, n): from control points to those of both halves
+    middle: Array  # (n-1,): weights of the differences of control points in the slope of the middle
 
 
 @cache
@@ -196,6 +200,7 @@ def _tables() -> _Tables:
         control=np.linalg.inv(bernstein),
         tail=np.linalg.inv(chebyshev)[-3:],
         halves=(left, left[::-1, ::-1].copy()),
+        middle=left[-2, :-1].copy(),
     )
 
 
@@ -212,7 +217,7 @@ def _polynomials(
     samples = panels = 0
     while len(todo):
         places = todo[:, :1] + (todo[:, 1:] - todo[:, :1]) * table.nodes
-        matrix, there = sample(places)
+        matrix, there, number = sample(places)
         samples, panels = samples + places.size, panels + len(todo)
         values = np.where(there[..., None, None], matrix, 0.0)
         tail = np.sqrt(np.sum(np.einsum("ij,njab->niab", table.tail, values) ** 2, axis=(-1, -2))).sum(axis=-1)
@@ -220,7 +225,9 @@ def _polynomials(
         rows = np.flatnonzero(good)
         if rows.size:
             control = np.einsum("ij,njab->niab", table.control, values[rows])
-            parts.append(_Stretches(low=todo[rows, 0], high=todo[rows, 1], control=control, missed=tail[rows]))
+            beside = number[rows] @ table.control.T
+            low_high = {"low": todo[rows, 0], "high": todo[rows, 1]}
+            parts.append(_Stretches(**low_high, control=control, number=beside, missed=tail[rows]))
         shortest = np.where(there.any(axis=-1), max(width, LEAST), MISSING) * np.abs(todo[:, 1])
         short = ~good & ((todo[:, 1] - todo[:, 0] <= shortest) | (panels >= PANELS))
         lost += [(float(a), float(b)) for a, b in todo[short]]
@@ -228,15 +235,10 @@ def _polynomials(
         middle = todo.mean(axis=-1)
         todo = np.concatenate([np.stack([todo[:, 0], middle], -1), np.stack([middle, todo[:, 1]], -1)])
     if not parts:
-        nothing = np.zeros(0)
-        return (
-            _Stretches(low=nothing, high=nothing, control=np.zeros((0, DEGREE + 1, 1, 1)), missed=nothing),
-            lost,
-            samples,
-        )
-    whole = {
-        name: np.concatenate([getattr(one, name) for one in parts]) for name in ("low", "high", "control", "missed")
-    }
+        nothing, control = np.zeros(0), np.zeros((0, DEGREE + 1, 1, 1))
+        empty = _Stretches(low=nothing, high=nothing, control=control, number=control[..., 0, 0], missed=nothing)
+        return empty, lost, samples
+    whole = {one.name: np.concatenate([getattr(part, one.name) for part in parts]) for one in fields(_Stretches)}
     return _Stretches(**whole), lost, samples
 
 
@@ -252,7 +254,9 @@ def _judged(
     middle = np.einsum("j,njab->nab", _tables().halves[0][-1], control)
     count, size = len(control), control.shape[-1]
     three = np.stack([control[:, 0], middle, control[:, -1]], axis=1).reshape(3 * count, size, size)
-    out = (largest(three) > 1.0 + INSIDE).reshape(count, 3)
+    steps = np.diff(part.number, axis=-1)
+    slope = np.stack([steps[:, 0], steps @ _tables().middle, steps[:, -1]], axis=-1)
+    out = (largest(three, slope.reshape(-1) < 0.0) > 1.0 + INSIDE).reshape(count, 3)
     long = part.high - part.low
     proved = np.zeros(count, dtype=bool)
     maybe = np.flatnonzero(~out.any(axis=-1))
@@ -315,9 +319,14 @@ def _inverse(matrix: Array) -> Array:
 
 
 def _apart(matrix: Array) -> tuple[Array, Array]:
-    """Return the right and left eigenvectors, of length 1, of the real eigenvalue nearest to 1, arrays (n, m)."""
+    """Return the right and left eigenvectors, of length 1, of the largest real eigenvalue above 1, arrays (n, m).
+
+    Where there is none, of the real one nearest to 1: those that count are inside, or the stretch is not looked at.
+    """
     values, vectors = np.linalg.eig(matrix)
-    far = np.where(np.abs(values.imag) <= 1e-12 * np.abs(values), np.abs(values - 1.0), 1.0 + np.abs(values))
+    real = np.abs(values.imag) <= 1e-12 * np.abs(values)
+    far = np.where(real, np.abs(values - 1.0), 1.0 + np.abs(values))
+    far = np.where(real & (values.real > 1.0), -values.real, far)
     best = np.argmin(far, axis=-1)
     right = np.take_along_axis(vectors, best[:, None, None], axis=-1)[..., 0].real
     left = np.take_along_axis(_inverse(vectors.astype(complex)), best[:, None, None], axis=1)[:, 0].real

@@ -19,11 +19,13 @@ from cardan.questions.torsion.model.torsional_model import Torque, TorsionalMode
 from cardan.questions.torsion.steady.orbit import Orbit, straight_frequencies
 from cardan.questions.torsion.steady.run_stability import (
     Floquet,
-    Turns,
     Verdict,
     Zone,
+    drifting,
     floquet,
+    force_falls,
     judged,
+    rising_first,
     shaped,
     straight_damping,
     unmoved,
@@ -199,7 +201,7 @@ class _Table:
         if not np.any(sure):
             return rows
         part, coefficient = part.part(np.flatnonzero(sure)), found.coefficient[sure]
-        turns, drives = None, part.drives(np.arange(len(part.speed)))
+        tangent, drifts, sums, drives = None, None, coefficient, part.drives(np.arange(len(part.speed)))
         frequencies = straight_frequencies(drives)
         size = np.max(np.abs(coefficient), axis=1)
         tail = np.max(size[:, -max(2, harmonics // 4) :], axis=-1)
@@ -208,10 +210,12 @@ class _Table:
             rate = part.speed[:, None] + np.sum((1j * order * coefficient).real, axis=-1)
             acceleration = -np.sum((order**2 * coefficient).real, axis=-1)
             tangent = np.concatenate([rate, acceleration[:, heavy_of(part.model)]], axis=-1)
-            turns = Turns.of(drives, part.speed, tangent)
+            drifts = drifting(drives, part.speed)
             frequencies = frequencies[:, 1:]
             coefficient = started(coefficient, part.period)
-        values, removed = _values(found.matrix[sure], turns, threads)
+        values, removed = rising_first(
+            _values(found.matrix[sure], tangent, threads), drifts, lambda rows: force_falls(part.part(rows), sums[rows])
+        )
         values = without_last(values, unmoved(straight_damping(drives, part.speed), heavy_of(part.model)))
         nothing = np.full(len(values), np.nan)
         self.put(
@@ -250,18 +254,16 @@ def within(progress: Progress | None, low: float, high: float) -> Progress | Non
     return lambda share: progress(low + (high - low) * share) if share < 1.0 else None
 
 
-def _values(matrix: Array, turns: Turns | None, threads: int | None) -> tuple[Array, Array]:
+def _values(matrix: Array, tangent: Array | None, threads: int | None) -> Array:
     """Return `cardan.questions.torsion.steady.run_stability.values_of` matrices, found by several threads."""
-    count = len(matrix)
-    values = np.empty((count, matrix.shape[-1] - (turns is not None)), dtype=complex)
-    removed = np.empty(count, dtype=int)
+    values = np.empty((len(matrix), matrix.shape[-1] - (tangent is not None)), dtype=complex)
 
     def work(first: int, last: int) -> None:
         some = slice(first, last)
-        values[some], removed[some] = values_of(matrix[some], None if turns is None else turns.part(some))
+        values[some] = values_of(matrix[some], None if tangent is None else tangent[some])
 
-    share(work, count, threads=threads, least=64)
-    return values, removed
+    share(work, len(matrix), threads=threads, least=64)
+    return values
 
 
 # How does a drive run over a range of speeds? Order maps of steady running.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -20,6 +20,8 @@ from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.steady.orbit import straight_frequencies, straight_stiffness
 from cardan.questions.torsion.steady.run_stability import (
+    Floquet,
+    Verdict,
     Zone,
     drifting,
     linear_motion,
@@ -109,6 +111,30 @@ class ProvedSpeeds:
         inside = (self.unproved[:, 0] <= np.abs(speed)[:, None]) & (np.abs(speed)[:, None] <= self.unproved[:, 1])
         found: Array = ~np.any(inside, axis=-1)
         return found
+
+    def overlapping(self, low: float, high: float) -> Array:
+        """Return the unstable ranges that overlap some speeds [rad/s], those that grow fastest first, array of int."""
+        found = np.flatnonzero((self.lowest <= high) & (low <= self.highest))
+        return found[np.argsort(-self.growth_rate[found], kind="stable")]
+
+    def judged_at(self, found: Floquet, speed: float) -> ProvedSpeeds:
+        """Return the same with one speed [rad/s] judged, of ranges that were not looked at."""
+        grows = np.flatnonzero(found.verdict == Verdict.UNSTABLE)
+        known = np.asarray(found.verdict != Verdict.UNKNOWN).all()
+        beside = [[self.looked[0], speed], [speed, self.looked[1]]]
+        zone = Zone(**{one.name: getattr(found.zone, one.name)[grows] for one in fields(Zone)})
+        edge = np.full(len(grows), speed)
+        return replace(
+            self,
+            lowest=edge,
+            highest=edge,
+            worst=edge,
+            growth_rate=found.growth_rate[grows],
+            kind=found.kind[grows],
+            zone=zone,
+            unproved=np.asarray(beside) if known else self.unproved,
+            samples=len(found.verdict) if known else 0,
+        )
 
     def margin(self, speed: float) -> float:
         """Return how far a speed is from the nearest unstable range [rad/s]: negative inside, nan where none is."""
@@ -260,19 +286,22 @@ class _Drive:
         steps = np.maximum(self.steepest * self.period / samples / 2.0, 16.0)
         return float(np.mean(np.minimum(steps, 2048.0))) * (DEGREE + 1) * first * 0.125 * len(self.heavy) ** 3
 
-    def at(self, places: Array) -> tuple[Array, Array]:
-        """Return the matrices at speeds (n, p), and whether there is a smooth motion to have one."""
+    def at(self, places: Array) -> tuple[Array, Array, Array]:
+        """Return the matrices at speeds (n, p), whether there is a smooth motion to have one, and its torque.
+
+        The torque (n, p) is that which keeps the mean speed, counted with the turning.
+        """
         speeds = places.reshape(-1)
         model = self.model(speeds)
         whole = Turning(model, (len(speeds),), speeds, self.period).part(np.arange(len(speeds)))
         smooth = closed(whole)
         how = chosen_method(self.method, np, large=True)
         if isinstance(how, Compiled) and fits(smooth.model, speeds):
-            matrix, coefficient, there = self._compiled(smooth, places.shape[-1], how.threads)
+            matrix, coefficient, force, there = self._compiled(smooth, places.shape[-1], how.threads)
         else:
             orbit, status = steady_orbits(smooth.model, speed=speeds, method=HarmonicBalance(most=96))
             there = (status == Status.CONVERGED) & np.asarray([k not in orbit.pieces for k in range(len(speeds))])
-            coefficient = orbit.coefficient[:, smooth.first :]
+            coefficient, force = orbit.coefficient[:, smooth.first :], orbit.force
             rows = np.flatnonzero(there)
             size = len(self.energy)
             matrix = np.full((len(speeds), size, size), np.nan)
@@ -281,12 +310,13 @@ class _Drive:
         there = there & stays_closed(whole, coefficient)
         matrix = np.where(there[:, None, None], matrix, 0.0)
         found = self._reduced(self.energy @ matrix @ self.back, coefficient, whole)
-        return found.reshape(*places.shape, *found.shape[1:]), there.reshape(places.shape)
+        force = np.where(there, force * np.sign(speeds), 0.0)
+        return found.reshape(*places.shape, *found.shape[1:]), *(one.reshape(places.shape) for one in (there, force))
 
-    def _compiled(self, smooth: Turning, alike: int, threads: int | None) -> tuple[Array, Array, Array]:
-        """Return the matrices by the kernel, the motions, and whether each was found; coarse ones more finely."""
+    def _compiled(self, smooth: Turning, alike: int, threads: int | None) -> tuple[Array, Array, Array, Array]:
+        """Return matrices by the kernel, motions, torques, and whether each was found; coarse ones more finely."""
         found = mapped(smooth, self.harmonics, alike=alike, threads=threads)
-        matrix, coefficient, moved = found.matrix, found.coefficient, found.moved
+        matrix, coefficient, force, moved = found.matrix, found.coefficient, found.force, found.moved
         size = np.max(np.abs(coefficient), axis=1)
         tail = np.max(size[:, -max(2, self.harmonics // 4) :], axis=-1)
         rough = (~(tail <= SMALL * np.max(size, axis=-1))).reshape(-1, alike).any(axis=-1)
@@ -296,7 +326,8 @@ class _Drive:
             again = mapped(smooth.part(coarse), more, alike=alike, threads=threads)
             coefficient = np.pad(coefficient, ((0, 0), (0, 0), (0, more - self.harmonics)))
             matrix[coarse], coefficient[coarse], moved[coarse] = again.matrix, again.coefficient, again.moved
-        return matrix, coefficient, (moved <= SURE) & np.isfinite(matrix).all(axis=(1, 2))
+            force[coarse] = again.force
+        return matrix, coefficient, force, (moved <= SURE) & np.isfinite(matrix).all(axis=(1, 2))
 
     def _reduced(self, matrix: Array, coefficient: Array, turning: Turning) -> Array:
         """Return matrices without the shift in time, in a basis that changes as smoothly as they do."""
@@ -315,9 +346,9 @@ class _Drive:
         found: Array = self.rest.T @ turn @ matrix @ turn @ self.rest
         return found
 
-    def largest(self, matrix: Array) -> Array:
-        """Return the largest modulus of the multipliers of vibration."""
+    def largest(self, matrix: Array, falls: Array) -> Array:
+        """Return the largest modulus of the multipliers of vibration; falls: as `vibrating` asks."""
         values = np.linalg.eigvals(matrix)
-        values = vibrating(values, 1) if self.drifts else values
+        values = vibrating(values, 1, lambda rows: falls[rows]) if self.drifts else values
         found: Array = np.max(np.abs(values), axis=-1, initial=0.0)
         return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -17,7 +18,7 @@ from cardan.questions.torsion.model.torsional_balance import joint_law
 from cardan.questions.torsion.model.torsional_layouts import Turning, chosen
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.steady.orbit import Orbit, at_rest, straight_frequencies
-from cardan.questions.torsion.steady.run_stability import CHUNK, linear_motion, vibrating
+from cardan.questions.torsion.steady.run_stability import CHUNK, force_falls, linear_motion, torque_falls, vibrating
 
 compiled = later("cardan.maths.compiled.floquet")
 
@@ -274,8 +275,8 @@ def vibration_growth(orbit: Orbit, rows: Array) -> Array:
     there = np.isfinite(orbit.coefficient.reshape(orbit.count, -1)[rows]).all(axis=-1)
     smooth = np.flatnonzero(there & ~np.isin(rows, list(orbit.pieces)))
     for k in np.flatnonzero(there & np.isin(rows, list(orbit.pieces))):
-        pieces = orbit.pieces[int(rows[k])]
-        found[k] = _largest(pieces.monodromy[None], free=orbit.model.free)[0]
+        falls = partial(_falls, orbit, rows[[k]])
+        found[k] = _largest(orbit.pieces[int(rows[k])].monodromy[None], orbit.model.free, falls)[0]
     if smooth.size:
         found[smooth] = _smooth(orbit, rows[smooth])
     return found
@@ -290,19 +291,27 @@ def _smooth(orbit: Orbit, rows: Array) -> Array:
         said = mapped(part, harmonics_for(part.model, orbit.period))
         sure = np.flatnonzero((said.moved <= SURE) & np.isfinite(said.matrix).all(axis=(1, 2)))
         if sure.size:
-            found[sure] = _largest(said.matrix[sure], free=orbit.model.free)
+            found[sure] = _largest(
+                said.matrix[sure],
+                orbit.model.free,
+                lambda own: force_falls(part.part(sure[own]), said.coefficient[sure[own]]),
+            )
     left = np.flatnonzero(np.isnan(found))
     for first in range(0, len(left), CHUNK):
         some = left[first : first + CHUNK]
         matrix = monodromy(linear_motion(orbit, rows[some]), orbit.time.reshape(-1)[rows[some]])
-        found[some] = _largest(matrix, free=orbit.model.free)
+        found[some] = _largest(matrix, orbit.model.free, partial(_falls, orbit, rows[some]))
     return found
 
 
-def _largest(matrix: Array, *, free: bool) -> Array:
+def _falls(orbit: Orbit, rows: Array, own: Array) -> Array:
+    return torque_falls(orbit, rows[own])
+
+
+def _largest(matrix: Array, free: bool, falls: Callable[[Array], Array]) -> Array:
     """Return ln of the largest modulus of the multipliers of drives, array (b,)."""
     values = np.linalg.eigvals(matrix)
-    values = vibrating(values, 2) if free else values
+    values = vibrating(values, 2, falls) if free else values
     with np.errstate(divide="ignore"):
         found: Array = np.log(np.max(np.abs(values), axis=-1, initial=0.0))
     return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from enum import IntEnum
 
@@ -9,7 +10,10 @@ import numpy as np
 
 from cardan.maths.arrays import Array
 from cardan.maths.periodic.floquet import Coefficients, monodromy, without_direction
+from cardan.maths.periodic.harmonics import HarmonicBalance, Status, harmonic_balance
+from cardan.maths.periodic.switching_orbit import periodic_pieces
 from cardan.questions.torsion.model.torsional_balance import slopes
+from cardan.questions.torsion.model.torsional_layouts import Turning
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.texts import _
 
@@ -131,7 +135,8 @@ def floquet(response: SteadyResponse | Orbit) -> Floquet:
     integrated over a period; the eigenvalues of the matrix that maps the disturbance at its beginning to that at its
     end. A free drive may run a moment later. Where no torque changes with the speed it may run at any other one too,
     but for what vibration takes, and a drive that nothing governs drifts up or down; the mean speed is given here, so
-    something governs it, and such a drift is no vibration.
+    something governs it, and such a drift is no vibration. It is the real multiplier above 1 where the torque that
+    keeps the mean speed falls as that rises, as above a resonance; where it rises, what is above 1 is a jump.
 
     Examples
     --------
@@ -252,6 +257,12 @@ CHUNK = 64
 REAL = 2e-3
 """Imaginary part, over the modulus, up to which a multiplier is real: two of 1 are apart by the root of their error."""
 
+SLOW, BESIDE = 0.02, 0.5
+"""Growth within a period up to which the only real multiplier above this second number is the drift without a look."""
+
+ASIDE = 2e-4
+"""Share of the speed by which the torque that keeps it is looked at on either side."""
+
 FADED = 20.0
 """What has died out by e to this power over a period leaves no digits to check."""
 
@@ -309,10 +320,11 @@ def linear_motion(orbit: Orbit, rows: Array) -> Coefficients:
 def _values(orbit: Orbit, rows: Array, matrix: Array, heavy: Array) -> tuple[Array, Array]:
     """Return the multipliers of monodromy matrices about motions, and how many were left out of free drives."""
     if not orbit.model.free:
-        return values_of(matrix)
+        return rising_first(values_of(matrix))
     _q, rate, acceleration = (one[:, 0] for one in orbit.of(rows, [0.0]))
     tangent = np.concatenate([rate, acceleration[:, heavy]], axis=-1)
-    return values_of(matrix, Turns.of(orbit.drives(rows), orbit.speed.reshape(-1)[rows], tangent))
+    drifts = drifting(orbit.drives(rows), orbit.speed.reshape(-1)[rows])
+    return rising_first(values_of(matrix, tangent), drifts, lambda some: torque_falls(orbit, rows[some]))
 
 
 def unmoved(damping: Array, heavy: Array) -> Array:
@@ -352,38 +364,30 @@ def without_last(values: Array, count: Array) -> Array:
     return np.where(np.arange(values.shape[-1]) < last[:, None], values, np.nan)
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Turns:
-    """What turns free drives as a whole."""
+def values_of(matrix: Array, tangent: Array | None = None) -> Array:
+    """Return the multipliers of monodromy matrices (b, m, m), in no order, array (b, m) or (b, m-1), complex.
 
-    tangent: Array  # (b, m): disturbances by a shift in time
-    drifts: Array  # (b,) of bool: whether any speed is as good as any other
-
-    @classmethod
-    def of(cls, drives: TorsionalModel, speed: Array, tangent: Array) -> Turns:
-        """Return what turns drives (b,), their torques ready for moments in a second axis, at speeds (b,) [rad/s]."""
-        return cls(tangent=tangent, drifts=drifting(drives, speed))
-
-    def part(self, rows: slice) -> Turns:
-        """Return that of some of the drives."""
-        return Turns(tangent=self.tangent[rows], drifts=self.drifts[rows])
-
-
-def values_of(matrix: Array, turns: Turns | None = None) -> tuple[Array, Array]:
-    """Return the multipliers of monodromy matrices, the largest first, and how many were left out of free drives.
-
-    matrix (b, m, m).
-    turns: of free drives: a shift in time is left out, and where any speed is as good as any other the drift to one
-    too.
+    tangent (b, m): of free drives the disturbances by a shift in time, which is left out.
     """
-    removed = np.zeros(len(matrix), dtype=int)
-    if turns is None:
-        values: Array = np.linalg.eigvals(matrix)
-    else:
-        values = np.linalg.eigvals(without_direction(matrix, turns.tangent)).astype(complex)
-        values[turns.drifts, :-1] = vibrating(values[turns.drifts], 1)
-        values[turns.drifts, -1] = np.nan
-        removed += 1 + turns.drifts
+    return np.linalg.eigvals(matrix if tangent is None else without_direction(matrix, tangent)).astype(complex)
+
+
+def rising_first(
+    values: Array, drifts: Array | None = None, falls: Callable[[Array], Array] | None = None
+) -> tuple[Array, Array]:
+    """Return multipliers (b, m), the largest first, and how many were left out of free drives, array of int (b,).
+
+    drifts (b,) of bool: of free drives, whose shift in time is left out already: whether any speed is as good as any
+    other; the drift to one is left out too, nan in its place. falls: from rows to what `vibrating` asks.
+    """
+    removed = np.zeros(len(values), dtype=int)
+    if drifts is not None and falls is not None and values.shape[-1]:
+        rows = np.flatnonzero(drifts)
+        values = values.copy()
+        values[rows, :-1] = vibrating(values[rows], 1, lambda some: falls(rows[some]))
+        values[rows, -1] = np.nan
+    if drifts is not None:
+        removed += 1 + drifts
     size = np.where(np.isfinite(values), np.abs(values), -1.0)
     return np.take_along_axis(values, np.argsort(-size, axis=-1, kind="stable"), axis=-1), removed
 
@@ -400,17 +404,71 @@ def drifting(drives: TorsionalModel, speed: Array) -> Array:
     return ~governed
 
 
-def vibrating(values: Array, count: int) -> Array:
+def vibrating(values: Array, count: int, falls: Callable[[Array], Array]) -> Array:
     """Return the multipliers of free drives without those of turning as a whole, array (b, m-count), in no order.
 
     values (b, m).
     count: how many to leave out: one, the drift to another speed, where a shift in time is left out already, else two.
-    Left out are the real ones nearest to 1. Amid a resonance a drift and vibration are one: what grows there beside
-    them is judged.
+    falls: from rows to whether the torque that keeps the mean speed falls as that rises, asked where it decides.
+    Left out are the real ones nearest to 1. Amid a resonance the drift may be far from it: where the torque falls, it
+    is the largest real one above 1; where it rises, none above 1 is. For the product of 1 - ρ has the sign of the slope
+    of that torque unless the motion is one that no governor of the mean speed could hold.
     """
-    far = np.where(np.abs(values.imag) <= REAL * np.abs(values), np.abs(values - 1.0), 1.0 + np.abs(values))
+    real = np.abs(values.imag) <= REAL * np.abs(values)
+    far = np.where(real, np.abs(values - 1.0), 1.0 + np.abs(values))
+    above = np.where(real & (values.real > 1.0 + NEUTRAL), values.real, 0.0)
+    near = np.sum(real & (values.real > BESIDE), axis=-1) > count
+    rows = np.flatnonzero(np.any(above > 0.0, axis=-1) & (near | np.any(above > 1.0 + SLOW, axis=-1)))
+    if rows.size:
+        shifted = np.argmin(far[rows], axis=-1)  # the shift in time, where it is still there
+        down = falls(rows)[:, None]
+        drift = np.arange(values.shape[-1]) == np.argmax(above[rows], axis=-1)[:, None]
+        beyond = np.where(above[rows] > 0.0, np.inf, far[rows])
+        far[rows] = np.where(down, np.where(drift, -1.0, far[rows]), beyond)
+        if count > 1:
+            far[rows, shifted] = -2.0
     found: Array = np.take_along_axis(values, np.argsort(far, axis=-1, kind="stable")[:, count:], axis=-1)
     return found
+
+
+def torque_falls(orbit: Orbit, rows: Array) -> Array:
+    """Tell of free motions whether the torque that keeps their mean speed falls as that rises, array of bool (b,).
+
+    orbit (...); rows (b,) of int: which motions. By the motions at speeds a little apart; False where one is not found.
+    """
+    found = np.zeros(len(rows), dtype=bool)
+    for k in np.flatnonzero(np.isin(rows, list(orbit.pieces))).tolist():
+        here, alone = orbit.pieces[int(rows[k])], orbit.turning.part(rows[[k]])
+        ends = [
+            periodic_pieces(Backlashed(_faster(alone, share)), share * here.omega, here, free=True)
+            for share in (1.0 - ASIDE, 1.0 + ASIDE)
+        ]
+        forces = [one.force for one in ends if one is not None and one.status == Status.CONVERGED]
+        found[k] = len(forces) == len(ends) and (forces[1] - forces[0]) * here.omega < 0.0
+    smooth = np.flatnonzero(~np.isin(rows, list(orbit.pieces)))
+    if smooth.size:
+        coefficient = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])[rows[smooth]]
+        found[smooth] = force_falls(orbit.turning.part(rows[smooth]), coefficient)
+    return found
+
+
+def force_falls(part: Turning, coefficient: Array) -> Array:
+    """Tell the same of motions by their sums (b, R, H+1), array of bool (b,)."""
+    high = max(coefficient.shape[-1] - 1, 1)
+    how = HarmonicBalance(harmonics=high, most=high)
+    forces, there = [], np.ones(len(coefficient), dtype=bool)
+    for share in (1.0 - ASIDE, 1.0 + ASIDE):
+        near = _faster(part, share)
+        waves = harmonic_balance(near, near.frequency, near.coordinates, free=True, start=coefficient, method=how)
+        forces.append(waves.force)
+        there &= waves.status != Status.NO_CONVERGENCE
+    falls: Array = there & ((forces[1] - forces[0]) * part.speed < 0.0)
+    return falls
+
+
+def _faster(part: Turning, share: float) -> Turning:
+    """Return drives at a share of their speeds."""
+    return Turning(part.model, part.angle_error, share * part.speed, part.period)
 
 
 def _liouville(coefficients: Coefficients, duration: Array, matrix: Array) -> Array:
