@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -19,7 +19,8 @@ from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torsion import TorsionModes
 from cardan.questions.torsion.stability.floquet_map import floquet_map
-from cardan.questions.torsion.steady.run_stability import Verdict as Stability
+from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
+from cardan.questions.torsion.stability.torsion_stability import proved_in_use
 from cardan.questions.torsion.steady.torsion_response import loaded_model, parted
 from cardan.texts import _, mark
 
@@ -31,6 +32,9 @@ MANY = 4000
 NOTHING = 1e-9
 """A loss factor below this is none."""
 
+LEAST = 1e-6
+"""Share of its damping that a mode lacks at least where it grows."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Damping:
@@ -41,14 +45,16 @@ class Damping:
     needed: float  # loss factor from which nothing grows at the speeds in use; 0 where that is without any
     zone: float  # [rad/s]: middle of its nearest zone
     speed: float  # [rad/s]: speed in use that is nearest to it
+    proof: ProvedSpeeds | None  # of the speeds in use and a tenth beyond; None where nothing was proved
 
 
 @lru_cache(maxsize=4096)
 def damping(drive: Drive, *, exact: bool) -> Damping | None:
     """Return how much damping a drive has and needs; None where nothing can be told.
 
-    Of every mode by its modulation, to first order; exact: where the motion grows, too, by the rate at which it does,
-    2ζ + 2λ/ω being the loss factor at which it would no longer.
+    Of every mode by its modulation, to first order; exact: by what is proved at the speeds in use, too. Where the
+    motion grows there, 2ζ + 2λ/ω is the loss factor at which it would no longer; where it is proved to die out, what
+    the mode has is enough.
     """
     found = modes(drive)
     if isinstance(found, tuple) or not used(drive):
@@ -56,9 +62,14 @@ def damping(drive: Drive, *, exact: bool) -> Damping | None:
     there = 2.0 * found.damping_ratio
     needed = np.max([found.least_loss(between) for between in used(drive)], axis=0)
     zone = found.parametric_speed.copy()
-    for mode, speed, loss in _grows(drive, found) if exact else ():
-        if loss > needed[mode]:
-            needed[mode], zone[mode] = loss, speed
+    proof = _proof(drive) if exact else None
+    if proof is not None:
+        growing = list(_growing(drive, found, proof))
+        if not growing and not any(_unproved(proof, between) for between in used(drive)):
+            needed = np.minimum(needed, there)
+        for mode, speed, loss in growing:
+            if loss > needed[mode]:
+                needed[mode], zone[mode] = loss, speed
     share = needed / np.maximum(there, NOTHING)
     near = [abs(np.log(nearest_used(drive, float(one)) / one)) for one in zone]
     worst = int(np.argmax(share)) if np.any(share > 0.0) else int(np.argmin(near))
@@ -68,25 +79,36 @@ def damping(drive: Drive, *, exact: bool) -> Damping | None:
         needed=float(needed[worst]),
         zone=float(zone[worst]),
         speed=nearest_used(drive, float(zone[worst])),
+        proof=proof,
     )
 
 
-def _grows(drive: Drive, found: TorsionModes) -> Iterator[tuple[int, float, float]]:
-    """Yield mode, zone and loss factor needed at speeds in use at which the exact motion grows."""
-    omega = found.omega
-    i, j = np.triu_indices(len(omega))
-    zones = np.concatenate([0.5 * (omega[i] + omega[j]), 0.25 * (omega[i] + omega[j])])
-    inside = [zone for zone in zones.tolist() for low, high in used(drive) if low < zone < high]
-    speeds = np.unique([*inside, *(max(one, 0.05 * between[1]) for between in used(drive) for one in between)])
+def _proof(drive: Drive) -> ProvedSpeeds | None:
     try:
-        model = loaded_model(drive, drive.duty, speeds, disturbed=True)[1]
-        told = floquet_map(parted(replace(model, backlash=0.0 * model.backlash))[0], speed=speeds).floquet
+        proof = proved_in_use(drive)
     except InputError:
+        return None
+    return proof if proof is not None and proof.looked_at else None
+
+
+def _unproved(proof: ProvedSpeeds, between: tuple[float, float]) -> bool:
+    """Tell whether at some of the speeds in use nothing was shown."""
+    return bool(np.any((proof.unproved[:, 0] < between[1]) & (between[0] < proof.unproved[:, 1])))
+
+
+def _growing(drive: Drive, found: TorsionModes, proof: ProvedSpeeds) -> Iterator[tuple[int, float, float]]:
+    """Yield mode, zone and loss factor needed of unstable ranges at speeds in use."""
+    pairs = [(k, between) for between in used(drive) for k in proof.overlapping(*between).tolist()]
+    if not pairs:
         return
-    for k in np.flatnonzero(told.verdict == Stability.UNSTABLE).tolist():
-        pair = [max(int(one) - 1, 0) for one in told.zone.modes[k]]
-        mean, own = float(np.mean(omega[pair])), float(np.mean(found.damping_ratio[pair]))
-        yield pair[0], float(told.zone.speed[k]), 2.0 * own + 2.0 * float(told.growth_rate[k]) / mean
+    sense = -1.0 if (drive.duty.speed or 1.0) < 0.0 else 1.0
+    speeds = [min(max(proof.worst[k], low), high) for k, (low, high) in pairs]
+    model = loaded_model(drive, drive.duty, sense * np.asarray(speeds), disturbed=True)[1]
+    told = floquet_map(parted(model)[0], speed=sense * np.asarray(speeds)).floquet
+    for (k, _between), rate in zip(pairs, np.maximum(told.growth_rate, 0.0).tolist(), strict=True):
+        pair = [max(int(one) - 1, 0) for one in proof.zone.modes[k]]
+        mean, own = float(np.mean(found.omega[pair])), float(np.mean(found.damping_ratio[pair]))
+        yield pair[0], float(proof.zone.speed[k]), 2.0 * own + max(2.0 * rate / mean, LEAST * own)
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
@@ -109,17 +131,46 @@ def _judge(design: Design) -> Iterator[Verdict]:
             *design.joint_angle_design_variables,
             *design.speed_design_variables,
         ),
-        note=_note(own),
+        note=_note(own, used(design.drive)),
     )
 
 
-def _note(own: Damping) -> Text:
-    """Return where the zone is, and how far the speeds in use are from it."""
+def _note(own: Damping, between: Sequence[tuple[float, float]]) -> Text:
+    """Return where the motion grows or where its zone is, and how far the speeds in use are from it."""
+    zone = {"mode": own.mode, "zone": turning(own.zone)}
+    if own.proof is not None:
+        return _proved(own.proof, between, zone)
     text = _("the zone of mode {mode} lies about {zone}, {away} from the speeds in use; loss factors 2ζ")
     away = abs(own.speed / own.zone - 1.0)
     if own.needed > 0.0:
         text = _("the zone of mode {mode} about {zone} lies within the speeds in use; loss factors 2ζ")
-    return say(text, mode=own.mode, zone=turning(own.zone), away=Quantity(away, "share", 3))
+    return say(text, away=Quantity(away, "share", 3), **zone)
+
+
+def _proved(proof: ProvedSpeeds, between: Sequence[tuple[float, float]], zone: Mapping[str, object]) -> Text:
+    """Return what is proved of the speeds in use and a tenth beyond."""
+    inside = [k for one in between for k in proof.overlapping(*one).tolist()]
+    near = sorted(proof.overlapping(*proof.looked).tolist(), key=lambda k: _away(proof, k, between))
+    shown = not any(_unproved(proof, one) for one in between)
+    for k in (*inside, *near)[:1]:
+        text = _("not proved throughout; unstable from {low:bare} to {high} ({zone}), {away} off; loss factors 2ζ")
+        if inside:
+            text = _("unstable from {low:bare} to {high} within the speeds in use ({zone}); loss factors 2ζ")
+        elif shown:
+            text = _("proved stable; unstable from {low:bare} to {high} ({zone}), {away} off; loss factors 2ζ")
+        low, high = (Quantity(float(one), "angular_speed", 5) for one in (proof.lowest[k], proof.highest[k]))
+        away = Quantity(_away(proof, k, between), "share", 3)
+        return say(text, low=low, high=high, zone=proof.zone.name((k,)), away=away)
+    text = _("not proved throughout: backlash opens or the motion jumps; the zone of mode {mode} lies about {zone}")
+    if shown:
+        text = _("proved stable; the zone of mode {mode} lies about {zone}; loss factors 2ζ")
+    return say(text, **zone)
+
+
+def _away(proof: ProvedSpeeds, k: int, between: Sequence[tuple[float, float]]) -> float:
+    """Return how far the speeds in use are from an unstable range, as a share of its nearer end."""
+    low, high = float(proof.lowest[k]), float(proof.highest[k])
+    return min(max(0.0, low - one[1], one[0] - high) / (low if one[1] < low else high) for one in between)
 
 
 def _of_many(design: Design, own: Damping) -> tuple[Array, Array]:

@@ -6,6 +6,7 @@ from cardan.cli.shared.asked import check_options, keys_of, on_duty
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.questions.torsion.model.answer import answer, ask
+from cardan.questions.torsion.stability.torsion_stability import proved_in_use
 
 from .torsion_parts import Pieces
 
@@ -22,5 +23,5 @@ def torsion_modes(
     check_options(speed_rpm, json=json, csv=csv, plot=plot)
     drive = on_duty(read(file), speed_rpm, None)
     with keys_of(file):
-        found = ask(drive, pieces=pieces)
-    return tell(answer(drive, found), file, drive, json=json, csv=csv, plot=plot)
+        found, exact = ask(drive, pieces=pieces), proved_in_use(drive, pieces)
+    return tell(answer(drive, found, exact=exact), file, drive, json=json, csv=csv, plot=plot)

@@ -14,6 +14,8 @@ from cardan.texts import _, mark
 from .model.answer import answer as answer_of_modes
 from .model.answer import lacking, modes_said
 from .model.torsion import TorsionModes, torsion_modes
+from .stability.proved_speeds import ProvedSpeeds
+from .stability.torsion_stability import proved_in_use
 from .steady.answer import answer as answer_of_running
 from .steady.answer import worst
 from .steady.torsion_response import TorsionResponse, torsion_response
@@ -30,24 +32,23 @@ class Torsion:
 
     modes: TorsionModes  # natural frequencies and what excites them
     running: TorsionResponse | None  # steady vibration at the speed of the duty; None where that gives none
+    exact: ProvedSpeeds | None  # where it is unstable at the speeds in use and about them; None where none is named
 
 
 def ask(drive: Drive) -> Torsion:
     """Return the torsional modes of a drive and its vibration at the speed of its duty."""
     running = None if drive.duty.speed is None else torsion_response(drive)
-    return Torsion(modes=torsion_modes(drive), running=running)
+    return Torsion(modes=torsion_modes(drive), running=running, exact=proved_in_use(drive))
 
 
 def answer(drive: Drive, result: Torsion) -> Answer:
     """Return what there is to say of the torsional vibration of a drive."""
-    exact = result.running is not None and drive.duty.speed_range is None
-    stable = exact and result.running is not None and bool(result.running.floquet.stable)
-    modes = answer_of_modes(drive, result.modes, stable=stable)
+    modes = answer_of_modes(drive, result.modes, exact=result.exact)
     modes = replace(modes, name="torsion", title=_("Torsional vibration"))
     if result.running is None:
         return modes
     running = answer_of_running(drive, result.running)
-    tone, said = modes_said(drive, result.modes, stable=stable)
+    tone, said = modes_said(drive, result.modes, exact=result.exact)
     return replace(
         modes,
         sentence=Joined([said, running.sentence], between="; "),

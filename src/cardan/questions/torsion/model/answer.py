@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,6 +22,9 @@ from .figure import modes_figures
 from .torsion import Crossing, Node, TorsionModes
 from .torsion import torsion_modes as ask
 from .torsional_train import TorsionalTrain
+
+if TYPE_CHECKING:
+    from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
 
 __all__ = ["answer", "ask", "lacking"]
 
@@ -50,27 +53,28 @@ def lacking(drive: Drive) -> Lacking:
     return absent((some, "stations", "shafts[1].stiffness"))
 
 
-def answer(drive: Drive, result: TorsionModes, *, stable: bool = False) -> Answer:
+def answer(drive: Drive, result: TorsionModes, *, exact: ProvedSpeeds | None = None) -> Answer:
     """Return what there is to say of the torsional modes of a drive.
 
-    stable: whether its exact equations are known to be stable at the only speed in use: they overrule the zones.
+    exact: what its exact equations say of the speeds in use and about them: they overrule the zones of first order.
     """
-    tone, said = modes_said(drive, result, stable=stable)
+    exact = exact if exact is not None and exact.looked_at else None
+    tone, said = modes_said(drive, result, exact=exact)
     return Answer(
         name="torsion-modes",
         title=_("Torsional modes"),
         sentence=Joined([said, "."], between=""),
         tone=tone,
         figures=lambda: modes_figures(result),
-        tables=tuple(_tables(drive, result, stable)),
-        remarks=tuple(_remarks(drive, result)),
+        tables=tuple(_tables(drive, result, exact)),
+        remarks=tuple(_remarks(drive, result, exact)),
         keys=tuple(_keys(result)),
-        facts=_facts(result, used_speeds(drive.duty)),
+        facts=_facts(result, used_speeds(drive.duty), exact),
         full=lambda: _everything(result),
     )
 
 
-def modes_said(drive: Drive, found: TorsionModes, *, stable: bool = False) -> tuple[Tone, Text]:
+def modes_said(drive: Drive, found: TorsionModes, *, exact: ProvedSpeeds | None = None) -> tuple[Tone, Text]:
     """Return what the modes come to, without the full stop, and how good that is."""
     text = _(
         "the first torsional natural frequency is {frequency}; joints excite it at {second} (order 2) and at "
@@ -82,33 +86,19 @@ def modes_said(drive: Drive, found: TorsionModes, *, stable: bool = False) -> tu
         second=_speed(found.order2_speed[0], 3),
         principal=_speed(found.parametric_speed[0], 3),
     )
-    tone, more = _judged(drive, found, stable)
+    tone, more = _judged(drive, found, exact)
     return tone, Joined([first, more], between="; ")
 
 
-def _judged(drive: Drive, found: TorsionModes, stable: bool) -> tuple[Tone, Text]:
+def _judged(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> tuple[Tone, Text]:
     """Return what that means for the operating range, nothing where there is none."""
     used = used_speeds(drive.duty)
     if used is None:
         return "plain", ""
-    growing = [] if stable else _unstable(found.zone_surely, used)
-    if growing:
-        text = _(
-            "mode {mode} is parametrically unstable in the operating range, stable from a damping 2ζ of {least} on"
-        )
-        return "failed", say(text, mode=growing[0] + 1, least=_share(found.least_loss(used)[growing[0]]))
-    if open_ := [] if stable else _undecided(found, used):
-        text = _(
-            "the operating range ends at an edge of the zone of mode {mode}, at most {low:bare} to {high}: whether "
-            "it is parametrically unstable the exact equations decide (cardan torsion stability)"
-        )
-        low, high = (_speed(one) for one in found.zone_perhaps[open_[0]])
-        return "warning", say(text, mode=open_[0] + 1, low=low, high=high)
     reach = used[0] * (1.0 - NEAR), used[1] * (1.0 + NEAR)
-    if near := _unstable(found.zone, reach):
-        text = _("mode {mode} is parametrically unstable from {low:bare} to {high}, near the operating range")
-        low, high = (_speed(one) for one in found.zone[near[0]])
-        return "warning", say(text, mode=near[0] + 1, low=low, high=high)
+    told = _by_first_order(found, used, reach) if exact is None else _exactly(exact, used, reach)
+    if told is not None:
+        return told
     if count := sum(reach[0] <= one.speed <= reach[1] for one in found.crossings):
         text = plural(
             "{count} Campbell crossing in or near the operating range",
@@ -117,6 +107,46 @@ def _judged(drive: Drive, found: TorsionModes, stable: bool) -> tuple[Tone, Text
         )
         return "warning", text.format(count=count)
     return "good", _("no Campbell crossing in the operating range")
+
+
+def _exactly(exact: ProvedSpeeds, used: tuple[float, float], reach: tuple[float, float]) -> tuple[Tone, Text] | None:
+    """Return what the exact equations say of parametric resonance, None where they are proved to be stable."""
+    inside = exact.overlapping(*used)
+    for k in (*inside, *exact.overlapping(*reach))[:1]:
+        text = _("parametrically unstable from {low:bare} to {high}, near the operating range ({zone})")
+        if len(inside):
+            text = _("parametrically unstable in the operating range, from {low:bare} to {high} ({zone})")
+        ends = {"low": _speed(exact.lowest[k], 5), "high": _speed(exact.highest[k], 5)}
+        return "failed" if len(inside) else "warning", say(text, zone=exact.zone.name((int(k),)), **ends)
+    for low, high in exact.unproved:
+        if low < used[1] and used[0] < high:
+            text = _("whether it is parametrically stable from {low:bare} to {high} is not proved")
+            return "warning", say(text, low=_speed(low), high=_speed(high))
+    return None
+
+
+def _by_first_order(
+    found: TorsionModes, used: tuple[float, float], reach: tuple[float, float]
+) -> tuple[Tone, Text] | None:
+    """Return what zones of first order say of parametric resonance, None where they are not in reach."""
+    growing = _unstable(found.zone_surely, used)
+    if growing:
+        text = _(
+            "mode {mode} is parametrically unstable in the operating range, stable from a damping 2ζ of {least} on"
+        )
+        return "failed", say(text, mode=growing[0] + 1, least=_share(found.least_loss(used)[growing[0]]))
+    if open_ := _undecided(found, used):
+        text = _(
+            "the operating range ends at an edge of the zone of mode {mode}, at most {low:bare} to {high}: whether "
+            "it is parametrically unstable the exact equations decide (cardan torsion stability)"
+        )
+        low, high = (_speed(one) for one in found.zone_perhaps[open_[0]])
+        return "warning", say(text, mode=open_[0] + 1, low=low, high=high)
+    if near := _unstable(found.zone, reach):
+        text = _("mode {mode} is parametrically unstable from {low:bare} to {high}, near the operating range")
+        low, high = (_speed(one) for one in found.zone[near[0]])
+        return "warning", say(text, mode=near[0] + 1, low=low, high=high)
+    return None
 
 
 def _speed(value: float, digits: int = 4) -> Quantity:
@@ -138,18 +168,26 @@ def _undecided(found: TorsionModes, used: tuple[float, float]) -> list[int]:
     return [k for k in _unstable(found.zone_perhaps, used) if k not in sure]
 
 
-def _tables(drive: Drive, found: TorsionModes, stable: bool) -> Iterator[Table]:
-    yield _mode_table(drive, found, stable)
+def _tables(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> Iterator[Table]:
+    yield _mode_table(drive, found, exact)
     yield _joint_table(drive, found)
     yield _shape_table(found)
     if found.crossings:
         yield _crossing_table(found)
 
 
-def _mode_table(drive: Drive, found: TorsionModes, stable: bool) -> Table:
+def _growing(found: TorsionModes, used: tuple[float, float], exact: ProvedSpeeds | None) -> list[int]:
+    """Return the modes that grow at some speeds [rad/s] in a zone of their own."""
+    if exact is None:
+        return _unstable(found.zone_surely, used)
+    pairs = exact.zone.modes[exact.overlapping(*used)].tolist()
+    return sorted({one - 1 for one, other in pairs if one == other and one > 0})
+
+
+def _mode_table(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> Table:
     count, used = min(SHOWN, len(found.omega)), used_speeds(drive.duty)
-    grows = [] if used is None or stable else _unstable(found.zone_surely, used)
-    open_ = [] if used is None or stable else _undecided(found, used)
+    grows = [] if used is None else _growing(found, used, exact)
+    open_ = [] if used is None or exact is not None else _undecided(found, used)
     low, high = ([None if one != one else one for one in column] for column in found.zone[:count].T.tolist())
     return Table(
         title=_("Natural frequencies, all joints straight"),
@@ -231,8 +269,8 @@ def _order(order: float) -> Quantity:
     return Quantity(order, trim=True)
 
 
-def _remarks(drive: Drive, found: TorsionModes) -> Iterator[Remark]:
-    yield from _alarms(found)
+def _remarks(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> Iterator[Remark]:
+    yield from _alarms(found, exact)
     yield from (Remark(text=_node(found, node)) for node in found.nodes[0])
     if found.joint_weight.shape[-1] > 1:
         nearest = np.flatnonzero(alike(np.abs(found.joint_weight[0]), least=True, scale=1.0)) + 1
@@ -245,7 +283,7 @@ def _remarks(drive: Drive, found: TorsionModes) -> Iterator[Remark]:
         yield Remark(text=text)
     yield from assumptions(found.train)
     yield from yokes_estimated(drive)
-    yield from _enough(drive, found)
+    yield from _enough(drive, found, exact)
     text = _("Checked: the torques of every mode balance {closely}.")
     yield Remark(text=text.format(closely=closely(found.residual)), depth="full")
     yield Remark(
@@ -253,24 +291,31 @@ def _remarks(drive: Drive, found: TorsionModes) -> Iterator[Remark]:
     )
 
 
-def _enough(drive: Drive, found: TorsionModes) -> Iterator[Remark]:
+def _enough(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> Iterator[Remark]:
     """Yield the least damping of modes that it alone keeps stable in the operating range."""
     used = used_speeds(drive.duty)
     if used is None:
         return
-    grows, least = _unstable(found.zone_surely, used), found.least_loss(used)
+    grows, least, own_loss = _growing(found, used, exact), found.least_loss(used), 2.0 * found.damping_ratio
     for k in np.flatnonzero(least[:SHOWN] > 0.0).tolist():
-        if k not in grows:
+        if k not in grows and (exact is None or least[k] <= own_loss[k]):
             text = _("In the operating range mode {mode} is stable from a damping 2ζ of {least} on; it has {own}.")
-            own = _share(2.0 * found.damping_ratio[k])
-            yield Remark(text=say(text, mode=k + 1, least=_share(least[k]), own=own))
+            yield Remark(text=say(text, mode=k + 1, least=_share(least[k]), own=_share(own_loss[k])))
 
 
-def _alarms(found: TorsionModes) -> Iterator[Remark]:
+def _alarms(found: TorsionModes, exact: ProvedSpeeds | None) -> Iterator[Remark]:
     """Yield what must not be overlooked on the first page; the tables of the answer say it too."""
     if found.speed_range is None:
         return
-    for k in _unstable(found.zone_surely, found.speed_range)[:SHOWN]:
+    if exact is not None:
+        text = _(
+            "Torsional vibration is parametrically unstable from {low:bare} to {high}, in the operating range: {zone}."
+        )
+        for k in exact.overlapping(*found.speed_range)[:SHOWN].tolist():
+            ends = {"low": _speed(exact.lowest[k]), "high": _speed(exact.highest[k])}
+            said = say(text, zone=exact.zone.name((k,)), **ends)
+            yield Remark(text=said, tone="failed", depth="data", alarm=True)
+    for k in _unstable(found.zone_surely, found.speed_range)[:SHOWN] if exact is None else ():
         text = _("Torsional mode {mode} is parametrically unstable from {low:bare} to {high}, in the operating range.")
         low, high = (_speed(one, 3) for one in found.zone[k])
         yield Remark(text=say(text, mode=k + 1, low=low, high=high), tone="failed", depth="data", alarm=True)
@@ -329,7 +374,7 @@ def _everything(found: TorsionModes) -> Table:
     )
 
 
-def _facts(found: TorsionModes, used: tuple[float, float] | None) -> dict[str, Any]:
+def _facts(found: TorsionModes, used: tuple[float, float] | None, exact: ProvedSpeeds | None) -> dict[str, Any]:
     train, model = found.train, found.train.model
     stations, springs = train.station_names, np.asarray(model.stiffness)
     return {
@@ -356,9 +401,19 @@ def _facts(found: TorsionModes, used: tuple[float, float] | None) -> dict[str, A
         ],
         "modes": [_mode(found, k, used) for k in range(len(found.omega))],
         "crossings": [_crossing(one) for one in found.crossings],
+        "unstable": [
+            {"speeds": _ends(low, high), "zone": exact.zone.name((k,))}
+            for k, (low, high) in enumerate(zip(exact.lowest, exact.highest, strict=True))
+        ]
+        if exact is not None
+        else None,
         "residual": found.residual,
         "assumed": train.assumed,
     }
+
+
+def _ends(low: float, high: float) -> Quantity:
+    return Quantity(np.asarray([low, high]), "angular_speed")
 
 
 def _mode(found: TorsionModes, k: int, used: tuple[float, float] | None) -> dict[str, Any]:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 
 import numpy as np
 
+from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.paths import place, read, with_values
@@ -16,7 +18,7 @@ from cardan.maths.arrays import Array, ArrayLike
 from cardan.questions.motion.motion import initial_phases
 from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
-from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained
+from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained, torsional_train
 from cardan.questions.torsion.steady.run_stability import Verdict, Zone
 from cardan.questions.torsion.steady.torsion_response import (
     Progress,
@@ -45,6 +47,9 @@ RANGE, TRIALS, ROUNDS = (1e-5, 1.0), 11, 3
 
 PROVING, LITTLE = 0.5, 8e6
 """Share of the work after which stability over the speeds is proved, and how much that may take beside a map."""
+
+AROUND, SLOWEST = 0.1, 0.05
+"""Share by which speeds are looked at beyond those in use, and of the highest below which none is."""
 
 PACE = 0.001
 """Seconds that a point of a map takes, about."""
@@ -209,6 +214,43 @@ def stability(
     )
 
 
+@lru_cache(maxsize=64)
+def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
+    """Return the unstable ranges at the speeds in use and a tenth beyond, None where the drive names no speed.
+
+    Of a line too stiff for a proof the only speed in use is judged by itself, and the rest is unproved.
+    Raises InputError: what the torsional model misses, each with the key to add.
+    """
+    used = used_speeds(drive.duty)
+    if used is None or used[1] <= 0.0:
+        return None
+    sense = -1.0 if (drive.duty.speed or 1.0) < 0.0 else 1.0
+    high = (1.0 + AROUND) * used[1]
+    low = max((1.0 - AROUND) * used[0], SLOWEST * high)
+    train = torsional_train(drive, drive.duty, speed=sense * low, pieces=pieces)
+    between = (low, high) if sense > 0.0 else (-high, -low)
+    proof = _proved(drive, between, train, pieces, LITTLE, None)
+    if proof.looked_at or used[0] < used[1]:
+        return proof
+    at = np.asarray([sense * used[0]])
+    model = loaded_model(drive, drive.duty, at, pieces=pieces, disturbed=True)[1]
+    return proof.judged_at(floquet_map(parted(model)[0], speed=at).floquet, used[0])
+
+
+def _proved(
+    drive: Drive,
+    between: tuple[float, float],
+    train: TorsionalTrain,
+    pieces: int,
+    work: float,
+    progress: Progress | None,
+) -> ProvedSpeeds:
+    def build(speeds: Array) -> TorsionalModel:
+        return parted(loaded_model(drive, drive.duty, speeds, pieces=pieces, disturbed=True)[1])[0]
+
+    return proved_speeds(build, *between, breaks=order_jumps(train.model), work=work, progress=progress)
+
+
 def _least_loss(variants: _Variants) -> float:
     """Return the loss factor of all shafts from which the drive is stable at its own point; nan where none is enough.
 
@@ -332,13 +374,8 @@ class _Variants:
         low, high = float(np.min(self.speeds)), float(np.max(self.speeds))
         if self.speeding is None or not low < high or low * high < 0.0:
             return None
-
-        def build(speeds: Array) -> TorsionalModel:
-            return parted(loaded_model(self.drive, self.drive.duty, speeds, pieces=self.pieces, disturbed=True)[1])[0]
-
-        jumps = order_jumps(self.train.model)
         work = LITTLE if self.others else WORK
-        return proved_speeds(build, low, high, breaks=jumps, work=work, progress=progress)
+        return _proved(self.drive, (low, high), self.train, self.pieces, work, progress)
 
     def at(self, index: Sequence[Array], count: int) -> tuple[TorsionalModel, Array]:
         """Return the models (b,) and speeds (b,) of points by their places on the axes."""
