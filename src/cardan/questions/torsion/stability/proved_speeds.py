@@ -117,23 +117,32 @@ class ProvedSpeeds:
         found = np.flatnonzero((self.lowest <= high) & (low <= self.highest))
         return found[np.argsort(-self.growth_rate[found], kind="stable")]
 
-    def judged_at(self, found: Floquet, speed: float) -> ProvedSpeeds:
-        """Return the same with one speed [rad/s] judged, of ranges that were not looked at."""
-        grows = np.flatnonzero(found.verdict == Verdict.UNSTABLE)
-        known = np.asarray(found.verdict != Verdict.UNKNOWN).all()
-        beside = [[self.looked[0], speed], [speed, self.looked[1]]]
-        zone = Zone(**{one.name: getattr(found.zone, one.name)[grows] for one in fields(Zone)})
-        edge = np.full(len(grows), speed)
+    def judged_at(self, found: Floquet, speed: Array) -> ProvedSpeeds:
+        """Return the same with some speeds (n,) [rad/s] judged by themselves, found (n,): ranges of no width."""
+        known = found.verdict != Verdict.UNKNOWN
+        inside = np.any((self.lowest <= speed[:, None]) & (speed[:, None] <= self.highest), axis=-1)
+        more = np.flatnonzero((found.verdict == Verdict.UNSTABLE) & ~inside)
+        order = np.argsort(np.concatenate([self.lowest, speed[more]]), kind="stable")
+
+        def joined(own: Array, others: Array) -> Array:
+            whole: Array = np.concatenate([own, others[more]])[order]
+            return whole
+
+        unproved = self.unproved
+        if not self.looked_at and known.any():
+            cuts = np.unique([self.looked[0], *speed[known], self.looked[1]])
+            unproved = np.stack([cuts[:-1], cuts[1:]], axis=-1)
+        names = [one.name for one in fields(Zone)]
         return replace(
             self,
-            lowest=edge,
-            highest=edge,
-            worst=edge,
-            growth_rate=found.growth_rate[grows],
-            kind=found.kind[grows],
-            zone=zone,
-            unproved=np.asarray(beside) if known else self.unproved,
-            samples=len(found.verdict) if known else 0,
+            lowest=joined(self.lowest, speed),
+            highest=joined(self.highest, speed),
+            worst=joined(self.worst, speed),
+            growth_rate=joined(self.growth_rate, found.growth_rate),
+            kind=joined(self.kind, found.kind),
+            zone=Zone(**{name: joined(getattr(self.zone, name), getattr(found.zone, name)) for name in names}),
+            unproved=unproved,
+            samples=self.samples + int(known.sum()),
         )
 
     def margin(self, speed: float) -> float:

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from cardan.drive.conditions import used_speeds
+from cardan.drive.conditions import held_speeds, used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.paths import place, read, with_values
@@ -218,7 +218,7 @@ def stability(
 def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     """Return the unstable ranges at the speeds in use and a tenth beyond, None where the drive names no speed.
 
-    Of a line too stiff for a proof the only speed in use is judged by itself, and the rest is unproved.
+    Speeds that are held are judged by themselves too: where a line is too stiff for a proof, and of several motions.
     Raises InputError: what the torsional model misses, each with the key to add.
     """
     used = used_speeds(drive.duty)
@@ -230,11 +230,11 @@ def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     train = torsional_train(drive, drive.duty, speed=sense * low, pieces=pieces)
     between = (low, high) if sense > 0.0 else (-high, -low)
     proof = _proved(drive, between, train, pieces, LITTLE, None)
-    if proof.looked_at or used[0] < used[1]:
+    held = np.asarray(held_speeds(drive.duty))
+    if not held.size:
         return proof
-    at = np.asarray([sense * used[0]])
-    model = loaded_model(drive, drive.duty, at, pieces=pieces, disturbed=True)[1]
-    return proof.judged_at(floquet_map(parted(model)[0], speed=at).floquet, used[0])
+    model = loaded_model(drive, drive.duty, sense * held, pieces=pieces, disturbed=True)[1]
+    return proof.judged_at(floquet_map(parted(model)[0], speed=sense * held).floquet, held)
 
 
 def _proved(
