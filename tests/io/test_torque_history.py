@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
@@ -38,6 +39,14 @@ def test_the_rows_go_to_a_file_where_there_is_none(tmp_path: Path) -> None:
     (tmp_path / "other" / "load.csv").write_text("time_s,torque_Nm\n0,1\n2,4\n")
     with pytest.raises(InputError, match=r"duty\.load\.file: .* holds something else"):
         save(drive, tmp_path / "other" / "drive.toml")
+
+
+def test_a_column_of_speeds_is_read_and_written(tmp_path: Path) -> None:
+    drive = load(written(tmp_path, "time_s,torque_Nm,speed_rpm\n0,1,60\n2,3,120\n"))
+    assert drive.duty.load.speeds == pytest.approx((2.0 * math.pi, 4.0 * math.pi))
+    (tmp_path / "other").mkdir()
+    save(drive, tmp_path / "other" / "drive.toml")
+    assert load(tmp_path / "other" / "drive.toml").duty.load.speeds == pytest.approx(drive.duty.load.speeds)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from cardan.units import plain, quantity
 
-from .machine import Engine, MachineTorque, RunUp
+from .machine import Engine, Event, MachineTorque, RunUp
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -58,9 +58,12 @@ class Case:
 class History:
     """Measured torque over time from a CSV file, straight between its rows."""
 
-    file: str = plain(doc="CSV file beside the drive file with the columns time_s and torque_Nm")
+    file: str = plain(
+        doc="CSV file beside the drive file with the columns time_s and torque_Nm, and speed_rpm where it was measured"
+    )
     times: tuple[float, ...] = ()
     torques: tuple[float, ...] = ()
+    speeds: tuple[float, ...] = ()  # of the input; empty where the file has none
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -149,6 +152,7 @@ class Duty:
     torques: tuple[MachineTorque, ...] = plain((), doc="further torques on stations, positive with the rotation")
     run_up: RunUp | None = plain(None, doc="change of the input speed at a steady rate")
     starts: float | None = plain(None, doc="run-ups, each as `run_up`, in the life asked for", above=0.0)
+    events: tuple[Event, ...] = plain((), doc="what happens beside them in the life asked for: clutches, load steps")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

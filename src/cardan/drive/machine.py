@@ -77,11 +77,14 @@ class TorqueHistory(MachineTorque):
     file: str = plain(doc="CSV file beside the drive file with the columns time_s and torque_Nm")
     times: tuple[float, ...] = ()
     torques: tuple[float, ...] = ()
+    speeds: tuple[float, ...] = ()  # measured beside it; no torque follows from them
 
     def problems(self) -> Iterator[Problem]:
         """Yield what is wrong with the rows of the file, once they are read."""
         if self.times or self.torques:
             for problem in _table_problems("times", self.times, "torques", self.torques):
+                yield Problem("file", problem.message)
+            for problem in _table_problems("times", self.times, "speeds", self.speeds) if self.speeds else ():
                 yield Problem("file", problem.message)
 
 
@@ -214,3 +217,23 @@ class RunUp:
     start: float = quantity("angular_speed", 0.0, doc="input speed before")
     end: float = quantity("angular_speed", doc="input speed after")
     duration: float = quantity("time", doc="how long it takes", above=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Event:
+    """What happens again and again in the life asked for, each time with the same torques in time."""
+
+    kind: str = plain(
+        doc="`clutch`: a clutch at the input closes while the other side turns at the speed of the duty; `load_step`: "
+        "the load at the output changes from the torque of the duty",
+        choices=("clutch", "load_step"),
+    )
+    name: str = plain("", doc="what to call it")
+    count: float = plain(doc="how often in the life asked for", above=0.0)
+    torque: float = quantity(
+        "torque",
+        doc="of a clutch what it passes on while it slips, fully closed; of a load step the torque at the output after",
+        low=0.0,
+    )
+    duration: float = quantity("time", 0.0, doc="time in which clutch or load get to this torque", low=0.0)
+    start: float = quantity("angular_speed", 0.0, doc="speed of the drive before a clutch closes", low=0.0)

@@ -36,6 +36,15 @@ class Pendulum:
     radius: float = quantity("length", doc="distance of its pivot from the axis of the shaft", above=0.0)
     length: float = quantity("length", doc="distance of its centre of mass from its pivot", above=0.0)
     count: int = plain(1, doc="how many of them", low=1)
+    stop_angle: float | None = quantity(
+        "angle", None, doc="swing to either side at which one meets its stop; swings freely when not given", above=0.0
+    )
+    stop_stiffness: float | None = quantity(
+        "turning_stiffness", None, doc="stiffness of the stop of one pendulum, about its pivot", above=0.0
+    )
+    stop_damping: float = quantity(
+        "turning_damping", 0.0, doc="damping of the stop of one pendulum, while it touches", low=0.0
+    )
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

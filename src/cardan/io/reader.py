@@ -89,8 +89,8 @@ def _with_rows(folder: Path | Enclosed, thing: Any, here: Place) -> Any:
         if isinstance(thing, Table):
             times, shifts = read_shifts(folder / thing.file)
             return replace(thing, times=times, shifts=shifts)
-        times, torques = read_torques(folder / thing.file)
-        return replace(thing, times=times, torques=torques)
+        times, torques, speeds = read_torques(folder / thing.file)
+        return replace(thing, times=times, torques=torques, speeds=speeds)
     except InputError as error:
         file = here.key("file")
         at = file if file.path in here.found.spelled else Place(here.found, here.written, file.path)

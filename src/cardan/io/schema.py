@@ -17,7 +17,7 @@ from cardan.drive.fields.keys import KINDS, NAMED, written
 from cardan.drive.inspection import Inspection
 from cardan.drive.joint_parts import Needles, Rating, Section, Yoke
 from cardan.drive.joints import JOINTS
-from cardan.drive.machine import LAWS, Engine, EngineHarmonic, RunUp
+from cardan.drive.machine import LAWS, Engine, EngineHarmonic, Event, RunUp
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
 from cardan.drive.pose import Pose
@@ -207,6 +207,7 @@ def sections() -> tuple[tuple[str, type], ...]:
         ("`harmonics` of an engine", EngineHarmonic),
         *((f'`motor`, `load` or `[[duty.torques]]` with `kind = "{name}"`', cls) for name, cls in LAWS.items()),
         ("`run_up` of the duty", RunUp),
+        ("`[[duty.events]]`", Event),
         ("`[limits]`", Limits),
         ("`[steering]`", Steering),
         *((f'`[[movements]]` with `kind = "{name}"`', cls) for name, cls in MOVEMENTS.items()),

@@ -26,10 +26,14 @@ def read_shifts(path: Path) -> tuple[tuple[float, ...], tuple[Point, ...]]:
     return tuple(row[0] for row in rows), tuple((x, y, z) for _time, x, y, z in rows)
 
 
-def read_torques(path: Path) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return times [s] and torques [N·m] of a CSV file with the columns time and torque, each with its unit."""
-    rows = read_rows(path, (("time", "time"), ("torque", "torque")), least=2)
-    return tuple(row[0] for row in rows), tuple(row[1] for row in rows)
+def read_torques(path: Path) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
+    """Return times [s], torques [N·m] and speeds [rad/s] of a CSV file with the columns time, torque and maybe speed.
+
+    Each with its unit in the title; without a column of speeds these are empty.
+    """
+    rows = read_rows(path, (("time", "time"), ("torque", "torque")), least=2, besides=(("speed", "angular_speed"),))
+    times, torques, *more = zip(*rows, strict=True)
+    return times, torques, more[0] if more else ()
 
 
 def keep_rows(drive: Drive, folder: Path) -> None:
@@ -70,7 +74,7 @@ def _rows(thing: Table | TorqueHistory | History, path: Path) -> bool:
     """Tell whether a file holds the rows of a thing."""
     if isinstance(thing, Table):
         return read_shifts(path) == (thing.times, thing.shifts)
-    return read_torques(path) == (thing.times, thing.torques)
+    return read_torques(path) == (thing.times, thing.torques, thing.speeds)
 
 
 def _text(thing: Table | TorqueHistory | History) -> str:
@@ -79,8 +83,9 @@ def _text(thing: Table | TorqueHistory | History) -> str:
         rows: list[tuple[float, ...]] = [(t, *shift) for t, shift in zip(thing.times, thing.shifts, strict=True)]
         head = "time_s,x_m,y_m,z_m\n"
     else:
-        rows = list(zip(thing.times, thing.torques, strict=True))
-        head = "time_s,torque_Nm\n"
+        columns = [thing.times, thing.torques, *([thing.speeds] if thing.speeds else [])]
+        rows = list(zip(*columns, strict=True))
+        head = "time_s,torque_Nm,speed_rad_s\n" if thing.speeds else "time_s,torque_Nm\n"
     return head + "".join(",".join(map(repr, row)) + "\n" for row in rows)
 
 
@@ -91,10 +96,13 @@ MAX_BYTES = 100_000_000  # larger files are refused; no more of them is read
 NUMBERS = ("", mark("a number"), mark("two numbers"), mark("three numbers"), mark("four numbers"))
 
 
-def read_rows(path: Path, columns: Sequence[tuple[str, str]], *, least: int) -> list[tuple[float, ...]]:
+def read_rows(
+    path: Path, columns: Sequence[tuple[str, str]], *, least: int, besides: Sequence[tuple[str, str]] = ()
+) -> list[tuple[float, ...]]:
     """Return the rows of a CSV file in SI.
 
     columns: word and dimension of every column wanted, the times first; its title is the word with a unit.
+    besides: those that are read too where they are there, behind the others.
     """
     try:
         with path.open("rb") as stream:
@@ -111,6 +119,8 @@ def read_rows(path: Path, columns: Sequence[tuple[str, str]], *, least: int) -> 
         raise refuse(str(path.name), _("is not UTF-8 text")) from None
     if not rows:
         raise refuse(str(path.name), _("is empty"))
+    titles = {title.strip() for title in rows[0]}
+    columns = (*columns, *(one for one in besides if titles & _spellings(*one).keys()))
     places = _places(rows[0], columns, path.name)
     problems: list[Problem] = []
     found: list[tuple[float, ...]] = []
@@ -136,13 +146,18 @@ def read_rows(path: Path, columns: Sequence[tuple[str, str]], *, least: int) -> 
     return found
 
 
+def _spellings(word: str, dimension: str) -> dict[str, float]:
+    """Return the titles that a column may have, each with the factor of its unit to SI."""
+    return {f"{word}_{unit}": factor for unit, factor in DIMENSIONS[dimension].items()}
+
+
 def _places(header: list[str], columns: Sequence[tuple[str, str]], name: str) -> list[tuple[int, float]]:
     """Return place and factor to SI of every column wanted."""
     titles = [title.strip() for title in header]
     found: list[tuple[int, float]] = []
     problems: list[Problem] = []
     for word, dimension in columns:
-        spellings = {f"{word}_{unit}": factor for unit, factor in DIMENSIONS[dimension].items()}
+        spellings = _spellings(word, dimension)
         column = next((k for k, title in enumerate(titles) if title in spellings), None)
         if column is None:
             wanted = _(" or ").join(spellings)

@@ -108,6 +108,18 @@ def test_a_measured_torque_is_its_equivalent_one():
     np.testing.assert_allclose(found.equivalent_torque, found.history.equivalent, rtol=1e-9)
 
 
+def test_speeds_measured_beside_a_torque_are_those_of_its_levels():
+    """Half the time 400 N·m at 60 rad/s, half 800 N·m at 20 rad/s, either way round: two parts of a duty cycle."""
+    times, torques, speeds = (0.0, 10.0, 10.0 + 1e-7, 20.0), (400.0, 400.0, 800.0, 800.0), (60.0, 60.0, -20.0, -20.0)
+    history = History(file="x.csv", times=times, torques=torques, speeds=speeds)
+    parts = tuple(Block(torque=torque, speed=speed, share=0.5) for torque, speed in ((400.0, 60.0), (800.0, 20.0)))
+    found = life(SPATIAL, Duty(speed=100.0, torque_history=history))
+    wanted = life(SPATIAL, Duty(speed=100.0, blocks=parts))
+    np.testing.assert_allclose(found.joints, wanted.joints, rtol=1e-5)
+    held = life(SPATIAL, Duty(speed=100.0, torque_history=replace(history, speeds=())))
+    assert np.all(held.joints < 0.9 * found.joints)
+
+
 def test_shocks_reliability_and_demand():
     duty = Duty(speed=100.0, torque=500.0, life=4000 * HOUR)
     plain = life(one(), duty)

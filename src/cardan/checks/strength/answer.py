@@ -19,6 +19,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
 from cardan.texts import _, mark, plural
 
+from .event_damage import cheapest, event_damages, ramp_damages
 from .figure import strength_figures
 from .omitted import LeftOut, Vibration
 from .strength import LITTLE, Strength, left_out, strength
@@ -58,7 +59,7 @@ def ask(drive: Drive, *, known: Catalogue | None = None) -> Strength | None:
     found = strength(drive, known=known)
     if not found.binding or not found.torque > 0.0:
         return None
-    return replace(found, left_out=left_out(drive, found))
+    return replace(found, left_out=left_out(drive, found), events=event_damages(drive), ramps=ramp_damages(drive))
 
 
 def otherwise(drive: Drive) -> str:
@@ -112,6 +113,7 @@ def _tables(drive: Drive, result: Strength) -> Iterator[Table]:
         yield verdict_table(order, _("Limits of the parts"), torque=result.torque)
     yield _shafts(drive, result)
     yield _joints(drive, result)
+    yield from _events(result)
     missing = [one for one in result.verdicts if not one.run]
     if missing:
         yield missing_table(missing, "full" if result.judged else "brief")
@@ -156,6 +158,56 @@ def _shafts(drive: Drive, result: Strength) -> Table:
         ),
         note=_counted(result),
     )
+
+
+def _events(result: Strength) -> Iterator[Table]:
+    """Yield what starts and events cost, and what a start costs with other times of its run-up."""
+    for name, title, rows in (
+        ("events", _("Damage by starts and events"), result.events),
+        ("ramps", _("Run-ups of other times"), result.ramps),
+    ):
+        if not rows:
+            continue
+        best = cheapest(rows) if name == "ramps" else None
+        head = Column(key="name", heading=_("event"), values=[one.name for one in rows], left=True)
+        if best is not None:
+            words = [_("least damage") if k == best else "" for k in range(len(rows))]
+            head = Column(key="choice", heading=_("choice"), values=words, left=True)
+        yield Table(
+            name=name,
+            title=title,
+            records=True,
+            columns=(
+                head,
+                Column(
+                    key="time", heading=_("time"), values=[one.duration for one in rows], dimension="time", trim=True
+                ),
+                Column(key="count", heading=_("count"), values=[Quantity(one.count, trim=True) for one in rows]),
+                Column(key="shaft", heading=_("shaft"), values=[one.shaft for one in rows]),
+                Column(
+                    key="torque", heading=_("largest torque"), values=[one.torque for one in rows], dimension="torque"
+                ),
+                Column(
+                    key="damage",
+                    heading=_("damage per event"),
+                    values=[one.damage for one in rows],
+                    dimension="share",
+                    digits=3,
+                ),
+                Column(
+                    key="life_used",
+                    heading=_("in the life"),
+                    values=[one.share for one in rows],
+                    dimension="share",
+                    digits=3,
+                ),
+            ),
+            tones=["good" if k == best else "plain" for k in range(len(rows))] if best is not None else (),
+            note=_("Each in time, its cycles by rainflow; of the shaft that it tires most.")
+            if best is None
+            else _("A faster run-up asks more of what drives it; at no damage the least torque counts."),
+            depth="brief" if best is None else "full",
+        )
 
 
 def _cases(key: str, heading: str, names: Sequence[str]) -> Iterator[Column]:
@@ -229,6 +281,7 @@ def _remarks(result: Strength) -> Iterator[Remark]:
         )
         yield Remark(text=text.format(count=left), tone="warning")
         yield Remark(text=_("Which keys it lacks:"), command=("cardan", "check", FILE, "--missing"), tone="next")
+    yield from _ramp(result)
     counted = result.vibration is not None or (out is not None and out.journal is not None)
     if result.dynamic_factor > LITTLE and not counted:
         text = _("Masses and friction raise the largest couple of a cross by {more}, which the stresses leave out.")
@@ -249,6 +302,18 @@ def _remarks(result: Strength) -> Iterator[Remark]:
     if result.enough:
         text = _("Every limit on its own, with where it comes from:")
         yield Remark(text=text, command=("cardan", "strength", FILE, "--csv"), tone="next")
+
+
+def _ramp(result: Strength) -> Iterator[Remark]:
+    """Yield which run-up costs least where it is another one than that of the duty."""
+    if not result.ramps or not result.events:
+        return
+    best, now = result.ramps[cheapest(result.ramps)], result.events[0]
+    if best.damage < now.damage:
+        text = _("A run-up in {time} would cost {least} of the fatigue life per start, that in {own} costs {damage}.")
+        values = {"time": Quantity(best.duration, "time", trim=True), "own": Quantity(now.duration, "time", trim=True)}
+        shares = {"least": Quantity(best.damage, "share", 3), "damage": Quantity(now.damage, "share", 3)}
+        yield Remark(text=say(text, **values, **shares))
 
 
 def _failed(result: Strength) -> Iterator[Remark]:

@@ -15,13 +15,14 @@ from cardan.checks.load_case import Case
 from cardan.checks.verdict import Verdict
 from cardan.drive.drive import Drive
 from cardan.drive.duty import History
+from cardan.drive.machine import Event, RunUp
 from cardan.drive.shaft import Notch
 from cardan.errors import InputError
 from cardan.formulas.shaft_strength import Fatigue, fatigue_cycles, shaft_fatigue
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import foremost_of
-from cardan.questions.life.rainflow import Cycles, Levels, rainflow, time_at_level
-from cardan.questions.torsion.transient.torsion_transient import run_up_torque
+from cardan.questions.life.rainflow import Cycles, Levels, rainflow, speed_at_level, time_at_level
+from cardan.questions.torsion.transient.torsion_transient import event_torque, run_up_torque
 from cardan.texts import _, mark
 
 from .section import Section, sections
@@ -100,7 +101,11 @@ def spectrum(design: Design, k: int, section: Section) -> Spectrum:
     spent = levels.share > 0.0
     size = np.abs(levels.value[spent])
     speed = design.value("duty.speed")
-    turns = np.abs(np.asarray(0.0 if speed is None else speed))[..., None] / (2.0 * math.pi)
+    if history.speeds:
+        speed = speed_at_level(history.times, history.torques, history.speeds, levels.edge)[spent]
+        turns = speed / (2.0 * math.pi)
+    else:
+        turns = np.abs(np.asarray(0.0 if speed is None else speed))[..., None] / (2.0 * math.pi)
     parts = (
         (high * np.abs(counted.mean), 0.5 * high * counted.range, 0.0 * bending, counted.count / _duration(design)),
         (0.5 * (high + low) * size, 0.5 * (high - low) * size, bending * size, turns * levels.share[spent]),
@@ -169,18 +174,21 @@ def fatigue_life(design: Design, k: int) -> Array:
     return found
 
 
-def start_damage(design: Design, k: int) -> Array:
-    """Return the damage that one start does to the worst stretch of a shaft, counted from 0, array (...)."""
-    every = [_of_start(design, k, one) for one in sections(design, k)]
+def start_damage(design: Design, k: int, event: Event | RunUp | None = None) -> Array:
+    """Return the damage that one start or event does to the worst stretch of a shaft, counted from 0, array (...).
+
+    event: that of the run-up of the duty when not given.
+    """
+    every = [_of_start(design, k, one, event) for one in sections(design, k)]
     return np.asarray(np.max(np.stack(np.broadcast_arrays(*every)), axis=0))
 
 
-def _of_start(design: Design, k: int, section: Section) -> Array:
-    """Return the damage that one start does to a stretch of a shaft: its cycles by rainflow, with secondary couples.
+def _of_start(design: Design, k: int, section: Section, event: Event | RunUp | None) -> Array:
+    """Return the damage that one event does to a stretch of a shaft: its cycles by rainflow, with secondary couples.
 
     The couples are those of the larger torque of each cycle.
     """
-    found = start_cycles(replace(design.drive, poses=()))
+    found = start_cycles(replace(design.drive, poses=()), event)
     if isinstance(found, tuple) or k not in found:
         return np.zeros(design.shape)
     cycles, plain = found[k], design.loaded[0]
@@ -191,14 +199,19 @@ def _of_start(design: Design, k: int, section: Section) -> Array:
 
 
 @lru_cache(maxsize=32)
-def start_cycles(drive: Drive) -> dict[int, Cycles] | tuple[str, ...]:
-    """Return the cycles of the torque of every shaft that can twist in one start; or the paths that it lacks."""
+def start_cycles(drive: Drive, event: Event | RunUp | None = None) -> dict[int, Cycles] | tuple[str, ...]:
+    """Return the cycles of the torque of every shaft that can twist in one event; or the paths that it lacks.
+
+    event: a run-up is one in place of that of the duty, which counts when nothing is given.
+    """
+    if isinstance(event, RunUp):
+        drive = replace(drive, duty=replace(drive.duty, run_up=event))
     try:
-        torque, shafts = run_up_torque(drive)
+        torque, shafts = event_torque(drive, event) if isinstance(event, Event) else run_up_torque(drive)
     except InputError as error:
         return tuple(problem.field for problem in error.problems)
     if not np.all(np.isfinite(torque)):
-        return ("duty.run_up",)
+        return ("duty.events" if isinstance(event, Event) else "duty.run_up",)
     worst = {
         k: max((e for e, own in enumerate(shafts) if own == k), key=lambda e: np.ptp(torque[:, e])) for k in shafts
     }
@@ -206,11 +219,21 @@ def start_cycles(drive: Drive) -> dict[int, Cycles] | tuple[str, ...]:
 
 
 def _of_starts(design: Design, k: int, section: Section) -> Array:
-    """Return the damage a second of the starts in the life asked for."""
-    starts, life = design.value("duty.starts"), design.value("duty.life")
-    if starts is None or life is None:
+    """Return the damage a second of the starts and events in the life asked for."""
+    life = design.value("duty.life")
+    if life is None:
         return np.zeros(design.shape)
-    return np.asarray(starts) / np.asarray(life) * _of_start(design, k, section)
+    return sum(
+        (np.asarray(count) / np.asarray(life) * _of_start(design, k, section, one) for one, count in events_of(design)),
+        np.zeros(design.shape),
+    )
+
+
+def events_of(design: Design) -> tuple[tuple[Event | None, Array], ...]:
+    """Return what happens again and again with its count in the life asked for; None stands for the run-up."""
+    starts = design.value("duty.starts")
+    own = ((one, design.value(f"duty.events[{k}].count")) for k, one in enumerate(design.duty.events))
+    return (*(() if starts is None else ((None, starts),)), *own)
 
 
 def _of_turns(design: Design, k: int, section: Section) -> Array:

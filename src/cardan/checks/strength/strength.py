@@ -46,6 +46,7 @@ from . import (
     twist,
     yoke_strength,
 )
+from .event_damage import EventDamage
 from .omitted import Journal, LeftOut, Vibration
 from .part_strength import JointStrength, ShaftStrength, joint_strength, shaft_strength
 from .section import sections
@@ -111,6 +112,8 @@ class Strength:
         What the stresses leave out, where that was asked.
     case : str
         Load case that has this torque; empty where there is one only.
+    events, ramps : tuple of EventDamage
+        What starts and events cost, and a start with run-ups of other times, where that was asked.
     """
 
     cases: tuple[Case, ...]
@@ -125,6 +128,8 @@ class Strength:
     extrapolated: tuple[int, ...] = ()
     left_out: LeftOut | None = None
     case: str = ""
+    events: tuple[EventDamage, ...] = ()
+    ramps: tuple[EventDamage, ...] = ()
 
     @property
     def judged(self) -> tuple[Verdict, ...]:
@@ -300,6 +305,9 @@ def scaled(duty: Duty, factor: float) -> Duty:
         harmonics=tuple(replace(one, torque=factor * one.torque) for one in duty.harmonics),
         blocks=tuple(replace(one, torque=factor * one.torque) for one in duty.blocks),
         cases=tuple(replace(one, torque=factor * one.torque) for one in duty.cases),
+        events=tuple(
+            replace(one, torque=factor * one.torque) if one.kind == "load_step" else one for one in duty.events
+        ),
         torque_history=None
         if history is None
         else replace(history, torques=tuple(factor * one for one in history.torques)),

@@ -7,11 +7,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from cardan.answers.quantity import Quantity, say
+from cardan.answers.quantity import Joined, Quantity, say
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.strength.event_damage import event_name
 from cardan.checks.strength.section import sections
-from cardan.checks.strength.shaft_life import STRENGTHS, fatigue_life, fatigue_variables, start_cycles, start_damage
+from cardan.checks.strength.shaft_life import (
+    STRENGTHS,
+    events_of,
+    fatigue_life,
+    fatigue_variables,
+    start_cycles,
+    start_damage,
+)
 from cardan.checks.verdict import Verdict
 from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.texts import _, mark
@@ -21,31 +29,42 @@ from .line import NO_MODEL
 
 def _judge(design: Design, k: int) -> Iterator[Verdict]:
     found = list(sections(design, k))
-    asked = design.value("duty.starts") is not None
-    if not asked or not found or design.drive.shafts[k].layup is not None:
+    events = events_of(design)
+    if not events or not found or design.drive.shafts[k].layup is not None:
         return
     strengths = [section.of_material(name) for section in found for name in STRENGTHS]
     lacking = (*design.missing("duty.life", *strengths), *design.unloaded)
     if not has_torsion(design.drive):
         lacking = (*NO_MODEL, *lacking)
-    cycles = () if lacking else start_cycles(replace(design.drive, poses=()))
-    if lacking or isinstance(cycles, tuple):
-        yield Verdict(missing=(*lacking, *(cycles if isinstance(cycles, tuple) else ())))
+    every = [] if lacking else [start_cycles(replace(design.drive, poses=()), one) for one, _count in events]
+    short = [path for cycles in every if isinstance(cycles, tuple) for path in cycles]
+    if lacking or short:
+        yield Verdict(missing=(*lacking, *dict.fromkeys(short)))
         return
-    if k not in cycles:
+    if not any(k in cycles for cycles in every):
         return
-    one, starts = start_damage(design, k), design.value("duty.starts")
-    share = Quantity(float(np.max(one)), "share", 3)
+    notes = [
+        say(
+            _("{share} of the fatigue life per start, {count} starts")
+            if one is None
+            else _("{share} per event ({event}), {count} of them"),
+            share=Quantity(float(np.max(start_damage(design, k, one))), "share", 3),
+            count=Quantity(float(np.max(count)), trim=True),
+            event=event_name(one),
+        )
+        for one, count in events
+    ]
     yield Verdict(
         value=np.asarray(design.value("duty.life")) / fatigue_life(design, k),
         limit=1.0,
-        source=_("run-up in time, rainflow by ASTM E1049, Palmgren-Miner; S-N line of Shigley chapter 6"),
-        design_variables=(*fatigue_variables(design, k), "duty.starts", "duty.life"),
-        note=say(
-            _("{share} of the fatigue life per start, {count} starts"),
-            share=share,
-            count=Quantity(float(np.max(starts)), trim=True),
+        source=_("starts and events in time, rainflow by ASTM E1049, Palmgren-Miner; S-N line of Shigley chapter 6"),
+        design_variables=(
+            *fatigue_variables(design, k),
+            *(() if design.value("duty.starts") is None else ("duty.starts",)),
+            *(f"duty.events[{j}].count" for j in range(len(design.duty.events))),
+            "duty.life",
         ),
+        note=Joined(notes, between="; ") if len(notes) > 1 else notes[0],
     )
 
 

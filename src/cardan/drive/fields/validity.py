@@ -16,6 +16,7 @@ from cardan.drive.machine import MachineTorque, TorqueHistory
 from cardan.drive.material import Material
 from cardan.drive.movement import Movement
 from cardan.drive.shaft import Shaft, Spline
+from cardan.drive.station import Pendulum
 from cardan.drive.torsional_layout import is_elastic, line_length, shaft_places
 from cardan.errors import Problem
 from cardan.reading.ranges import HUGE
@@ -278,7 +279,7 @@ def duty_problems(drive: Described) -> Iterator[Problem]:
         if any(case.share is not None or case.cycles is not None for case in duty.cases):
             yield Problem("duty.torque_history", _("cases give the duty cycle already"), "inconsistent")
         if history.times or history.torques:
-            law = TorqueHistory(file=history.file, times=history.times, torques=history.torques)
+            law = TorqueHistory(file=history.file, times=history.times, torques=history.torques, speeds=history.speeds)
             for problem in law.problems():
                 yield Problem("duty.torque_history", problem.message)
     for i, joint in enumerate(drive.joints):
@@ -372,6 +373,8 @@ def _station_problems(drive: Described, lengths: dict[int, float]) -> Iterator[P
         if station.absorber is not None and not (station.absorber.stiffness or station.absorber.damping):
             text = _("missing; or damping, for a damper without spring: nothing holds the mass")
             yield Problem(f"{path}.absorber.stiffness", text)
+        if station.pendulum is not None:
+            yield from _stop_problems(station.pendulum, f"{path}.pendulum")
         if station.name in names or station.name in ENDS:
             text = _("{name} names an end of the drive") if station.name in ENDS else _("{name} names two stations")
             yield Problem(f"{path}.name", text.format(name=repr(station.name)))
@@ -385,6 +388,16 @@ def _station_problems(drive: Described, lengths: dict[int, float]) -> Iterator[P
             yield Problem(f"stations[{k}].position", text.format(number=number))
         if not (loose and placed):
             yield from _order_problems(drive, number, lengths.get(number))
+
+
+def _stop_problems(pendulum: Pendulum, path: str) -> Iterator[Problem]:
+    """Yield stops of which half is said."""
+    if pendulum.stop_angle is not None and pendulum.stop_stiffness is None:
+        yield Problem(f"{path}.stop_stiffness", _("missing; the stop at stop_angle needs it"), "missing")
+    if pendulum.stop_angle is None:
+        for name, given in (("stop_stiffness", pendulum.stop_stiffness), ("stop_damping", pendulum.stop_damping)):
+            if given:
+                yield Problem(f"{path}.{name}", _("counts only with stop_angle, which is not given"))
 
 
 def _order_problems(drive: Described, number: int, length: float | None) -> Iterator[Problem]:
@@ -445,6 +458,14 @@ def _torque_problems(drive: Described) -> Iterator[Problem]:
         yield Problem("duty.run_up.end", _("is the speed before; a run-up needs two"))
     if duty.starts is not None and duty.run_up is None:
         yield Problem("duty.run_up", _("missing; duty.starts counts run-ups"), "missing")
+    for k, event in enumerate(duty.events):
+        for name, value in (("speed", duty.speed), ("torque", duty.torque)):
+            if value is None:
+                yield Problem(f"duty.{name}", _("missing; an event starts from it"), "missing")
+        if event.kind == "load_step" and event.start:
+            yield Problem(
+                f"duty.events[{k}].start", _("belongs to a clutch; a load step comes at the speed of the duty")
+            )
 
 
 # What the sizes, materials and figures must satisfy that strength and upkeep go by.

@@ -27,7 +27,7 @@ from .duty_cycle import combined_life, equivalent_torque
 from .joint_bearings import JointBearings, Missing, joint_bearings
 from .life_cautions import cautions
 from .lives import METHODS, Life
-from .rainflow import Cycles, Levels, rainflow, time_at_level
+from .rainflow import Cycles, Levels, rainflow, speed_at_level, time_at_level
 
 
 def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -> Life:
@@ -244,10 +244,15 @@ def duty_parts(duty: Duty) -> tuple[tuple[LoadCase, ...], Duty, Levels | None, C
     if history is None:
         return (LoadCase(torque=duty.torque or 0.0, speed=speed, shock_factor=duty.shock_factor),), duty, None, None
     levels = time_at_level(history.times, history.torques)
-    rows = zip(levels.value.tolist(), levels.share.tolist(), strict=True)
+    speeds = np.full(levels.share.shape, speed)
+    if history.speeds:
+        speeds = speed_at_level(history.times, history.torques, history.speeds, levels.edge)
+    rows = zip(levels.value.tolist(), levels.share.tolist(), speeds.tolist(), strict=True)
     shocks = duty.shock_factor
     parts = tuple(
-        LoadCase(torque=torque, speed=speed, share=share, shock_factor=shocks) for torque, share in rows if share > 0.0
+        LoadCase(torque=torque, speed=at, share=share, shock_factor=shocks)
+        for torque, share, at in rows
+        if share > 0.0 and at != 0.0
     )
     return parts, replace(duty, torque_at="output", harmonics=()), levels, rainflow(history.torques)
 

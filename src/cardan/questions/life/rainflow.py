@@ -239,6 +239,24 @@ def time_at_level(times: ArrayLike, values: ArrayLike, *, edges: ArrayLike | int
     )
 
 
+def speed_at_level(times: ArrayLike, values: ArrayLike, speeds: ArrayLike, edges: ArrayLike) -> Array:
+    """Return the mean size of the speed while a history is between levels, array (k,) [rad/s]: turns over time.
+
+    times, values, speeds (t,) [s, any, rad/s], edges (k+1,) as of `time_at_level`; 0 where nothing is spent.
+    Within a stretch the values count as even over the turning.
+    """
+    t, x, speed = (np.asarray(one, dtype=float) for one in (times, values, np.abs(np.asarray(speeds, dtype=float))))
+    edge = np.asarray(edges, dtype=float)
+    time, turned = np.zeros(edge.size - 1), np.zeros(edge.size - 1)
+    step = np.diff(t)
+    angle = 0.5 * (speed[:-1] + speed[1:]) * step
+    for begin in range(0, step.size, CHUNK):
+        part = slice(begin, begin + CHUNK)
+        time = time + _between(x[:-1][part], x[1:][part], step[part], edge)[0]
+        turned = turned + _between(x[:-1][part], x[1:][part], angle[part], edge)[0]
+    return turned / np.where(time > 0.0, time, 1.0)
+
+
 def _edges(low: float, high: float, count: int) -> Array:
     """Return levels from the least to the largest value, one of them at zero where that lies between."""
     if count < 1:

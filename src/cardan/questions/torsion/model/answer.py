@@ -282,6 +282,7 @@ def _remarks(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> I
         text = _('The input is held at uniform speed, a node of every mode; input = "free" lets it vibrate.')
         yield Remark(text=text)
     yield from assumptions(found.train)
+    yield from left_out(drive)
     yield from yokes_estimated(drive)
     yield from _enough(drive, found, exact)
     text = _("Checked: the torques of every mode balance {closely}.")
@@ -446,11 +447,33 @@ def _crossing(one: Crossing) -> dict[str, Any]:
 # Words that all answers on torsional vibration share: what the model assumes, and ranges of values.
 
 
-def assumptions(train: TorsionalTrain) -> Iterator[Remark]:
+def left_out(drive: Drive) -> Iterator[Remark]:
+    """Yield what of a drive does not act in its torsional vibration although the file gives it."""
+    splines = [one.spline for one in drive.shafts if one.spline is not None and one.spline.friction]
+    rubbing = (
+        (_("joints"), any(one.friction or one.material_friction for one in drive.joints)),
+        (_("splines"), bool(splines)),
+        (_("supports"), any(one.friction for one in drive.supports)),
+    )
+    if any(there for _name, there in rubbing):
+        text = _("Friction of {parts} is left out of torsional vibration, which it would damp; its heat is told by:")
+        parts = ", ".join(name for name, there in rubbing if there)
+        yield Remark(text=text.format(parts=parts), command=("cardan", "losses", FILE))
+    if drive.movements:
+        text = _("Movements count instant by instant: that joint angles change in time excites no vibration here.")
+        yield Remark(text=text)
+
+
+def assumptions(train: TorsionalTrain, *, wide: bool = False) -> Iterator[Remark]:
     """Yield what the model assumes, in one line a sort.
 
-    train: whose `assumed` paths are put into words.
+    train: whose `assumed` paths are put into words; wide: whether pendulums swing as far as they do, with their stops.
     """
+    if train.pendulums and not wide:
+        text = _("Pendulums count with small swings; torsion simulate follows wide ones.")
+        if any(one.stop_angle is not None for one in train.hung):
+            text = _("Pendulums count with small swings, without their stops; torsion simulate follows wide ones.")
+        yield Remark(text=text)
     kinds = {
         "stiffness": _("rigid, for want of a stiffness or a body of known length: {shafts}"),
         "inertia": _("without inertia: {shafts}"),

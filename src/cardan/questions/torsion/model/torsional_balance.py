@@ -5,8 +5,9 @@ it,
 
     (Σ J F'²) q̈ + (Σ J F' F'') q̇² = Σ F' τ                                                               (Lagrange)
 
-the sums over the stations that the coordinate turns. Leading axes of coordinates are those of the drives, then any of
-positions or times; an array of the model is widened to them.
+the sums over the stations that the coordinate turns. A pendulum on an arm l at radius R of its station has an angle θ
+of its own and couples the two by its kinetic energy m R l cos(θ - F) θ̇ Ḟ (`TorsionalModel.hinges`). Leading axes of
+coordinates are those of the drives, then any of positions or times; an array of the model is widened to them.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ class Slopes:
     mass: Array
     damping: Array
     stiffness: Array
+    coupled: Array | None = None  # (..., R, R): inertia between coordinates, of pendulums with their own angle
 
 
 def joint_law(angle: Array, joint_angle: Array) -> tuple[Array, Array, Array, Array]:
@@ -113,14 +115,80 @@ def _contact(model: TorsionalModel, twist: Array, like: Array) -> tuple[Array, A
     return over, touching
 
 
-def element_torques(model: TorsionalModel, q: Array, rate: Array) -> Array:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class _Hinge:
+    """A pendulum at a moment: its pivot turns by F, itself by θ; arrays (...)."""
+
+    pivot: int  # stations
+    tip: int
+    coupling: Array  # m R l
+    own: Array  # m l²
+    cosine: Array  # of the swing θ - F
+    sine: Array
+    fast: Array  # Ḟ
+    swift: Array  # θ̇
+
+
+def _hinges(model: TorsionalModel, place: Places, speed: Array) -> list[_Hinge]:
+    """Return the pendulums with their own angle."""
+    if model.coupling is None:
+        return []
+    xp, like = namespace(place.angle), place.angle[..., 0]
+    found = []
+    for k, (h, p) in enumerate(model.hinges):
+        swing = place.angle[..., p] - place.angle[..., h]
+        found.append(
+            _Hinge(
+                pivot=h,
+                tip=p,
+                coupling=_wide(model.coupling[..., k], like),
+                own=_wide(model.inertia[..., p], like),
+                cosine=xp.cos(swing),
+                sine=xp.sin(swing),
+                fast=speed[..., h],
+                swift=speed[..., p],
+            )
+        )
+    return found
+
+
+def _hinge_torques(model: TorsionalModel, place: Places, rate: Array, acceleration: Array) -> Array:
+    """Return what the coupling of pendulums adds to the left side of the balance, array (..., R).
+
+    With the swing φ = θ - F it is m R l (θ̈ cos φ - θ̇² sin φ) F' of the pivot and m R l (F̈ cos φ + Ḟ² sin φ) of θ.
+    """
+    xp = namespace(rate)
+    left = [0.0 * rate[..., r] for r in range(model.coordinates)]
+    for one in _hinges(model, place, _speeds(model, place, rate)):
+        r, o, lever = model.coordinate[one.pivot], model.coordinate[one.tip], place.first[..., one.pivot]
+        turning = lever * acceleration[..., r] + place.second[..., one.pivot] * rate[..., r] ** 2
+        swinging = acceleration[..., o] * one.cosine - one.swift**2 * one.sine
+        left[r] = left[r] + lever * one.coupling * swinging
+        left[o] = left[o] + one.coupling * (turning * one.cosine + one.fast**2 * one.sine)
+    return xp.stack(left, axis=-1)
+
+
+def element_torques(model: TorsionalModel, q: Array, rate: Array, time: Array = 0.0) -> Array:
     """Return the torque of every element, positive when it carries power from A to B.
 
-    q, rate (..., R) [rad, rad/s].
-    Returns (..., E) [N·m]: t = c x_e + b (Ḟ_A - Ḟ_B).
+    q, rate (..., R) [rad, rad/s]; time (...) [s], of which only pendulums with their own angle ask.
+    Returns (..., E) [N·m]: t = c x_e + b (Ḟ_A - Ḟ_B); of a pendulum what its pivot takes with its stop,
+    m R² F̈ + m R l (θ̈ cos φ - θ̇² sin φ).
     """
+    xp = namespace(q)
     place = places(model, q)
-    return _torques(model, place, _speeds(model, place, rate), q[..., 0])
+    speed = _speeds(model, place, rate)
+    carried = _torques(model, place, speed, q[..., 0])
+    if not model.hinges:
+        return carried
+    change = accelerations(model, q, rate, time)
+    parts = [carried[..., e] for e in range(len(model.elements))]
+    for one in _hinges(model, place, speed):
+        e, r = model.elements.index((one.pivot, one.tip)), model.coordinate[one.pivot]
+        turning = place.first[..., one.pivot] * change[..., r] + place.second[..., one.pivot] * rate[..., r] ** 2
+        swinging = change[..., model.coordinate[one.tip]] * one.cosine - one.swift**2 * one.sine
+        parts[e] = parts[e] + one.coupling**2 / one.own * turning + one.coupling * swinging
+    return xp.stack(parts, axis=-1)
 
 
 def _torques(model: TorsionalModel, place: Places, speed: Array, like: Array) -> Array:
@@ -164,32 +232,54 @@ def balance(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, t
     place = places(model, q)
     acting, _along, _across = _acting(model, place, _speeds(model, place, rate), time)
     inertia = _each(model.inertia, q[..., 0])
-    return (
+    left = (
         gathered(model, inertia * place.first**2) * acceleration
         + gathered(model, inertia * place.first * place.second) * rate**2
         - gathered(model, place.first * acting)
     )
+    return left + _hinge_torques(model, place, rate, acceleration) if model.hinges else left
 
 
 def accelerations(model: TorsionalModel, q: Array, rate: Array, time: Array = 0.0) -> Array:
     """Return the accelerations of the coordinates; that of a forced one is the one forced on it.
 
-    model: every coordinate turns some inertia; q, rate (..., R) [rad, rad/s]; time (...) [s].
-    Returns (..., R) [rad/s²].
+    q, rate (..., R) [rad, rad/s]; time (...) [s].
+    Returns (..., R) [rad/s²]: 0 of a coordinate without inertia.
     """
     xp = namespace(q)
     place = places(model, q)
-    acting, _along, _across = _acting(model, place, _speeds(model, place, rate), time)
+    speed = _speeds(model, place, rate)
+    acting, _along, _across = _acting(model, place, speed, time)
     inertia = _each(model.inertia, q[..., 0])
-    found = (
-        gathered(model, place.first * acting) - gathered(model, inertia * place.first * place.second) * rate**2
-    ) / gathered(model, inertia * place.first**2)
-    if model.free:
-        return found
-    forced = 0.0 * found[..., :1]
-    if model.input_motion is not None:
-        forced = forced + xp.asarray(model.input_motion.at(time)[2])[..., None]
-    return xp.concat([forced, found[..., 1:]], axis=-1)
+    force = gathered(model, place.first * acting) - gathered(model, inertia * place.first * place.second) * rate**2
+    mass = gathered(model, inertia * place.first**2)
+    hinges = _hinges(model, place, speed)
+    if hinges:
+        forces, masses = ([one[..., r] for r in range(model.coordinates)] for one in (force, mass))
+        for one in hinges:  # θ̈ taken out of the balance of the pivot
+            r, o, lever = model.coordinate[one.pivot], model.coordinate[one.tip], place.first[..., one.pivot]
+            pull = one.coupling * one.cosine / one.own
+            rest = forces[o] - one.coupling * one.sine * one.fast**2
+            bent = place.second[..., one.pivot] * rate[..., r] ** 2
+            thrown = one.coupling * (one.sine * one.swift**2 + one.cosine * pull * bent)
+            forces[r] = forces[r] + lever * (thrown - pull * rest)
+            masses[r] = masses[r] - lever**2 * one.coupling * one.cosine * pull
+        force, mass = xp.stack(forces, axis=-1), xp.stack(masses, axis=-1)
+    found = force / xp.where(mass > 0.0, mass, xp.inf)
+    if not model.free:
+        forced = 0.0 * found[..., :1]
+        if model.input_motion is not None:
+            forced = forced + xp.asarray(model.input_motion.at(time)[2])[..., None]
+        found = xp.concat([forced, found[..., 1:]], axis=-1)
+    if hinges:
+        parts = [found[..., r] for r in range(model.coordinates)]
+        for one in hinges:
+            r, o = model.coordinate[one.pivot], model.coordinate[one.tip]
+            turning = place.first[..., one.pivot] * parts[r] + place.second[..., one.pivot] * rate[..., r] ** 2
+            drawn = one.coupling * (turning * one.cosine + one.fast**2 * one.sine)
+            parts[o] = (force[..., o] - drawn) / one.own
+        found = xp.stack(parts, axis=-1)
+    return found
 
 
 def slopes(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, time: Array = 0.0) -> Slopes:
@@ -247,11 +337,42 @@ def linearised(
             for s, along_g, along_h in ends:
                 c[r][s] = c[r][s] + damper[..., e] * g * along_g
                 k[r][s] = k[r][s] + spring[..., e] * g * along_g + damper[..., e] * g * along_h
+    coupled = None
+    if model.hinges:
+        left = left + _hinge_torques(model, place, rate, acceleration)
+        coupled = _hinge_slopes(model, place, rate, acceleration, c, k)
     return left, Slopes(
         mass=mass,
+        coupled=coupled,
         damping=xp.stack([xp.stack(row, axis=-1) for row in c], axis=-2),
         stiffness=xp.stack([xp.stack(row, axis=-1) for row in k], axis=-2),
     )
+
+
+def _hinge_slopes(
+    model: TorsionalModel, place: Places, rate: Array, acceleration: Array, c: list[list[Array]], k: list[list[Array]]
+) -> Array:
+    """Add the slopes of `_hinge_torques` by speeds and angles to c and k; return those by accelerations (..., R, R)."""
+    xp = namespace(rate)
+    rank = model.coordinates
+    m = [[0.0 * rate[..., 0] for _s in range(rank)] for _r in range(rank)]
+    for one in _hinges(model, place, _speeds(model, place, rate)):
+        h, r, o, g = one.pivot, model.coordinate[one.pivot], model.coordinate[one.tip], one.coupling
+        f1, f2, f3, v = place.first[..., h], place.second[..., h], place.third[..., h], rate[..., r]
+        bend, turn = acceleration[..., o], f1 * acceleration[..., r] + f2 * v**2
+        swinging = bend * one.cosine - one.swift**2 * one.sine
+        by_swing = -bend * one.sine - one.swift**2 * one.cosine
+        by_own = -turn * one.sine + one.fast**2 * one.cosine
+        m[r][o] = m[r][o] + g * f1 * one.cosine
+        m[o][r] = m[o][r] + g * f1 * one.cosine
+        c[r][o] = c[r][o] - 2.0 * g * f1 * one.swift * one.sine
+        c[o][r] = c[o][r] + 2.0 * g * v * (f2 * one.cosine + f1**2 * one.sine)
+        k[r][o] = k[r][o] + g * f1 * by_swing
+        k[r][r] = k[r][r] + g * (f2 * swinging - f1**2 * by_swing)
+        k[o][o] = k[o][o] + g * by_own
+        turned = (f2 * acceleration[..., r] + f3 * v**2) * one.cosine + 2.0 * f1 * f2 * v**2 * one.sine
+        k[o][r] = k[o][r] + g * (turned - f1 * by_own)
+    return xp.stack([xp.stack(row, axis=-1) for row in m], axis=-2)
 
 
 def joint_torques(model: TorsionalModel, q: Array, rate: Array, acceleration: Array) -> tuple[Array, Array]:
@@ -284,12 +405,15 @@ def joint_torques(model: TorsionalModel, q: Array, rate: Array, acceleration: Ar
 
 
 def energy(model: TorsionalModel, q: Array, rate: Array) -> Array:
-    """Return Σ ½ J Ḟ² + Σ ½ c x_e², array (...) [J]."""
+    """Return Σ ½ J Ḟ² + Σ ½ c x_e², and m R l cos(θ - F) Ḟ θ̇ of pendulums, array (...) [J]."""
     xp = namespace(q)
     like = q[..., 0]
     place = places(model, q)
     over, _touching = _contact(model, _twist(model, place.angle), like)
-    kinetic = xp.sum(_each(model.inertia, like) * _speeds(model, place, rate) ** 2, axis=-1)
+    speed = _speeds(model, place, rate)
+    kinetic = xp.sum(_each(model.inertia, like) * speed**2, axis=-1)
+    for one in _hinges(model, place, speed):
+        kinetic = kinetic + 2.0 * one.coupling * one.cosine * one.fast * one.swift
     return 0.5 * kinetic + 0.5 * xp.sum(_each(model.stiffness, like) * over**2, axis=-1)
 
 

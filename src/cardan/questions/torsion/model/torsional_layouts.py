@@ -41,6 +41,7 @@ ARRAYS = (
     "ground_damping",
     "loss_factor",
     "rest",
+    "coupling",
 )
 """Fields of a model whose last axis is stations, elements or joints."""
 
@@ -240,10 +241,12 @@ Forces: TypeAlias = tuple[list[float], list[float], float]
 """Σ J F'² and Σ F' τ - Σ J F' F'' q̇² of every coordinate [kg m², N·m]; power brought less power lost [W]."""
 
 
-def forces_of(model: TorsionalModel) -> Callable[[float, Sequence[float], Sequence[float]], Forces]:
+def forces_of(model: TorsionalModel) -> Callable[..., Forces]:
     """Return the function that gives inertia and force of every coordinate at a time, angles and speeds.
 
-    model: one drive without backlash: where it touches, elements `rest` at half of it.
+    model: one drive without backlash: where it touches, elements `rest` at half of it. With pendulums the function is
+    told the acceleration that is forced on the first coordinate, if one is: theirs follows from that of their pivot,
+    which is taken out of the equations beforehand.
     The power is Σ M Ḟ - Σ b (Ḟ_A - Ḟ_B)² - Σ b_g Ḟ²; that of a forced speed is not in it.
 
     >>> from cardan.questions.torsion.model.torsional_model import torsional_line
@@ -267,10 +270,15 @@ def forces_of(model: TorsionalModel) -> Callable[[float, Sequence[float], Sequen
         for e, (a, b) in enumerate(model.elements)
     ]
     torques = [(torque.station, torque.law.at) for torque in model.torques]
+    bonds = [
+        (h, p, coordinate[h], coordinate[p], float(g), float(model.inertia[p]))
+        for (h, p), g in zip(model.hinges, () if model.coupling is None else model.coupling, strict=True)
+    ]
     cosine, sine, atan2 = math.cos, math.sin, math.atan2
 
-    def forces(time: float, q: Sequence[float], rate: Sequence[float]) -> Forces:
+    def forces(time: float, q: Sequence[float], rate: Sequence[float], forced: float | None = None) -> Forces:
         angle, speed, first = [0.0] * stations, [0.0] * stations, [1.0] * stations
+        second = [0.0] * stations
         mass, force = own_mass.copy(), [0.0] * len(own_mass)
         for r, k in enumerate(owner):
             angle[k], speed[k] = q[r], rate[r]
@@ -282,6 +290,7 @@ def forces_of(model: TorsionalModel) -> Callable[[float, Sequence[float], Sequen
                 below = 1.0 / (x * x + y * y)
                 f1 = (1.0 - tau * tau) * below
                 angle[k], first[k], speed[k] = q[r] + atan2(y, x) - ahead, f1, f1 * v
+                second[k] = -f1 * 4.0 * y * below
                 if inertia:
                     mass[r] += inertia * f1 * f1
                     force[r] += inertia * f1 * f1 * 4.0 * y * below * v * v
@@ -306,6 +315,18 @@ def forces_of(model: TorsionalModel) -> Callable[[float, Sequence[float], Sequen
             power += value * speed[k]
         for k, r in enumerate(coordinate):
             force[r] += first[k] * acting[k]
+        if bonds:
+            swung = []
+            for h, p, r, o, g, own in bonds:
+                swing = angle[p] - angle[h]
+                c, s, lever = g * cosine(swing), g * sine(swing), first[h]
+                bent = second[h] * rate[r] * rate[r]
+                drawn = force[o] - s * speed[h] * speed[h]
+                force[r] += lever * (s * speed[p] * speed[p] + c * (c * bent - drawn) / own)
+                mass[r] -= lever * lever * c * c / own
+                swung.append((o, r, drawn - c * bent, c * lever))
+            for o, r, drawn, pull in swung:
+                force[o] = drawn - pull * (force[r] / mass[r] if r or forced is None else forced)
         return mass, force, power
 
     return forces
@@ -369,6 +390,8 @@ def line_of(model: TorsionalModel, drives: int, start: float = 0.0) -> lines.Lin
 
 def _problems(model: TorsionalModel, inertia: Array) -> list[Problem]:
     problems = []
+    if model.hinges:
+        problems.append(Problem("hinges", _("pendulums with their own angle have no fixed steps; use Adaptive")))
     for r, k in enumerate(model.owner):
         group = [i for i, own in enumerate(model.coordinate) if own == r]
         if (model.free or r) and np.any(np.sum(inertia[group], axis=0) <= 0.0):

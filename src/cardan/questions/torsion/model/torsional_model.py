@@ -54,6 +54,10 @@ class TorsionalModel:
     # motion that is forced on the first station instead, where its speed changes
     input_motion: InputMotion | None = None
     rest: Array | None = None  # (..., E) [rad]: twist of every element at which it carries nothing; 0 where not given
+    # pendulums with their own angle, in time: station of the pivot, station of the pendulum; the inertia of the first
+    # holds its mass at the pivot, m R², that of the second is m l²
+    hinges: tuple[tuple[int, int], ...] = ()
+    coupling: Array | None = None  # (..., P) [kg m²]: m R l of every hinge
     shaft: tuple[int, ...] = ()  # shaft of every station from 0
     names: tuple[str, ...] = ()  # of the stations, for tables and pictures
 

@@ -20,6 +20,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.joints import Joint
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.kinematics_model import Chain, nearly_turning_chain
+from cardan.drive.station import Pendulum
 from cardan.drive.yokes import with_yokes
 from cardan.errors import Problem, check, refuse
 from cardan.formulas.damping import LOSS
@@ -30,6 +31,7 @@ from cardan.texts import _
 from .excitation import machine_torques, turns_freely
 from .inputs import Law
 from .shaft_line import ShaftLine, cut_name, shaft_line
+from .torsional_balance import gathered
 from .torsional_layouts import ARRAYS, SHARED, chosen, leading
 from .torsional_model import Torque, TorsionalModel
 
@@ -46,6 +48,7 @@ class TorsionalTrain:
     joints: tuple[tuple[int, int], ...]  # stations of the driving and of the driven yoke of every joint
     hangs: tuple[int | None, ...]  # station that an absorber or pendulum hangs on; None for one of the line itself
     pendulums: tuple[int, ...]  # elements that hold pendulums: their stiffness goes with the square of the speed
+    hung: tuple[Pendulum, ...]  # what hangs at each of these elements
     assumed: tuple[str, ...]  # paths of what the drive does not say and the model assumes
     # tuple of N (float) [m]: where on their shafts the stations are that only part its body; None for all others
     cuts: tuple[float | None, ...]
@@ -265,6 +268,7 @@ def _joined(drive: Drive, lines: Sequence[ShaftLine], joint_angles: Chain) -> To
         joints=tuple((start - 1, start) for start in starts[1:]),
         hangs=(None,) * len(driven),
         pendulums=(),
+        hung=(),
         assumed=tuple(path for line in lines for path in line.assumed),
         cuts=tuple(cut for line in lines for cut in line.cuts),
         to_scale=not any(f"shafts[{i}].length" in place.assumed for i in drawn),
@@ -283,6 +287,7 @@ def _with_branches(
     inertia, stiffness, damping = list(model.inertia), [*map(np.asarray, model.stiffness)], list(model.damping)
     elements, hangs, names = list(model.elements), list(train.hangs), list(model.names)
     pendulums: list[int] = []
+    bodies: list[Pendulum] = []
     turning = np.asarray(0.0 if speed is None else speed, dtype=float)
     holding = 2.0 * HOLDING * np.where(turning == 0.0, 1.0, np.abs(turning))
     for k, host in ((k, at) for line, start in _starts(lines) for k, at in line.stations(start)):
@@ -301,6 +306,7 @@ def _with_branches(
             spring, damper = mass * turning**2 * hung.radius / hung.length, 0.0
             name = _("pendulum on {name}")
             pendulums.append(len(elements))
+            bodies.append(hung)
         else:
             continue
         elements.append((host, len(inertia)))
@@ -325,7 +331,8 @@ def _with_branches(
     )
     position = np.append(train.position, [train.position[host] for host in hangs if host is not None])
     cuts = (*train.cuts, *[None] * more)
-    return replace(train, model=whole, position=position, hangs=tuple(hangs), pendulums=tuple(pendulums), cuts=cuts)
+    found = replace(train, model=whole, position=position, hangs=tuple(hangs), cuts=cuts)
+    return replace(found, pendulums=tuple(pendulums), hung=tuple(bodies))
 
 
 def _empty_problems(model: TorsionalModel) -> Iterator[Problem]:
@@ -344,6 +351,44 @@ def in_time(model: TorsionalModel, frequency: ArrayLike) -> TorsionalModel:
         return model
     viscous = model.damping + model.loss_factor * model.stiffness / np.asarray(frequency, dtype=float)[..., None]
     return replace(model, damping=viscous, loss_factor=np.zeros_like(model.loss_factor))
+
+
+def swinging(train: TorsionalTrain) -> TorsionalModel:
+    """Return the model with pendulums as bodies with their own angle, exact for any swing, as motion in time needs.
+
+    A point mass m on an arm l at the pivot radius R counts with m R² on its station, m l² about its own turning angle
+    θ and m R l cos(θ - F) between the two; its element is the stop. Raises InputError: a pivot on a station without
+    inertia.
+    """
+    model = train.model
+    if not train.pendulums:
+        return model
+    inertia, stiffness, damping, backlash = (
+        np.array(one, dtype=float) for one in (model.inertia, model.stiffness, model.damping, model.backlash)
+    )
+    own = gathered(model, model.inertia)
+    hinges = tuple(model.elements[e] for e in train.pendulums)
+    coupling = np.zeros(len(hinges))
+    for k, (e, (pivot, tip), hung) in enumerate(zip(train.pendulums, hinges, train.hung, strict=True)):
+        if not own[model.coordinate[pivot]] > 0.0:
+            text = _("{name} has no inertia; pendulums in time need some on their station")
+            raise refuse("stations.inertia", text.format(name=model.names[pivot]))
+        mass = hung.count * hung.mass
+        inertia[pivot] += mass * hung.radius**2
+        inertia[tip] = mass * hung.length**2
+        coupling[k] = mass * hung.radius * hung.length
+        stiffness[e] = hung.count * (hung.stop_stiffness or 0.0)
+        damping[e] = hung.count * hung.stop_damping
+        backlash[e] = 2.0 * (hung.stop_angle or 0.0)
+    return replace(
+        model,
+        inertia=inertia,
+        stiffness=stiffness,
+        damping=damping,
+        backlash=backlash,
+        hinges=hinges,
+        coupling=coupling,
+    )
 
 
 def stacked(models: Sequence[TorsionalModel]) -> TorsionalModel:

@@ -18,7 +18,7 @@ from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.motion.equivalence import equivalent_joint
-from cardan.questions.torsion.model.answer import assumptions, ranges
+from cardan.questions.torsion.model.answer import assumptions, left_out, ranges
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.excitation import engine_torque
 from cardan.texts import _, mark, plural
@@ -287,6 +287,7 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
     if np.any(found.train.model.loss_factor):
         yield Remark(text=_("Structural damping counts as viscous, equal at order 2 of the speed."))
     yield from assumptions(found.train)
+    yield from left_out(drive)
     yield from yokes_estimated(drive)
     if np.any(steady.found):
         yield from _checked(found)

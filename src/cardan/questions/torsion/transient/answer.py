@@ -10,10 +10,10 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Column, Remark, Table, Tone, closely
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.drive.drive import Drive
-from cardan.drive.machine import RunUp
+from cardan.drive.machine import RunUp, TorqueHistory
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
-from cardan.questions.torsion.model.answer import assumptions
+from cardan.questions.torsion.model.answer import assumptions, left_out
 from cardan.texts import _
 
 from .figure import transient_figures
@@ -36,7 +36,7 @@ def answer(drive: Drive, result: Transient) -> Answer:
         tone=tone,
         figures=lambda: transient_figures(result),
         tables=(element_table(result, drive.duty.run_up), _station_table(result)),
-        remarks=(*remarks(result), *_next(drive, result)),
+        remarks=(*remarks(result), *left_out(drive), *_unread(drive), *_next(drive, result)),
         facts=facts(result),
         full=lambda: everything(result),
         code=1 if tone == "failed" else 0,
@@ -79,7 +79,9 @@ def _sentence(found: Transient) -> tuple[Tone, Text]:
 def striking(found: Transient) -> Array:
     """Return which elements have a torque that changes its sign in a line with backlash, array of bool (E,)."""
     ends = found.motion.extremes
-    return (ends.torque_low < 0.0) & (ends.torque_high > 0.0) & np.any(found.train.model.backlash > 0.0)
+    reversed_ = (ends.torque_low < 0.0) & (ends.torque_high > 0.0) & np.any(found.train.model.backlash > 0.0)
+    reversed_[list(found.train.pendulums)] = False
+    return reversed_
 
 
 def _time(value: Any) -> Quantity:
@@ -157,10 +159,40 @@ def remarks(found: Transient) -> Iterator[Remark]:
             "peaks."
         )
         yield Remark(text=text)
+    yield from _pendulums(found)
     if np.any(found.train.model.loss_factor):
         yield Remark(text=_("Structural damping counts as viscous, equal at order 2 of the highest speed."))
-    yield from assumptions(found.train)
+    yield from assumptions(found.train, wide=True)
     yield _checked(found)
+
+
+def _unread(drive: Drive) -> Iterator[Remark]:
+    """Yield speeds that were measured beside a torque."""
+    for law in (drive.duty.motor, drive.duty.load, *drive.duty.torques):
+        if isinstance(law, TorqueHistory) and law.speeds:
+            text = _("The speeds in {file} are not followed: only its torque acts.")
+            yield Remark(text=text.format(file=law.file))
+
+
+def _pendulums(found: Transient) -> Iterator[Remark]:
+    """Yield how far pendulums swing, and whether they meet their stops."""
+    train = found.train
+    for e, hung, swing in zip(train.pendulums, train.hung, found.swings, strict=True):
+        name, wide = train.elements[e], Quantity(swing, "angle", 3)
+        if hung.stop_angle is None:
+            text = _("The {name} swings by up to ±{swing}.")
+            if swing > 0.5 * np.pi:
+                text = _("Warning: the {name} swings by up to ±{swing}: give it stops (stop_angle).")
+            tone: Tone = "warning" if swing > 0.5 * np.pi else "plain"
+            yield Remark(text=say(text, name=name, swing=wide), tone=tone)
+        elif swing > hung.stop_angle:
+            text = _("Warning: the {name} hits its stops at ±{stop}.")
+            yield Remark(text=say(text, name=name, stop=Quantity(hung.stop_angle, "angle", 3)), tone="warning")
+        else:
+            text = _("The {name} swings by up to ±{swing} and stays clear of its stops at ±{stop}.")
+            yield Remark(text=say(text, name=name, swing=wide, stop=Quantity(hung.stop_angle, "angle", 3)))
+    if train.pendulums and found.start == "settled":
+        yield Remark(text=_("The steady motion that it starts from is that of small swings of the pendulums."))
 
 
 def _next(drive: Drive, found: Transient) -> Iterator[Remark]:

@@ -16,6 +16,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.machine import RunUp
 from cardan.errors import refuse
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
+from cardan.questions.torsion.model.answer import left_out
 from cardan.questions.torsion.model.excitation import turns_freely
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
 from cardan.texts import _, mark
@@ -30,8 +31,8 @@ from .torsion_transient import AFTER, Transient, transient
 SMOOTH, STRIKING = 20.0, 600.0
 """Steps in a period of the fastest vibration, and in drives with backlash: contacts fall somewhere within a step."""
 
-MOST = 3e6
-"""Steps that are waited for."""
+MOST, MOST_FREE = 3e6, 2e5
+"""Steps that are waited for, and of drives with pendulums, which are not compiled."""
 
 ACROSS, SAMPLES = 20.0, (1501, 4001)
 """Samples of the curves: in a period of order 2 at the highest speed, fewest and most in all."""
@@ -60,10 +61,12 @@ def follow(drive: Drive, course: RunUp, *, progress: Callable[[float], object] |
     top = max(abs(course.start), abs(course.end))
     fastest = max(float(np.max(modes.omega, initial=0.0)), ORDER * top)
     steps = (1.0 + AFTER) * course.duration * fastest / (2.0 * math.pi) * each
-    if steps > MOST:
+    free = bool(modes.train.pendulums)
+    if steps > (MOST_FREE if free else MOST):
         return FollowedRunUp(course=course, modes=modes, steps=steps, motion=None)
     samples = int(min(max(ACROSS * 2.0 * top / (2.0 * math.pi) * course.duration, SAMPLES[0]), SAMPLES[1]))
-    motion = transient(drive, times=samples, method=FixedStep(per_period=each), progress=progress)
+    method = None if free else FixedStep(per_period=each)
+    motion = transient(drive, times=samples, method=method, progress=progress)
     return FollowedRunUp(course=course, modes=modes, steps=steps, motion=motion)
 
 
@@ -87,7 +90,7 @@ def ask(drive: Drive, *, progress: Callable[[float], object] | None = None) -> F
     return None if turns_freely(drive, drive.duty) else follow(drive, course, progress=progress)
 
 
-def answer(_drive: Drive, result: FollowedRunUp) -> Answer:
+def answer(drive: Drive, result: FollowedRunUp) -> Answer:
     """Return what there is to say of the run-up of a drive."""
     passed = tuple(_passed(result))
     title, motion = _("Run-up"), result.motion
@@ -111,7 +114,7 @@ def answer(_drive: Drive, result: FollowedRunUp) -> Answer:
         tone="warning" if alarms else "plain",
         figures=lambda: transient_figures(motion),
         tables=(element_table(motion, result.course), *passed),
-        remarks=(*alarms, *remarks(motion)),
+        remarks=(*alarms, *remarks(motion), *left_out(drive)),
         keys=(key,),
         facts=facts(motion),
         full=lambda: everything(motion),

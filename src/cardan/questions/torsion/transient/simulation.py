@@ -10,7 +10,13 @@ from typing import TypeAlias
 import numpy as np
 
 from cardan.maths.arrays import Array
-from cardan.questions.torsion.model.torsional_balance import balance, element_torques, energy, places
+from cardan.questions.torsion.model.torsional_balance import (
+    accelerations,
+    balance,
+    element_torques,
+    energy,
+    places,
+)
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 
 from .time_integration import WITHIN, Freedom, Piece
@@ -114,7 +120,7 @@ def reported(
     speed = place.first * rate[..., list(model.coordinate)]
     reaction = None
     if forced_acceleration is not None:
-        change = np.zeros_like(q)
+        change = accelerations(model, q, rate, times) if model.hinges else np.zeros_like(q)
         change[..., 0] = forced_acceleration
         reaction = balance(model, q, rate, change, times)[..., 0]
     return Simulation(
@@ -123,7 +129,7 @@ def reported(
         rate=rate,
         angle=place.angle,
         speed=speed,
-        torque=element_torques(model, q, rate),
+        torque=element_torques(model, q, rate, times),
         input_torque=reaction,
         energy=energy(model, q, rate),
         work=work,
@@ -164,10 +170,10 @@ class Record:
         q, rate, work = piece.dense(times)
         return *freedom.whole(times, q, rate), work
 
-    def _values(self, q: Array, rate: Array) -> Array:
+    def _values(self, times: Array, q: Array, rate: Array) -> Array:
         """Return what extremes are wanted of, and its negative, array (m, 2 (E + N))."""
         place = places(self.model, q)
-        both = (element_torques(self.model, q, rate), place.first * rate[:, list(self.model.coordinate)])
+        both = (element_torques(self.model, q, rate, times), place.first * rate[:, list(self.model.coordinate)])
         found = np.concatenate(both, axis=-1)
         return np.concatenate((found, -found), axis=-1)
 
@@ -177,7 +183,7 @@ class Record:
             return
         times = np.concatenate([piece.within() for piece, _freedom in self.waiting])
         parts = [self._whole(piece, freedom, piece.within()) for piece, freedom in self.waiting]
-        values = self._values(np.concatenate([one[0] for one in parts]), np.concatenate([one[1] for one in parts]))
+        values = self._values(times, *(np.concatenate([one[k] for one in parts]) for k in range(2)))
         top = np.argmax(values, axis=0)
         for k, place in enumerate(top):
             if values[place, k] > self.best[k]:
@@ -209,7 +215,7 @@ class Record:
         spacing = (piece.end - piece.start) / WITHIN
         for _round in range(2):
             near = np.clip(self.when[k] + spacing * np.linspace(-1.0, 1.0, 2 * CLOSER + 1), piece.start, piece.end)
-            values = self._values(*self._whole(piece, freedom, near)[:2])[:, k]
+            values = self._values(near, *self._whole(piece, freedom, near)[:2])[:, k]
             top = int(np.argmax(values))
             if values[top] > self.best[k]:
                 self.best[k], self.when[k] = values[top], near[top]

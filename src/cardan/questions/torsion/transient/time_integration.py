@@ -123,7 +123,7 @@ class Explicit:
                 mass, force, brought = forces(time, angles, speeds)
                 return np.array([*speeds, *(f / m for f, m in zip(force, mass, strict=True)), brought])
             angle, speed, acceleration = (float(one) for one in motion.at(time))
-            mass, force, brought = forces(time, [angle, *angles], [speed, *speeds])
+            mass, force, brought = forces(time, [angle, *angles], [speed, *speeds], acceleration)
             brought += (mass[0] * acceleration - force[0]) * speed
             return np.array([*speeds, *(f / m for f, m in zip(force[1:], mass[1:], strict=True)), brought])
 
@@ -239,6 +239,10 @@ class Implicit:
         light = np.setdiff1d(np.arange(u), own)
         by_slope[:, :u, light] = by.damping[inner][:, :, light]
         by_slope[:, own, u + rows] = by.mass[:, free[own]]
+        if by.coupled is not None:
+            by_slope[np.ix_(np.arange(len(y)), own, u + rows)] += by.coupled[
+                np.ix_(np.arange(len(y)), free[own], free[own])
+            ]
         by_slope[:, u + rows, own] = 1.0
         rest = np.concatenate((left[:, free], slope[:, own] - y[:, u:]), axis=-1)
         return rest, by_y, by_slope

@@ -10,14 +10,14 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.machine import TorqueHistory
+from cardan.drive.machine import Event, TorqueHistory
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.questions.torsion.model.inputs import Constant, SpeedCourse, Swinging
-from cardan.questions.torsion.model.torsional_balance import gathered
+from cardan.questions.torsion.model.inputs import Constant, History, Law, SpeedCourse, SpeedTable, Swinging
+from cardan.questions.torsion.model.torsional_balance import gathered, places
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
 from cardan.questions.torsion.model.torsional_modes import straight_modes
-from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_time, torsional_train
+from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_time, swinging, torsional_train
 from cardan.questions.torsion.steady.steady import periodic_response
 from cardan.questions.torsion.steady.torsion_response import parted
 from cardan.texts import _
@@ -79,6 +79,13 @@ class Transient:
         return sommerfeld(self.train.model, self.motion)
 
     @property
+    def swings(self) -> tuple[float, ...]:
+        """Largest swing of the pendulums on each station about their radius, of the samples [rad]."""
+        hung = (self.train.model.elements[e] for e in self.train.pendulums)
+        angle = self.motion.angle
+        return tuple(float(np.nanmax(np.abs(angle[:, tip] - angle[:, pivot]))) for pivot, tip in hung)
+
+    @property
     def complete(self) -> bool:
         """Whether the simulation reached its end."""
         return int(self.motion.status) == Status.DONE
@@ -93,6 +100,7 @@ def transient(
     start: Start = "even",
     method: Method | None = None,
     pieces: int = 1,
+    step: Law | None = None,
     progress: Progress | None = None,
 ) -> Transient:
     """Return how torques and speeds of a drive run in time.
@@ -114,6 +122,8 @@ def transient(
         one without damping does.
     pieces : int
         Into how many equal stretches the body between two stations is divided.
+    step : Law, optional
+        Torque that comes on the output beside those of the duty, after a settled start too.
     progress : function, optional
         Told the share done; when it answers "stop", what is done is kept.
 
@@ -133,9 +143,9 @@ def transient(
 
     Notes
     -----
-    Exact equations of motion, see `transient.simulate`; structural damping counts as viscous, equal at
-    order 2 of the highest speed. Where nothing drives a free input, a constant torque does that equals what resists at
-    the start.
+    Exact equations of motion, see `transient.simulate`, pendulums with an angle of their own and their stops;
+    structural damping counts as viscous, equal at order 2 of the highest speed. Where nothing drives a free input, a
+    constant torque does that equals what resists at the start.
 
     Examples
     --------
@@ -153,7 +163,7 @@ def transient(
     if not train.model.elements:
         text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")
         raise refuse("shafts[0].stiffness", text)
-    model = in_time(train.model, 2.0 * abs(fastest or 1.0))
+    model = in_time(swinging(train), 2.0 * abs(fastest or 1.0))
     if not model.free and chosen.run_up is not None:
         course = SpeedCourse(times=(0.0, chosen.run_up.duration), speeds=(chosen.run_up.start, chosen.run_up.end))
         model = replace(model, input_speed=None, input_motion=course)
@@ -163,14 +173,19 @@ def transient(
     rate: Array = np.asarray(first)
     if start == "settled":
         check(_unsettled(chosen, model))
-        steady = periodic_response(model, speed=first)
+        small = model if not train.pendulums else in_time(train.model, 2.0 * abs(fastest or 1.0))
+        steady = periodic_response(small, speed=first)
         if not bool(steady.found):
             raise refuse("start", _("no steady motion was found to start from; start uniform"))
         angle, rate = (one[0, 0] for one in steady.orbit.of(np.asarray([0]), [0.0])[:2])
+        if train.pendulums:
+            angle, rate = _swung(train, angle, rate)
         if model.free:
             model = _held(model, float(steady.orbit.force))
     elif model.free and first and not _pushed(model):
         model, train = _held(model, _resisting(model, first)), replace(train, assumed=(*train.assumed, "duty.motor"))
+    if step is not None:
+        model = replace(model, torques=(*model.torques, Torque(station=train.line[-1], law=step)))
     length = _span(chosen, model, fastest) if span is None else span
     check(_endless(model, fastest, length))
     how = _method(model, rate, length) if method is None else method
@@ -184,22 +199,157 @@ def run_up_torque(drive: Drive) -> tuple[Array, tuple[int, ...]]:
     Backlash counts as closed; `PEAKS` samples a period of the fastest vibration, so that no peak is missed by much.
     Raises InputError: what the model misses, or a run-up too long to be followed.
     """
+    closed, course = _closed(drive), drive.duty.run_up
+    if course is None:
+        raise refuse("duty.run_up", _("missing; duty.starts counts run-ups"), "missing")
+    train = torsional_train(closed, speed=max(course.start, course.end, key=abs))
+    top = 2.0 * max(abs(course.start), abs(course.end))
+    swings = max(_slowest(train.model), top) * (1.0 + AFTER) * course.duration / (2.0 * np.pi)
+    if swings > LONGEST:
+        text = _("the run-up takes {oscillations:.0f} oscillations; at most {most:.0f} are followed")
+        raise refuse("duty.run_up.duration", text.format(oscillations=swings, most=LONGEST), "too_large")
+    found = transient(closed, times=max(int(PEAKS * swings), 501), method=_steps(swinging(train)))
+    return found.motion.torque, tuple(found.train.model.shaft[a] for a, _b in found.train.model.elements)
+
+
+def _closed(drive: Drive) -> Drive:
+    """Return a drive without backlash."""
     joints = tuple(replace(one, backlash=0.0) if one.backlash else one for one in drive.joints)
     shafts = tuple(
         replace(one, spline=replace(one.spline, backlash=0.0)) if one.spline is not None else one
         for one in drive.shafts
     )
-    closed, course = replace(drive, joints=joints, shafts=shafts), drive.duty.run_up
-    if course is None:
-        raise refuse("duty.run_up", _("missing; duty.starts counts run-ups"), "missing")
-    model = torsional_train(closed, speed=max(course.start, course.end, key=abs)).model
-    top = 2.0 * max(abs(course.start), abs(course.end))
-    swings = max(_slowest(model), top) * (1.0 + AFTER) * course.duration / (2.0 * np.pi)
+    return replace(drive, joints=joints, shafts=shafts)
+
+
+SLIP = 0.005
+"""Share of the speed about which a load that rubs changes its sense."""
+
+TIGHT = 1e-9
+"""Share by which the slip of a clutch, or the torque on it, is past its bound."""
+
+FEW = 200
+"""Samples over which steps of their own length are quicker than compiled ones."""
+
+SWITCHES = 400
+"""Changes between slipping and sticking that are followed."""
+
+
+def event_torque(drive: Drive, event: Event) -> tuple[Array, tuple[int, ...]]:
+    """Return the torque of every element while something happens, (t, E) [N·m], and the shafts of the elements.
+
+    Backlash counts as closed; `PEAKS` samples a period of the slowest vibration or of order 2, the faster of the two.
+    A load step comes on the drive as it runs steadily. A clutch closes on a drive that turns freely at `start`, with
+    what resists as dry friction, which turns nothing back; the other side of the clutch keeps the speed of the duty.
+    Raises InputError: what the model misses, a clutch that slips without end, or an event too long to be followed.
+    """
+    closed = replace(_closed(drive), duty=replace(drive.duty, run_up=None, starts=None, events=()))
+    duty = closed.duty
+    speed, load = duty.speed or 0.0, duty.torque or 0.0
+    if event.kind == "load_step":
+        train = torsional_train(closed, speed=speed)
+        span, count = _length(train.model, event.duration, speed)
+        more = load - event.torque
+        law: Law = Constant(value=more)
+        if event.duration:
+            law = History(times=np.asarray([0.0, event.duration]), torques=np.asarray([0.0, more]))
+        found = transient(closed, span=span, times=count, start="settled", step=law).motion
+        return found.torque, tuple(train.model.shaft[a] for a, _b in train.model.elements)
+    train = torsional_train(closed, replace(duty, input="uniform", engine=None, motor=None), speed=speed)
+    model = in_time(swinging(train), 2.0 * abs(speed))
+    band, sense = SLIP * abs(speed), np.sign(speed)
+    torques, resisting = [], 0.0
+    for one in model.torques:
+        if isinstance(one.law, Constant) and float(one.law.value) * sense < 0.0:
+            resisting += abs(float(one.law.value))
+            rubbing = np.asarray([abs(float(one.law.value)), -abs(float(one.law.value))])
+            torques.append(replace(one, law=SpeedTable(speeds=np.asarray([-band, band]), torques=rubbing)))
+        else:
+            torques.append(one)
+    if not event.torque > resisting:
+        text = _("{given:.6g} N·m given; the clutch slips without end unless it passes on more than {least:.6g} N·m")
+        raise refuse("duty.events.torque", text.format(given=event.torque, least=resisting), "too_small")
+    until = max(event.duration, 1e-6)
+    slipping = until + float(np.sum(model.inertia)) * abs(abs(speed) - event.start) / (event.torque - resisting)
+    span, count = _length(train.model, slipping, speed)
+    model = replace(model, input_speed=None, torques=tuple(torques))
+    capacity = np.asarray([0.0, until]), np.asarray([0.0, event.torque])
+    found = _closing(model, capacity, speed, span, np.linspace(0.0, span, count), sense * event.start)
+    return found, tuple(model.shaft[a] for a, _b in model.elements)
+
+
+def _closing(
+    model: TorsionalModel, capacity: tuple[Array, Array], speed: float, span: float, times: Array, start: float
+) -> Array:
+    """Return the torque of every element while a clutch closes, (t, E) [N·m].
+
+    model: its input free; capacity: times [s] and torques [N·m]; speed [rad/s]: of the other side of the clutch.
+    times (t,) [s]: from 0; start [rad/s]: of the drive.
+    Coulomb: it slips until both sides turn alike, holds the input at that speed as long as this takes no more torque
+    than it passes on, and slips again where it would take more.
+    """
+    now, angle, rate = 0.0, np.zeros(model.coordinates), np.full(model.coordinates, start)
+    stuck, way = False, float(np.sign(speed - start) or 1.0)
+    parts: list[Array] = []
+    for _switch in range(SWITCHES):
+        pulled = Torque(station=0, law=History(times=capacity[0], torques=way * capacity[1]))
+        held = replace(model, input_speed=np.asarray(speed))
+        run = held if stuck else replace(model, torques=(*model.torques, pulled))
+        if stuck:
+            rate[0] = speed
+        how = _steps(run)
+        here = np.append(now, times[times > now])
+        found = simulate(run, span=(now, span), times=here, angle=angle, speed=rate, method=how)
+        if stuck:
+            assert found.input_torque is not None
+            past = np.abs(found.input_torque) - np.interp(here, *capacity) * (1.0 + TIGHT)
+        else:
+            past = way * (found.rate[:, 0] - speed) - TIGHT * abs(speed)
+            past[0] = min(past[0], -TIGHT)
+        k = int(np.argmax(past > 0.0))
+        if not past[k] > 0.0:
+            return np.concatenate((*parts, found.torque[0 if not parts else 1 :]))
+        if k:
+            end = here[k - 1] + (here[k] - here[k - 1]) * past[k - 1] / (past[k - 1] - past[k])
+            kept = here[(here > now) & (here < end)]
+            if end > now:
+                near = Adaptive() if k < FEW else how
+                cut = simulate(run, span=(now, end), times=[now, *kept, end], angle=angle, speed=rate, method=near)
+                parts.append(cut.torque[0 if not parts else 1 : -1])
+                now, angle, rate = float(end), cut.coordinate[-1], cut.rate[-1].copy()
+        if stuck:
+            assert found.input_torque is not None
+            way = float(np.sign(found.input_torque[k]))
+        stuck = not stuck
+    raise refuse("duty.events", _("a clutch slips and sticks without end"), "unsettled")
+
+
+def _length(model: TorsionalModel, changing: float, speed: float) -> tuple[float, int]:
+    """Return how long an event is followed [s], until what it stirs up has faded, and how many samples it takes."""
+    slowest = _slowest(model)
+    rate = max(slowest, 2.0 * abs(speed))
+    span = changing + (SWINGS * 2.0 * np.pi / slowest if slowest else 0.0)
+    swings = rate * span / (2.0 * np.pi)
     if swings > LONGEST:
-        text = _("the run-up takes {oscillations:.0f} oscillations; at most {most:.0f} are followed")
-        raise refuse("duty.run_up.duration", text.format(oscillations=swings, most=LONGEST), "too_large")
-    found = transient(closed, times=max(int(PEAKS * swings), 501), method=FixedStep(per_period=PEAKS))
-    return found.motion.torque, tuple(found.train.model.shaft[a] for a, _b in found.train.model.elements)
+        text = _("the event takes {oscillations:.0f} oscillations; at most {most:.0f} are followed")
+        raise refuse("duty.events.duration", text.format(oscillations=swings, most=LONGEST), "too_large")
+    return span, max(int(PEAKS * swings), 501)
+
+
+def _swung(train: TorsionalTrain, angle: Array, rate: Array) -> tuple[Array, Array]:
+    """Return angles and speeds of the coordinates with pendulums turned by θ: their swing is u (R + l)/l.
+
+    u is the twist of the absorber by which steady answers replace a small swing.
+    """
+    place = places(train.model, angle)
+    speed = place.first * rate[list(train.model.coordinate)]
+    angle, rate = angle.copy(), rate.copy()
+    for e, hung in zip(train.pendulums, train.hung, strict=True):
+        pivot, tip = train.model.elements[e]
+        own, wide = train.model.coordinate[tip], 1.0 + hung.radius / hung.length
+        angle[own] = place.angle[pivot] + wide * (place.angle[tip] - place.angle[pivot])
+        rate[own] = speed[pivot] + wide * (speed[tip] - speed[pivot])
+    return angle, rate
 
 
 def _held(model: TorsionalModel, force: float) -> TorsionalModel:
@@ -244,11 +394,23 @@ def _unsettled(duty: Duty, model: TorsionalModel) -> Iterator[Problem]:
 def _method(model: TorsionalModel, rate: Array, span: float) -> Method:
     """Return the quicker way to follow a drive."""
     free = np.arange(model.coordinates)[0 if model.free else 1 :]
-    if np.any(model.backlash > 0.0) or np.any(gathered(model, model.inertia)[free] == 0.0) or not span > 0.0:
+    if (
+        model.hinges
+        or np.any(model.backlash > 0.0)
+        or np.any(gathered(model, model.inertia)[free] == 0.0)
+        or not span > 0.0
+    ):
         return Adaptive()
     rates = np.broadcast_to(rate, (model.coordinates,))
     _fastest, living = own_rates(model, free, np.zeros(model.coordinates), rates, 0.0, span)
     return FixedStep(per_period=SMOOTH) if float(living) * span > RADIANS * MANY else Adaptive()
+
+
+def _steps(model: TorsionalModel) -> Method:
+    """Return steps of one length, compiled, where a drive without play bears them."""
+    free = np.arange(model.coordinates)[0 if model.free else 1 :]
+    light = np.any(gathered(model, model.inertia)[free] == 0.0)
+    return Adaptive() if model.hinges or light else FixedStep(per_period=PEAKS)
 
 
 def _span(duty: Duty, model: TorsionalModel, fastest: float) -> float:

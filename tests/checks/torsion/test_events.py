@@ -1,0 +1,188 @@
+"""Clutches and load steps: closed forms of two masses, SciPy's integration, damage by hand, the cheapest ramp."""
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from cardan import Drive, InputError
+from cardan.checks import check
+from cardan.checks.design import design
+from cardan.checks.strength.answer import answer, ask
+from cardan.checks.strength.event_damage import cheapest, event_damages, ramp_damages
+from cardan.checks.strength.shaft_life import start_damage
+from cardan.checks.strength.strength import strength
+from cardan.drive.duty import Duty
+from cardan.drive.joints import Hooke
+from cardan.drive.machine import Event, RunUp
+from cardan.drive.material import Material
+from cardan.drive.shaft import Shaft
+from cardan.drive.station import Station
+from cardan.questions.life.rainflow import rainflow
+from cardan.questions.torsion.model.torsional_train import torsional_train
+from cardan.questions.torsion.transient.torsion_transient import _length, event_torque
+from cardan.units import deg, mm, rpm
+
+FIRST, SECOND, STIFFNESS, SPEED, LOAD = 0.3, 0.8, 5000.0, 100.0, 60.0
+STEP = Event(kind="load_step", count=1000.0, torque=160.0)
+CLUTCH = Event(kind="clutch", count=500.0, torque=260.0)
+
+
+def line(bend: float = 0.0, **duty) -> Drive:
+    """Two masses on an elastic shaft, the second behind a joint."""
+    return replace(
+        Drive(joints=(Hooke(joint_angle=bend),), shafts=(Shaft(number=1, stiffness=STIFFNESS, damping=0.0),)),
+        stations=(Station(shaft=1, end="start", inertia=FIRST), Station(shaft=2, inertia=SECOND)),
+        duty=Duty(speed=SPEED, torque=LOAD, life=3.6e7, **duty),
+    )
+
+
+def test_a_load_step_swings_by_as_much_as_it_comes_to() -> None:
+    torque, shafts = event_torque(line(), STEP)
+    assert shafts == (0,)
+    assert torque[0] == pytest.approx([60.0])
+    assert torque.max() == pytest.approx(260.0, rel=2e-3)  # 60 + 2 (160 - 60), 40 samples a period
+    slow, _shafts = event_torque(line(), replace(STEP, duration=2.0 * math.pi / math.sqrt(STIFFNESS / SECOND)))
+    assert slow.max() == pytest.approx(160.0, rel=1e-3)  # a ramp of one period leaves no vibration behind
+
+
+def test_a_clutch_passes_on_what_it_can_and_then_all_that_is_asked() -> None:
+    """Slipping with M: the shaft swings about M J2/(J1+J2) + T J1/(J1+J2), up to twice of that beyond its start."""
+    torque, _shafts = event_torque(line(), CLUTCH)
+    mean = (260.0 * SECOND + LOAD * FIRST) / (FIRST + SECOND)
+    assert torque.max() == pytest.approx(2.0 * mean, rel=0.03)  # the load that rubs comes on with the first motion
+    slip = (FIRST + SECOND) * SPEED / (260.0 - LOAD)
+    period = 2.0 * math.pi / math.sqrt(STIFFNESS / SECOND)
+    assert torque.shape[0] > 40 * slip / period
+
+
+def plain(bend: float, closing: float, capacity: float, times: np.ndarray) -> np.ndarray:
+    """Return the torque of the shaft: slip and stick as two systems of equations, each integrated to its end."""
+
+    def joint(a: float) -> tuple[float, float]:
+        below = 1.0 - math.sin(bend) ** 2 * math.cos(a) ** 2
+        return math.cos(bend) / below, -math.cos(bend) * math.sin(bend) ** 2 * math.sin(2 * a) / below**2
+
+    def yoke(a: float, v: float, twist: float) -> float:
+        i, slope = joint(a)
+        drag = LOAD * np.clip(i * v / (0.005 * SPEED), -1.0, 1.0)
+        return (STIFFNESS * twist - i * drag - SECOND * i * slope * v**2) / (SECOND * i**2)
+
+    def passed(t: float) -> float:
+        return capacity * min(t / closing, 1.0)
+
+    def slip(way: float):
+        def slope(t, y):
+            pull = STIFFNESS * (y[0] - y[2])
+            return [y[1], (way * passed(t) - pull) / FIRST, y[3], yoke(y[2], y[3], y[0] - y[2])]
+
+        return slope
+
+    def stick(t, y):
+        return [SPEED, 0.0, y[3], yoke(y[2], y[3], y[0] - y[2])]
+
+    now, state, stuck, way = 0.0, np.zeros(4), False, 1.0
+    span, torque = times[-1], np.zeros(len(times))
+    while now < span:
+        if stuck:
+            event = lambda t, y: passed(t) * (1.0 + 1e-9) - abs(STIFFNESS * (y[0] - y[2]))  # noqa: E731
+        else:
+            event = lambda t, y, way=way: way * (SPEED - y[1]) + 1e-7  # noqa: E731
+        event.terminal, event.direction = True, -1.0
+        found = solve_ivp(
+            stick if stuck else slip(way),
+            (now, span),
+            state,
+            events=event,
+            method="DOP853",
+            rtol=1e-9,
+            atol=1e-10,
+            max_step=4e-3,
+            dense_output=True,
+        )
+        here = times[(times >= now) & (times <= found.t[-1])]
+        torque[(times >= now) & (times <= found.t[-1])] = STIFFNESS * (found.sol(here)[0] - found.sol(here)[2])
+        now, state = found.t[-1], found.y[:, -1]
+        if stuck:
+            way = math.copysign(1.0, STIFFNESS * (state[0] - state[2]))
+        else:
+            state[1] = SPEED
+        stuck = not stuck
+    return torque
+
+
+@pytest.mark.slow
+def test_a_clutch_before_a_bent_joint_slips_and_sticks_as_scipy_says() -> None:
+    event = replace(CLUTCH, torque=130.0, duration=0.1)
+    torque, _shafts = event_torque(line(10 * deg), event)
+    slipping = 0.1 + (FIRST + SECOND) * SPEED / (130.0 - LOAD)
+    span, count = _length(torsional_train(line(10 * deg)).model, slipping, SPEED)
+    wanted = plain(10 * deg, 0.1, 130.0, np.linspace(0.0, span, count))
+    # thirty changes of sticking, each interpolated between samples
+    np.testing.assert_allclose(torque[:, 0], wanted, atol=0.02 * np.max(np.abs(wanted)))
+
+
+def test_a_clutch_that_cannot_turn_the_load_is_refused() -> None:
+    with pytest.raises(InputError, match="slips without end unless it passes on more than 60"):
+        event_torque(line(), replace(CLUTCH, torque=50.0))
+
+
+def tube(**duty) -> Drive:
+    """A flywheel behind two unequal joints, run up through the resonance of order 2 at 307 rpm."""
+    steel = Material(yield_strength=355e6, ultimate_strength=600e6)
+    middle = Shaft(number=2, length=1.0, outer=46 * mm, wall=4 * mm, loss_factor=0.04, material=steel)
+    joints = (Hooke(joint_angle=14 * deg), Hooke(joint_angle=9 * deg))
+    return replace(
+        Drive(joints=joints, shafts=(middle,)),
+        stations=(Station(shaft=1, inertia=0.2), Station(shaft=3, inertia=4.5)),
+        duty=Duty(speed=540 * rpm, torque=300.0, life=3600.0 * 5000, **duty),
+    )
+
+
+def test_the_damage_of_an_event_cycle_by_cycle() -> None:
+    """σ_a = √((2M/W)² + 3(T_a/W)²), σ_m = √3 T_m/W, N = (σ_r/A)^(1/B) where Goodman's safety is below 1."""
+    step = Event(kind="load_step", count=2000.0, torque=1500.0)
+    subject = design(tube(events=(step,)))
+    cycles = rainflow(event_torque(subject.drive, step)[0][:, 0])
+    modulus = math.pi * (0.046**4 - 0.038**4) / (16 * 0.046)
+    swing, mean = 0.5 * cycles.range / modulus, np.abs(cycles.mean) / modulus
+    case = subject.loaded[0]
+    bent = 2 * float(case.end_bending[1] / case.shaft_torque[1]) * (swing + mean)
+    endurance = 4.51 * 600**-0.265 * 1.24 * 46**-0.107 * 0.897 * 300e6
+    alternating, steady = np.sqrt(bent**2 + 3 * swing**2), math.sqrt(3) * mean
+    use = alternating / endurance + steady / 600e6
+    slope = -math.log10(0.9 * 600e6 / endurance) / 3
+    life = (alternating / (1 - steady / 600e6) / ((0.9 * 600e6) ** 2 / endurance)) ** (1 / slope)
+    by_hand = float(np.sum(np.where(use > 1.0, cycles.count / np.maximum(life, 1.0), 0.0)))
+    assert by_hand > 1e-5
+    assert float(start_damage(subject, 1, step)) == pytest.approx(by_hand, rel=2e-2)
+    (found,) = event_damages(subject.drive)
+    assert (found.shaft, found.count, found.share) == (2, 2000.0, pytest.approx(2000.0 * by_hand, rel=2e-2))
+    (verdict,) = check(tube(events=(step,)), only=["start_fatigue"])
+    assert verdict.value == pytest.approx(found.share, rel=1e-6)
+    assert strength(tube(events=(step,))).shafts[1].fatigue_life == pytest.approx(3600.0 * 5000 / verdict.value)
+
+
+@pytest.mark.slow
+def test_the_fastest_ramp_through_a_resonance_costs_least() -> None:
+    drive = tube(run_up=RunUp(end=540 * rpm, duration=4.0), starts=1000.0, events=(replace(CLUTCH, torque=900.0), STEP))
+    ramps = ramp_damages(drive)
+    assert [one.duration for one in ramps] == [1.0, 2.0, 4.0, 8.0, 16.0]
+    assert all(one.damage < two.damage for one, two in pairwise(ramps))
+    assert cheapest(ramps) == 0
+    events = event_damages(drive)
+    assert [one.name for one in events] == ["run-up", "closing of the clutch", "load step"]
+    assert events[0].damage == pytest.approx(ramps[2].damage)
+    told = answer(drive, ask(drive))
+    names = {table.name for table in told.tables}
+    assert {"events", "ramps"} <= names
+
+
+def test_events_need_a_speed_and_a_torque() -> None:
+    with pytest.raises(InputError, match=r"duty\.speed: missing; an event starts from it"):
+        replace(line(), duty=Duty(torque=10.0, events=(STEP,)))
+    with pytest.raises(InputError, match=r"duty\.events\[0\]\.start: belongs to a clutch"):
+        replace(line(), duty=Duty(speed=9.0, torque=10.0, events=(replace(STEP, start=3.0),)))
