@@ -24,6 +24,7 @@ from cardan.drive.machine import (
     AsynchronousMachine,
     Engine,
     EngineHarmonic,
+    Event,
     RunUp,
     SpeedTorque,
     TorqueHistory,
@@ -152,6 +153,10 @@ ends = st.lists(st.floats(0.0, 1e4, allow_subnormal=False), min_size=2, max_size
 ranges = ends.map(lambda two: tuple(sorted(two)))
 run_ups = things(RunUp, start=st.just(0.0), end=st.floats(1.0, 1e3))
 vehicles = things(Vehicle, engine_torque=st.none()) | things(Vehicle, engine_power=st.none(), engine_speed=st.none())
+EVENTS = (
+    Event(kind="clutch", name="start", count=1 / 3, torque=0.1, duration=1e-3, start=7.0),
+    Event(kind="load_step", count=1e6, torque=1e4),
+)
 duties = things(
     Duty,
     torque=st.floats(-1e5, 1e5, allow_subnormal=False),
@@ -163,8 +168,15 @@ duties = things(
     blocks=st.just(())
     | st.just((Block(torque=1 / 3, speed=100.0, share=0.3), Block(torque=0.0, speed=1e-3, share=0.7))),
     torque_history=st.none(),
+    events=st.just(()) | st.just(EVENTS),
     vehicle=st.none() | vehicles,
-).map(lambda duty: duty if duty.run_up is not None else replace(duty, starts=None))  # starts are run-ups
+).map(
+    lambda duty: replace(
+        duty,
+        starts=duty.starts if duty.run_up is not None else None,  # starts are run-ups
+        events=duty.events if duty.speed is not None else (),
+    )
+)
 
 
 @st.composite

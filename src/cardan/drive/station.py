@@ -37,7 +37,10 @@ class Pendulum:
     length: float = quantity("length", doc="distance of its centre of mass from its pivot", above=0.0)
     count: int = plain(1, doc="how many of them", low=1)
     stop_angle: float | None = quantity(
-        "angle", None, doc="swing to either side at which one meets its stop; swings freely when not given", above=0.0
+        "angle",
+        None,
+        doc="angle to either side at which one meets its stop; it oscillates freely when not given",
+        above=0.0,
     )
     stop_stiffness: float | None = quantity(
         "turning_stiffness", None, doc="stiffness of the stop of one pendulum, about its pivot", above=0.0

@@ -470,9 +470,11 @@ def assumptions(train: TorsionalTrain, *, wide: bool = False) -> Iterator[Remark
     train: whose `assumed` paths are put into words; wide: whether pendulums swing as far as they do, with their stops.
     """
     if train.pendulums and not wide:
-        text = _("Pendulums count with small swings; torsion simulate follows wide ones.")
+        text = _("Pendulums count with small oscillations; torsion simulate follows wide ones.")
         if any(one.stop_angle is not None for one in train.hung):
-            text = _("Pendulums count with small swings, without their stops; torsion simulate follows wide ones.")
+            text = _(
+                "Pendulums count with small oscillations, without their stops; torsion simulate follows wide ones."
+            )
         yield Remark(text=text)
     kinds = {
         "stiffness": _("rigid, for want of a stiffness or a body of known length: {shafts}"),

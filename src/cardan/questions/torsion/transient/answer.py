@@ -180,19 +180,19 @@ def _pendulums(found: Transient) -> Iterator[Remark]:
     for e, hung, swing in zip(train.pendulums, train.hung, found.swings, strict=True):
         name, wide = train.elements[e], Quantity(swing, "angle", 3)
         if hung.stop_angle is None:
-            text = _("The {name} swings by up to ±{swing}.")
+            text = _("The {name} oscillates by up to ±{angle}.")
             if swing > 0.5 * np.pi:
-                text = _("Warning: the {name} swings by up to ±{swing}: give it stops (stop_angle).")
+                text = _("Warning: the {name} oscillates by up to ±{angle}: give it stops (stop_angle).")
             tone: Tone = "warning" if swing > 0.5 * np.pi else "plain"
-            yield Remark(text=say(text, name=name, swing=wide), tone=tone)
+            yield Remark(text=say(text, name=name, angle=wide), tone=tone)
         elif swing > hung.stop_angle:
             text = _("Warning: the {name} hits its stops at ±{stop}.")
             yield Remark(text=say(text, name=name, stop=Quantity(hung.stop_angle, "angle", 3)), tone="warning")
         else:
-            text = _("The {name} swings by up to ±{swing} and stays clear of its stops at ±{stop}.")
-            yield Remark(text=say(text, name=name, swing=wide, stop=Quantity(hung.stop_angle, "angle", 3)))
+            text = _("The {name} oscillates by up to ±{angle} and stays clear of its stops at ±{stop}.")
+            yield Remark(text=say(text, name=name, angle=wide, stop=Quantity(hung.stop_angle, "angle", 3)))
     if train.pendulums and found.start == "settled":
-        yield Remark(text=_("The steady motion that it starts from is that of small swings of the pendulums."))
+        yield Remark(text=_("The steady motion that it starts from is that of small oscillations of the pendulums."))
 
 
 def _next(drive: Drive, found: Transient) -> Iterator[Remark]:
