@@ -245,7 +245,16 @@ COMMANDS = {
             "cardan report truck.toml other.toml -o compared.html",
         ),
     ),
-    "init": Entry("files.init", FILES, _("Write a commented drive file to start from."), ("cardan init my.toml",)),
+    "init": Entry(
+        "files.init",
+        FILES,
+        _("Write a commented drive file to start from."),
+        (
+            "cardan init my.toml",
+            "cardan init my.toml --for pto",
+            "cardan init my.toml --from-points centres.csv",
+        ),
+    ),
     "example": Entry(
         "files.example",
         FILES,

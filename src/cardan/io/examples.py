@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import json
+import re
 from functools import cache
 from pathlib import Path
 
 from cardan.drive.drive import Drive
+from cardan.drive.joints import Hooke
+from cardan.drive.shaft import Shaft
 from cardan.errors import refuse
 from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _, mark
 from cardan.units import nearest
 
 from .drive_file import load, load_mechanism
+from .shifts import read_rows
 
 
 @cache
@@ -220,3 +225,54 @@ def starter() -> str:
     'my drive'
     """
     return _(STARTER)
+
+
+TEMPLATES = {
+    "truck": "truck-duty-cycle",
+    "car": "car-propshaft",
+    "half-shaft": "front-halfshaft",
+    "pto": "pto-drive",
+    "mill": "mill-spindle",
+    "steering": "steering-column",
+    "instrument": "instrument-joint",
+}
+"""What a drive is for -> the shipped drive to start from."""
+
+
+def template(use: str, name: str) -> str:
+    """Return a drive file to start from, for one of `TEMPLATES`, with a name of its own if there is one.
+
+    Examples
+    --------
+    >>> from cardan.io import loads
+    >>> loads(template("mill", "stand 4")).name
+    'stand 4'
+    """
+    text = example_text(TEMPLATES[use])
+    body = text[text.index("\nformat") :].lstrip("\n")
+    if name:
+        line = f"name = {json.dumps(name, ensure_ascii=False)}"
+        body = re.sub(r'^name = ".*"$', lambda _found: line, body, count=1, flags=re.MULTILINE)
+    return f"# {_(STARTED)}\n\n{body}"
+
+
+STARTED = mark("Put your own numbers in: `cardan keys` tells every key, `cardan select` finds sizes of joints.")
+
+
+def from_points(path: Path, name: str) -> Drive:
+    """Return a drive through the points of a CSV file with the columns x, y, z, each with its unit.
+
+    The first row is a point of the input axis, the last one of the output axis, those between are joint centres.
+    """
+    return Drive.from_points(read_rows(path, [(word, "length") for word in "xyz"], least=3, rising=False), name=name)
+
+
+def from_slopes(path: Path, name: str) -> Drive:
+    """Return a drive by a CSV file with length, side_slope and plan_slope of every shaft, each with its unit."""
+    columns = (("length", "length"), ("side_slope", "angle"), ("plan_slope", "angle"))
+    rows = read_rows(path, columns, least=2, rising=False)
+    shafts = [
+        Shaft(number=k, length=length, side_slope=side, plan_slope=plan)
+        for k, (length, side, plan) in enumerate(rows, start=1)
+    ]
+    return Drive(name=name, joints=tuple(Hooke() for _row in rows[1:]), shafts=tuple(shafts))

@@ -97,12 +97,18 @@ NUMBERS = ("", mark("a number"), mark("two numbers"), mark("three numbers"), mar
 
 
 def read_rows(
-    path: Path, columns: Sequence[tuple[str, str]], *, least: int, besides: Sequence[tuple[str, str]] = ()
+    path: Path,
+    columns: Sequence[tuple[str, str]],
+    *,
+    least: int,
+    besides: Sequence[tuple[str, str]] = (),
+    rising: bool = True,
 ) -> list[tuple[float, ...]]:
     """Return the rows of a CSV file in SI.
 
-    columns: word and dimension of every column wanted, the times first; its title is the word with a unit.
+    columns: word and dimension of every column wanted; its title is the word with a unit.
     besides: those that are read too where they are there, behind the others.
+    rising: whether the first are times, which must rise.
     """
     try:
         with path.open("rb") as stream:
@@ -135,7 +141,7 @@ def read_rows(
             continue
         if not all(math.isfinite(v) for v in values):
             problems.append(Problem(path.name, _("line {line} has a number that is not finite").format(line=line)))
-        elif found and values[0] <= found[-1][0]:
+        elif rising and found and values[0] <= found[-1][0]:
             problems.append(Problem(path.name, _("line {line}: the times do not rise").format(line=line)))
         else:
             found.append(values)
