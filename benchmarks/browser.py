@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import socket
 import subprocess
 import sys
 import tempfile
 import time
+import urllib.error
 import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -57,9 +59,13 @@ def running(example: str, folder: Path) -> Iterator[str]:
         one.bind(("127.0.0.1", 0))
         port = one.getsockname()[1]
     command = [sys.executable, "-m", "cardan", "app", str(file), "--port", str(port), "--no-browser"]
-    with subprocess.Popen(command, stdout=subprocess.DEVNULL) as server:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
         try:
-            address, end = f"http://127.0.0.1:{port}/", time.monotonic() + START
+            assert server.stdout is not None
+            told = re.search(r"http://\S+", server.stdout.readline())  # with the token that it asks for
+            if told is None:
+                raise RuntimeError("the app did not start")
+            address, end = told[0], time.monotonic() + START
             while not answers(address):
                 if server.poll() is not None or time.monotonic() > end:
                     raise RuntimeError("the app did not start")
@@ -74,5 +80,7 @@ def answers(address: str) -> bool:
     try:
         with urllib.request.urlopen(address, timeout=10):
             return True
+    except urllib.error.HTTPError:  # it leads on to where its cookie is asked for
+        return True
     except OSError:  # errors of addresses and time-outs among them
         return False

@@ -15,6 +15,7 @@ from contextvars import ContextVar
 from functools import cache
 from gettext import NullTranslations, translation
 from pathlib import Path
+from unicodedata import category
 
 DOMAIN = "cardan"
 FOLDER = Path(__file__).parent / "locale"
@@ -87,3 +88,16 @@ def mark(text: str) -> str:
     'speed ratio'
     """
     return text
+
+
+def visible(text: str) -> str:
+    r"""Return a text in which signs that are obeyed, not seen, are spelled out; blanks of all widths may stay.
+
+    Examples
+    --------
+    >>> visible("two\u202eeno")
+    'two\\u202eeno'
+    """
+    if text.isprintable():
+        return text
+    return "".join(sign if sign.isprintable() or category(sign) == "Zs" else ascii(sign)[1:-1] for sign in text)

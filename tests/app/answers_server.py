@@ -27,7 +27,7 @@ jobs = Jobs(1)
 def shown(example: str = "truck-power-unit", language: str = "en", theme: str = "light") -> None:
     session = Session(Workspace(Path(sys.argv[2])), Choices(language=language))
     session.open(example_text(example))
-    ui.add_head_html('<link rel="stylesheet" href="/cardan/app.css">')
+    page.dress()
     ui.dark_mode(theme == "dark")
     ui.query("body").classes("cardan")
     path = ui.label("").props("id=selected")

@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import socket
 import subprocess
@@ -18,6 +19,8 @@ from contextlib import contextmanager
 from typing import Any
 
 import pytest
+
+from cardan.app.server import COOKIE
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 ARGUMENTS = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
@@ -72,6 +75,19 @@ class Complaints:
 
 Opener = Callable[..., Any]
 
+TOKENS: dict[str, str] = {}
+"""Address of a server -> the token that it printed; pages opened there have it."""
+
+
+def admitted(context: Any, url: str) -> None:
+    """Give a browser the cookie that a first visit by the printed address gives it."""
+    base = next((base for base in TOKENS if url.startswith(base)), "")
+    if base:
+        name = f"{COOKIE}_{base.rpartition(':')[2]}"
+        context.add_cookies(
+            [{"name": name, "value": TOKENS[base], "url": base, "httpOnly": True, "sameSite": "Strict"}]
+        )
+
 
 @contextmanager
 def pages(chromium: Any) -> Iterator[tuple[Opener, list[Complaints]]]:
@@ -85,6 +101,7 @@ def pages(chromium: Any) -> Iterator[tuple[Opener, list[Complaints]]]:
         context = (browser or chromium).new_context(**{"viewport": {"width": 1280, "height": 720}, **options})
         context.set_default_timeout(PATIENCE)
         contexts.append(context)
+        admitted(context, url)
         page = context.new_page()
         if script:
             page.add_init_script(script)
@@ -163,6 +180,9 @@ class Server:
                 self.stop()
                 raise RuntimeError(f"the server did not start:\n{self.written()}")
             time.sleep(0.1)
+        self.token = "".join(re.findall(r"\?token=(\S+)", self.written())[:1])
+        if self.token:
+            TOKENS[self.url] = self.token
 
     def written(self) -> str:
         return str(self.log.read_text(errors="replace"))

@@ -17,22 +17,10 @@ async def _inner(scope: Any, _receive: Any, send: Any) -> None:
     await send({"type": "http.response.body", "body": seen})
 
 
-def answered(guard: Guard, host: str = "localhost") -> dict[str, Any]:
-    """Return the start of an answer."""
-    sent: list[dict[str, Any]] = []
-
-    async def send(message: dict[str, Any]) -> None:
-        sent.append(message)
-
-    scope = {"type": "http", "method": "GET", "path": "/", "headers": [(b"host", host.encode())]}
-    asyncio.run(guard(scope, None, send))
-    return sent[0]
-
-
-def ask(
+def sent_by(
     guard: Guard, *, query: str = "", kind: str = "http", method: str = "GET", path: str = "/", **headers: str
-) -> tuple[int, list[str], str]:
-    """Return status, cookies set and body of an answer."""
+) -> list[dict[str, Any]]:
+    """Return the messages of an answer."""
     given = {"host": "127.0.0.1:8321", **headers}
     scope = {
         "type": kind,
@@ -47,6 +35,17 @@ def ask(
         sent.append(message)
 
     asyncio.run(guard(scope, None, send))
+    return sent
+
+
+def started(guard: Guard, **how: str) -> dict[str, Any]:
+    """Return the start of an answer."""
+    return sent_by(guard, **how)[0]
+
+
+def ask(guard: Guard, **how: str) -> tuple[int, list[str], str]:
+    """Return status, cookies set and body of an answer."""
+    sent = sent_by(guard, **how)
     if sent[0]["type"] == "websocket.close":
         return sent[0]["code"], [], ""
     cookies = [value.decode() for name, value in sent[0]["headers"] if name == b"set-cookie"]
@@ -74,17 +73,57 @@ def test_a_token_is_asked_for_and_then_remembered() -> None:
     assert ask(guard, cookie=f"{COOKIE}=wrong")[0] == 401
     assert ask(guard, kind="websocket")[0] == 1008
     status, cookies, _body = ask(guard, query="token=s3cret")
-    assert status == 200
+    assert status == 303
     assert cookies == [f"{COOKIE}=s3cret; Path=/; HttpOnly; SameSite=Strict"]
     assert ask(guard, cookie=f"{COOKIE}=s3cret")[0] == 200
 
 
+@pytest.mark.parametrize(
+    ("path", "query", "there"),
+    [
+        ("/", "token=t", "/"),
+        ("/", "token=t&file=a%26b.toml&example=", "/?file=a%26b.toml&example="),
+        ("//evil.example", "token=t", "/evil.example"),
+        ("/\\evil.example\r\nx: y", "token=t", "/evil.example%0D%0Ax%3A%20y"),
+    ],
+)
+def test_the_token_is_taken_out_of_the_address_at_once(path: str, query: str, there: str) -> None:
+    guard = Guard(_inner, token="t")
+    heads = dict(started(guard, path=path, query=query)["headers"])
+    assert heads[b"location"].decode() == there
+    assert b"refresh" not in heads
+    across = started(guard, path=path, query=query, **{"sec-fetch-site": "cross-site"})
+    heads = dict(across["headers"])  # a link elsewhere: the browser goes on from a page of ours, with its cookie
+    assert across["status"] == 200
+    assert heads[b"refresh"].decode() == f"0;url={there}"
+    assert b"t" not in heads[b"refresh"].partition(b"=")[2].split(b"&")
+
+
+@pytest.mark.parametrize(
+    ("site", "status"), [("none", 200), ("same-origin", 200), ("same-site", 403), ("cross-site", 403)]
+)
+def test_other_sites_are_turned_away_whatever_they_know(site: str, status: int) -> None:
+    guard = Guard(_inner, token="t", cookie="mine")
+    for method in ("GET", "POST"):
+        heads = {"cookie": "mine=t", "sec-fetch-site": site, "content-length": "1"}
+        assert ask(guard, method=method, **heads)[0] == status
+    assert ask(Guard(_inner), **{"sec-fetch-site": site})[0] == status
+    if status == 403:
+        assert ask(guard, kind="websocket", **{"cookie": "mine=t", "sec-fetch-site": site})[0] == 1008
+
+
+def test_two_servers_of_a_machine_keep_their_cookies_apart() -> None:
+    one, two = Guard(_inner, token="a", cookie="cardan_token_1"), Guard(_inner, token="b", cookie="cardan_token_2")
+    both = "; ".join(ask(guard, query=f"token={guard.token}")[1][0].partition(";")[0] for guard in (one, two))
+    assert [ask(guard, cookie=both)[0] for guard in (one, two)] == [200, 200]
+
+
 def test_every_visitor_of_a_shared_server_gets_a_name() -> None:
     guard = Guard(_inner, names=(), token="t", apart=True)
-    _status, cookies, seen = ask(guard, query="token=t")
+    _status, cookies, seen = ask(guard, cookie=f"{COOKIE}=t")
     name = next(line for line in cookies if line.startswith(VISITOR)).partition(";")[0]
     assert name in seen
-    other = ask(guard, query="token=t")[1]
+    other = ask(guard, cookie=f"{COOKIE}=t")[1]
     assert name not in "".join(other)
     assert ask(guard, cookie=f"{COOKIE}=t; {name}")[1] == []
 
@@ -118,7 +157,7 @@ def test_a_name_that_is_none_is_turned_away() -> None:
 
 @pytest.mark.parametrize(("host", "status"), [("localhost", 200), ("evil.example", 421)])
 def test_every_answer_says_where_a_page_may_load_from_and_that_none_may_frame_it(host: str, status: int) -> None:
-    start = answered(Guard(_inner), host)
+    start = started(Guard(_inner), host=host)
     assert start["status"] == status
     heads = dict(start["headers"])
     assert heads.items() >= dict(HEADS).items()

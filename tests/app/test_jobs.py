@@ -8,12 +8,14 @@ from pathlib import Path
 
 import pytest
 
+from cardan.answers.reader import USUAL, Reader
 from cardan.app.state.jobs import KEPT, Jobs
 from cardan.app.state.question import Question, asked
-from cardan.app.state.work import REMEDIES, VERDICTS, result
+from cardan.app.state.work import REMEDIES, VERDICTS, _answers, result
 from cardan.drive.drive import Drive
 from cardan.io import example
-from cardan.report.block import Page
+from cardan.report import answers
+from cardan.report.block import Page, Table
 from tests.app.works import Task, work
 
 DRIVE = Drive.from_angles([0.3, 0.3])
@@ -79,7 +81,8 @@ def test_an_answer_comes_in_the_language_of_the_question_and_is_that_made_here()
     here = result(about("motion"))
     assert here.answer == pages[0].answer
     assert here.blocks[1] == pages[0].blocks[1]
-    plain = result(about(VERDICTS, example("truck-power-unit")))
+    first, plain = result(about(VERDICTS, example("truck-power-unit")))
+    assert (first.value, first.tone) == ("12.5 %", "plain")
     assert [light.title for light in found] == [light.title for light in plain]
     assert any(light.remedies for light in found)
     assert not any(light.remedies for light in plain)
@@ -177,6 +180,65 @@ def test_what_goes_wrong_is_told_and_the_worker_lives(one):
     assert "mistake in cardan itself: RuntimeError: what now" in ended(one.ask(question("broken"), "x")).message
     assert "mistake" in ended(one.ask(question("unsendable"), "x")).message
     assert ended(one.ask(question("echo", n="still"), "x")).result[2] == before
+
+
+def test_a_job_that_takes_too_long_is_given_up_and_the_next_goes_on(one):
+    job = ended(one.ask(question("slow", limited=True), "x", limit=0.2))
+    assert job.state == "failed"
+    assert job.message == "This took longer than 0 s and was given up. Nothing else is lost."
+    assert ended(one.ask(question("echo", after="late"), "x")).state == "done"
+
+
+@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="only some systems limit the memory of a process")
+def test_a_job_that_wants_too_much_memory_is_refused_and_the_worker_lives(one):
+    before = ended(one.ask(question("echo", n="modest"), "x")).result[2]
+    job = ended(one.ask(question("greedy"), "x"))
+    assert job.message == "This needs more than 4 GB of memory and was given up. Nothing else is lost."
+    assert ended(one.ask(question("echo", n="still modest"), "x")).result[2] == before
+
+
+def test_an_answer_without_a_key_is_not_kept(one):
+    first, again = (ended(one.ask(Task(name="echo", choices={"key": ""}), "x")) for _k in range(2))
+    assert first.result[3] < again.result[3]
+
+
+def test_a_question_in_other_words_goes_where_the_answer_is_known_unless_that_one_is_busy(jobs):
+    def pid(matter, n):
+        return ended(jobs.ask(question("echo", matter=matter, n=n), f"{matter}{n}")).result[2]
+
+    homes = {matter: pid(matter, 0) for matter in "abcdef"}
+    for n in range(1, 4):
+        assert {matter: pid(matter, n) for matter in homes} == homes
+    busy = jobs.ask(question("slow", matter="a", n="busy"), "x")
+    until(lambda: busy.state == "running")
+    assert pid("a", 4) != homes["a"]
+    jobs.cancel(busy)
+    ended(busy)
+
+
+def test_another_unit_calculates_nothing_again(monkeypatch):
+    made = []
+    real = answers.gather
+    monkeypatch.setattr(answers, "gather", lambda *given: made.append(given) or real(*given))
+    inch = Reader(units={"length": "in", "torque": "lbft"}, decimal=",")
+    drive = example("truck-power-unit")
+    pages = [
+        result(Question(name="torsion", drive=drive, folder=Path(), language=code, reader=who))
+        for code, who in (("en", USUAL), ("en", inch), ("ru", inch), ("en", USUAL))
+    ]
+    assert len(made) == 2  # once a language
+    assert pages[0].answer == pages[3].answer
+    assert pages[2].title == "Крутильные колебания"
+    tables = [next(one for one in page.blocks if isinstance(one, Table)) for page in pages]
+    cells = [[cell.text for row in one.rows for cell in row] for one in tables]
+    assert cells[0] == cells[3] != cells[1]
+
+
+def test_half_an_answer_is_not_kept(monkeypatch):
+    monkeypatch.setattr(answers, "found_page", lambda question, on, progress, *_more: progress(0.5))
+    asked = Question(name="torsion", drive=example("truck-power-unit"), folder=Path())
+    result(asked, lambda _share: "stop")
+    assert asked.matter not in _answers
 
 
 def test_users_are_served_in_turn(one):

@@ -278,3 +278,26 @@ def test_ends_of_lines_stay_as_the_file_has_them_and_a_pose_written_can_be_looke
     saved = (folder / "windows.toml").read_bytes().decode()
     assert saved.startswith(lines.rstrip())
     assert saved.count("\r\n") == saved.count("\n")
+
+
+def test_what_an_answer_lacks_is_offered_as_fields_and_then_it_is_there(page_of: Open, url: str) -> None:
+    page = page_of(f"{url}/?drive=new", reduced_motion="reduce")
+    ready(page)
+    bare = page.locator(".asked .q-tab.bare")
+    assert "Forces" in bare.all_inner_texts()
+    mark(page, "tab-forces").click()
+    offer = page.locator('[data-mark="sheet-forces"] [data-mark="offer"]')
+    field = offer.get_by_label("torque N·m", exact=True)
+    assert re.match(r"such as \d", field.get_attribute("placeholder"))
+    offer.locator('[data-mark="add-supports"]').wait_for()
+    field.fill("800")
+    field.press("Enter")
+    offer.locator('[data-mark="key-duty.torque_Nm"]').wait_for(state="detached")
+    offer.locator('[data-mark="add-supports"]').click()
+    offer.wait_for(state="hidden")
+    page.wait_for_function(
+        "[...document.querySelectorAll('.asked .q-tab.bare')].every((tab) => !tab.innerText.includes('Forces'))"
+    )
+    drive = loads(text_of(page))
+    assert drive.duty.torque == 800.0
+    assert len(drive.supports) == 1

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
-from urllib.parse import quote, unquote
+from urllib.parse import quote, unquote, urlencode
 
 from nicegui import ui
 from nicegui.client import ClientConnectionTimeout
@@ -20,7 +20,7 @@ from cardan.errors import InputError
 from cardan.figures.drive import space_figure
 from cardan.figures.render_svg import inline_svg
 from cardan.io import example, example_names, example_text, starter
-from cardan.texts import _
+from cardan.texts import _, visible
 
 from .parts import widgets as toasts
 from .parts.answers import Answers
@@ -30,8 +30,9 @@ from .parts.editor import Editor
 from .parts.header import Header
 from .parts.verdicts import Verdicts
 from .parts.view import View
-from .parts.widgets import Timer
+from .parts.widgets import Apart, Timer
 from .state.jobs import Jobs
+from .state.kept import Kept
 from .state.recordings import DIAGNOSIS
 from .state.session import Session
 
@@ -61,28 +62,17 @@ class Keys:
     It belongs to the window: parts of the page that are built anew do not bring another one.
     """
 
-    def __init__(self, session: Session) -> None:
+    def __init__(self, session: Session, save: Callable[[], None]) -> None:
         self.session = session
+        self.save = save
         ui.on("cardan-key", lambda event: self._pressed(str(event.args)))
         ui.run_javascript(PRESSED)
 
     def _pressed(self, what: str) -> None:
-        if what == "save":
-            self._save()
-        elif what == "redo":
-            self.session.redo()
-        else:
-            self.session.undo()
-
-    def _save(self) -> None:
-        if self.session.empty:
-            return
-        with self.session.speaking():
-            try:
-                self.session.save(self.session.name or "drive.toml")
-                toasts.done(_("{name} is saved.").format(name=self.session.name))
-            except InputError as error:
-                toasts.refused(error)
+        if what != "save":
+            (self.session.redo if what == "redo" else self.session.undo)()
+        elif not self.session.empty:
+            self.save()
 
 
 # An empty start: examples with pictures, the files of the folder, a new drive.
@@ -103,7 +93,7 @@ class Start:
                     "no-caps unelevated"
                 ).props('data-mark="new"')
                 for name in session.workspace.names()[:6]:
-                    ui.button(name, icon="description", on_click=lambda name=name: self._open(name)).props(
+                    ui.button(visible(name), icon="description", on_click=lambda name=name: self._open(name)).props(
                         "no-caps outline"
                     )
             ui.label(_("Examples")).classes("head").props("role=heading aria-level=2")
@@ -118,7 +108,7 @@ class Start:
             ui.label(drive.name or name).classes("head")
             count = len(drive.joints)
             ui.label(_("joints: {count}").format(count=count)).classes("hint")
-        card.on("click", lambda: self.session.open(example_text(name), saved=False))
+        card.on("click", lambda: open_example(self.session, name))
 
     def _open(self, name: str) -> None:
         with self.session.speaking():
@@ -131,6 +121,8 @@ class Start:
 STATIC = Path(__file__).parent / "static"
 
 ICON = STATIC / "icon.svg"
+
+__all__ = ["CHOSEN", "ICON", "Apart", "build", "dress", "kept_choices", "open_example", "serve_files", "stored"]
 
 CHOSEN = "cardan_choices"  # cookie with the choices of a user
 
@@ -183,15 +175,80 @@ def kept_choices(cookies: Mapping[str, str]) -> Mapping[str, Any]:
 
 def open_example(session: Session, name: str) -> None:
     """Open a shipped example as a new file."""
-    session.open(example_text(name), saved=False)
+    session.open(example_text(name), saved=False, example=name)
 
 
-def build(session: Session, jobs: Jobs) -> None:
+# What the browser keeps of a window in the storage of its tab, the address that names what is open, and the question
+# before something is lost. A page that lost its server is not asked: what it shows is kept there.
+
+KEEPING = """window.cardanKeep = (address, losing) => {
+  window.cardanLosing = losing;
+  if (location.pathname + location.search !== address) history.replaceState(history.state, '', address);
+};
+window.cardanStore = (kept) => {
+  try { sessionStorage.setItem('cardan-kept', kept); } catch { sessionStorage.removeItem('cardan-kept'); }
+};
+addEventListener('beforeunload', (event) => {
+  if (window.cardanLosing && document.getElementById('popup')?.ariaHidden !== 'false') event.preventDefault();
+});"""
+
+STORED = "return sessionStorage.getItem('cardan-kept') ?? ''"
+
+STORE = 0.5  # seconds without a change after which the browser keeps it
+
+
+async def stored() -> str:
+    """Return what the browser kept of this window; nothing where it does not say."""
+    try:
+        return str(await ui.run_javascript(STORED, timeout=5.0))
+    except TimeoutError:
+        return ""
+
+
+class Keeping:
+    """Has server and browser keep what a window works on.
+
+    keep: keeps it on the server; body: part of the page that stays.
+    """
+
+    def __init__(self, session: Session, keep: Callable[[Kept], None], body: ui.element) -> None:
+        self.session, self._keep, self._body = session, keep, body
+        self._told: tuple[str, bool] | None = None
+        self._due: Timer | None = None
+        ui.run_javascript(KEEPING)
+        session.listen("file", self.follow, lasting=True)
+        session.listen("variants", self.follow, lasting=True)
+
+    def follow(self) -> None:
+        """Keep it as it is now."""
+        session = self.session
+        kept = session.kept()
+        what, name = ("file", "") if session.empty else kept.place
+        if not session.empty:
+            self._keep(kept)
+        now = (f"/?{urlencode({what: name})}", session.losing)
+        if now != self._told:
+            self._told = now
+            ui.run_javascript(f"cardanKeep({json.dumps(now[0])}, {json.dumps(now[1])})")
+        if self._due is not None:
+            self._due.cancel()
+        self._due = Timer(session, self._body, STORE, lambda: self._store(kept), once=True)
+
+    def _store(self, kept: Kept) -> None:
+        ui.run_javascript(f"cardanStore({json.dumps(kept.packed())})")
+
+
+def dress() -> None:
+    """Give the page its looks, before anything stands on it."""
+    for name in ("app", "answers", "variants"):
+        ui.add_head_html(f'<link rel="stylesheet" href="/cardan/{name}.css">')
+
+
+def build(session: Session, jobs: Jobs, keep: Callable[[Kept], None]) -> None:
     """Build the page of one window.
 
-    jobs: where long answers are made.
+    jobs: where long answers are made; keep: keeps what the window works on.
     """
-    ui.add_head_html('<link rel="stylesheet" href="/cardan/app.css">')
     ui.colors(primary="#1f4e8c", positive="#1b7f4b", negative="#b3261e", warning="#9a5b00")
     dark = ui.dark_mode({"auto": None, "light": False, "dark": True}[session.choices.theme])
     ui.query("body").classes("cardan")
@@ -205,13 +262,16 @@ def build(session: Session, jobs: Jobs) -> None:
     ui.context.client.on_delete(session.recordings.close)
     session.listen("choices", chosen, lasting=True)
     whole = ui.element("div").classes("page")
+    keeping = Keeping(session, keep, whole)
+    heads: list[Header] = []
 
     def filled() -> None:
         with session.speaking(), whole:
             whole.clear()
             session.forget_parts()
             _tell_browser(session)
-            _parts(session, jobs)
+            heads[:] = [_parts(session, jobs)]
+            keeping.follow()
 
     def later(what: Callable[[], None]) -> None:
         Timer(session, whole, LATER, what, once=True)
@@ -219,7 +279,7 @@ def build(session: Session, jobs: Jobs) -> None:
     session.rebuild = filled
     session.later = later
     filled()
-    Keys(session)
+    Keys(session, lambda: heads[0].save())
 
     def dimmed(event: Any) -> None:
         session.dark = bool(event.args)
@@ -239,19 +299,20 @@ def _tell_browser(session: Session) -> None:
     ui.run_javascript(f"document.documentElement.lang='{session.choices.language}'")
 
 
-def _parts(session: Session, jobs: Jobs) -> None:
+def _parts(session: Session, jobs: Jobs) -> Header:
     head = Header(session, jobs)
     if session.empty:
         Start(session)
-        return
+        return head
     with ui.element("main").classes("desk"):
         with ui.element("section").classes("pane file").props(f'aria-label="{_("Drive file")}"'):
             Editor(session)
         with ui.element("section").classes("pane view").props(f'aria-label="{_("The drive turning")}"'):
-            head.report.snapshot = View(session).scene.snapshot
+            head.report.snapshot = View(session, jobs).scene.snapshot
         with ui.element("section").classes("pane answers").props(f'aria-label="{_("Answers")}"'):
             export = Exports(session, jobs)
             answers = Answers(session, jobs, export=export)
             answers.add(DIAGNOSIS, _("Diagnosis"), lambda: Diagnosis(session, jobs, export))
         with ui.element("section").classes("pane verdicts").props(f'aria-label="{_("Verdicts")}"'):
             Verdicts(session, jobs, compare=head.variants.compare)
+    return head

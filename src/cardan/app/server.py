@@ -6,20 +6,22 @@ import hashlib
 import logging
 import secrets
 import socket
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import parse_qs, parse_qsl, quote, urlencode, urlsplit
 
 from cardan.errors import InputError, refuse
 from cardan.files import refusal
+from cardan.io import starter
 from cardan.later import later
 from cardan.texts import _, language, mark
 
 from .state.document import Workspace
 from .state.jobs import Jobs
+from .state.kept import Keeper, asked_place, unpacked
 from .state.recordings import close_all
 from .state.session import Session, choices_of
 
@@ -29,7 +31,8 @@ pages = later("cardan.app.page")
 PORT = 8321  # port that is tried first; any free one when it is taken and none was asked for
 
 
-RECONNECT = 30.0  # seconds that a busy or sleeping browser may be silent without losing its page
+RECONNECT = 300.0  # seconds that a busy or sleeping browser may be silent without losing its page
+CONNECT = 60.0  # seconds that a browser may take until it shows the page
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +41,7 @@ class Start:
 
     folder: Path  # folder with the drive files: nothing outside it is read or written
     file: str = ""  # name of the file in it to open; empty to offer the examples
-    # address to listen at; anything but this machine asks for a token and gives each visitor a folder of their own
+    # address to listen at; anything but this machine gives each visitor a folder of their own
     host: str = "127.0.0.1"
     port: int | None = None  # port to listen at; None for the usual or any free one
     show: bool = True  # open the browser
@@ -59,23 +62,28 @@ def start(how: Start) -> None:
         raise refuse(str(how.folder), _("is not a folder"))
     if how.file:
         Workspace(how.folder).read(how.file)
-    port, token = _port(how), secrets.token_urlsafe(24) if how.shared else ""
+    port, token = _port(how), secrets.token_urlsafe(24)
     jobs = Jobs()
     app.on_shutdown(jobs.close)
     app.on_shutdown(close_all)
     page.serve_files(app)
 
+    keeper = Keeper()
+
     @ui.page("/", title="cardan", favicon=page.ICON, response_timeout=20)  # type: ignore[untyped-decorator]
-    def index(client: Any) -> None:
-        session = _session(how, client.request)
+    async def index(client: Any) -> None:
+        page.dress()
+        await client.connected(CONNECT)
+        session, window = await _session(how, client, keeper, jobs)
         with session.speaking():
-            page.build(session, jobs)
+            page.build(session, jobs, lambda kept: keeper.keep(window, kept))
 
     for name in ("nicegui", "uvicorn.error"):
         logging.getLogger(name).addFilter(page.worth_telling)
-    app.add_middleware(Guard, names=() if how.shared else LOCAL, token=token, apart=how.shared)
+    names = () if how.shared else LOCAL
+    app.add_middleware(Guard, names=names, token=token, cookie=f"{COOKIE}_{port}", apart=how.shared)
     address = f"http://{'localhost' if how.host in ('0.0.0.0', '::') else how.host}:{port}/"
-    told = address + (f"?token={token}" if token else "")
+    told = f"{address}?token={token}"
     print(_("cardan is at {address} - ctrl-C ends it").format(address=told), flush=True)
     try:
         with suppress(KeyboardInterrupt):  # how it is meant to end
@@ -95,8 +103,9 @@ def start(how: Start) -> None:
         jobs.close()
 
 
-def _session(how: Start, request: Any) -> Session:
-    """Return a session for one window of a visitor."""
+async def _session(how: Start, client: Any, keeper: Keeper, jobs: Jobs) -> tuple[Session, Hashable]:
+    """Return a session for one window of a visitor, and by what the window is known when it comes back."""
+    request = client.request
     kept = pages().kept_choices(request.cookies)
     choices = choices_of({"language": language(), **kept})
     folder = how.folder
@@ -109,16 +118,28 @@ def _session(how: Start, request: Any) -> Session:
             notice = f"{folder.name}: {refusal(error)}"
     session = Session(Workspace(folder), choices)
     session.notice = notice
-    asked = request.query_params.get("file", "") or ("" if how.shared else how.file)
-    example = request.query_params.get("example", "")
+    session.apart = pages().Apart(session, jobs)
+    window = (folder, client.tab_id)
+    left = keeper.of(window) or unpacked(await pages().stored(), session.read)
+    place = asked_place(request.query_params, "" if how.shared else how.file)
     try:
-        if example:
-            pages().open_example(session, example)
-        elif asked:
-            session.open(session.workspace.read(asked), asked)
+        if left is not None and left.place == place:
+            session.resume(left)
+        else:
+            _open(session, *place)
     except InputError as error:
         session.notice = str(error)
-    return session
+    return session, window
+
+
+def _open(session: Session, what: str, name: str) -> None:
+    """Open what an address names."""
+    if what == "example":
+        pages().open_example(session, name)
+    elif what == "file":
+        session.open(session.workspace.read(name), name)
+    elif what:
+        session.open(starter(), saved=False)
 
 
 def _visitor(request: Any) -> str:
@@ -139,12 +160,13 @@ def _port(how: Start) -> int:
     raise refuse("port", _("{port} at {host} cannot be used: {why}").format(port=how.port, host=how.host, why=why))
 
 
-# Who may speak to the server: it answers to its own names, and where it can be reached from outside to a token.
+# Who may speak to the server: it answers to its own names, to pages of its own, and to those who know its token.
 
-COOKIE = "cardan_token"
+COOKIE = "cardan_token"  # cookie with the token; cookies know no ports, so that of each server has its port behind it
 
 VISITOR = "cardan_visitor"  # cookie that tells the visitors of a shared server apart
-LOCAL = ("127.0.0.1", "localhost", "::1")  # names of this machine that need no token
+LOCAL = ("127.0.0.1", "localhost", "::1")  # names of this machine
+OWN = ("none", "same-origin")  # where a browser may say that a request comes from: the user's hand, a page of ours
 LARGEST = 4_000_000  # bytes of a request at most: a drive file of the largest size and what goes with it
 LARGEST_SENT = 102_000_000  # the same of a request that sends a file: a recording of the largest size
 SENT = "/_nicegui/client/"  # where NiceGUI takes the files that a page is sent
@@ -177,13 +199,15 @@ App: TypeAlias = Any
 class Guard:
     """A layer before the pages that turns strangers away.
 
-    A page elsewhere could send a browser here under another name or from another origin; both are refused. Where a
-    token is asked for it comes once in the address and then in a cookie that scripts cannot read.
+    A page elsewhere could send a browser here under another name, from another origin or from another site; all are
+    refused. The token comes once in the address, which is left at once, and then in a cookie that scripts cannot read:
+    other accounts of the machine reach the port too.
     """
 
     app: App  # what answers to those let in
     names: tuple[str, ...] = LOCAL  # names under which the server may be asked; any when empty
     token: str = ""  # what a visitor must know; nothing when empty
+    cookie: str = COOKIE  # name of the cookie that holds it
     apart: bool = False  # give every visitor a name of their own, in a cookie
 
     async def __call__(self, scope: Mapping[str, Any], receive: Any, send: Any) -> None:
@@ -199,7 +223,14 @@ class Guard:
         if not known:
             await _refused(scope, send, 401, "Open cardan by the address that it printed, token included.")
             return
-        cookies = {COOKIE: self.token} if fresh else {}
+        across = headers.get("sec-fetch-site", "none") not in OWN
+        if fresh and scope["type"] == "http" and scope["method"] in ("GET", "HEAD"):
+            await _led_on(scope, _heading(send, {self.cookie: self.token}), across=across)
+            return
+        if across:
+            await _refused(scope, send, 403, "Another site may not lead here. Open cardan by its address.")
+            return
+        cookies: dict[str, str] = {}
         if not _small(scope, headers):
             await _refused(scope, send, 413, "This is more than a drive file or a recording.")
             return
@@ -228,7 +259,7 @@ class Guard:
         asked = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])[0]
         if secrets.compare_digest(asked.encode(), self.token.encode()):
             return True, True
-        held = cookies_of(headers).get(COOKIE, "")
+        held = cookies_of(headers).get(self.cookie, "")
         return secrets.compare_digest(held.encode(), self.token.encode()), False
 
 
@@ -258,6 +289,22 @@ def _heading(send: Any, cookies: Mapping[str, str]) -> Any:
         await send(message)
 
     return sent
+
+
+async def _led_on(scope: Mapping[str, Any], send: Any, *, across: bool) -> None:
+    """Lead a visitor on to the same address without the token.
+
+    across: whether a link of another site led here. Browsers count what it redirects to as of that site too, and send
+    no strict cookie; a page of ours that goes on by itself is of our own.
+    """
+    asked = parse_qsl(scope.get("query_string", b"").decode("latin-1"), keep_blank_values=True)
+    rest = urlencode([pair for pair in asked if pair[0] != "token"])
+    there = scope["path"].lstrip("/\\")  # two slashes would lead to another server
+    address = f"/{quote(there)}{'?' if rest else ''}{rest}".encode()
+    lead = (b"refresh", b"0;url=" + address) if across else (b"location", address)
+    head = [lead, (b"cache-control", b"no-store"), (b"content-type", b"text/html; charset=utf-8")]
+    await send({"type": "http.response.start", "status": 200 if across else 303, "headers": head})
+    await send({"type": "http.response.body", "body": b""})
 
 
 async def _refused(scope: Mapping[str, Any], send: Any, status: int, text: str) -> None:

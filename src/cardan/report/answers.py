@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, MutableMapping, Sequence
 from typing import Any, TypeAlias
 
-from cardan.answers.answer import Tone
+from cardan.answers.answer import Answer, Tone
 from cardan.answers.quantity import Quantity, say
 from cardan.answers.question import Lacking, Question
 from cardan.answers.reader import reader
@@ -32,37 +32,62 @@ def subject(drive: Drive, *, known: Catalogue | None = None) -> Subject:
     return Subject(drive=drive, known=known)
 
 
-def answered(name: str, on: Subject, progress: Progress | None = None, choices: Choices | None = None) -> Page:
+def answered(
+    name: str,
+    on: Subject,
+    progress: Progress | None = None,
+    choices: Choices | None = None,
+    kept: MutableMapping[str, Answer] | None = None,
+) -> Page:
     """Return the answer to one question about a drive; where there is none, a page that says what it lacks.
 
     name: one of `cardan.register.QUESTIONS`; on: the drive, as of `subject`.
     choices: what the user chose: of "selection" the number of the ``joint``.
+    kept: answers about the same drive and choices in the same language, each by its name: one that is there is told
+    to who reads here and not calculated again, one that is not there is added.
     """
-    return page_of(QUESTIONS[name], on, progress, choices or {})
+    return page_of(QUESTIONS[name], on, progress, choices or {}, kept)
 
 
-def page_of(question: Question, on: Subject, progress: Progress | None, choices: Choices) -> Page:
+def page_of(
+    question: Question,
+    on: Subject,
+    progress: Progress | None,
+    choices: Choices,
+    kept: MutableMapping[str, Answer] | None = None,
+) -> Page:
     """Return the page of a question of the register; what it lacks or why it refuses, where it has no answer."""
     title = _(question.title)
     drive = principal(question, on.drive)
     missing = question.lacking(drive)
     if missing:
         return Page(name=question.name, title=title, answer=told(missing), blocks=())
-    return found_page(question, on, progress, choices) or Page(
+    return found_page(question, on, progress, choices, kept) or Page(
         name=question.name, title=title, answer=question.home.otherwise(on.drive), blocks=()
     )
 
 
 def found_page(
-    question: Question, on: Subject, progress: Progress | None = None, choices: Choices | None = None
+    question: Question,
+    on: Subject,
+    progress: Progress | None = None,
+    choices: Choices | None = None,
+    kept: MutableMapping[str, Answer] | None = None,
 ) -> Page | None:
     """Return the page of a question about a drive that has what it needs; None where nothing can be told."""
+    if kept is not None and question.name in kept:
+        return page(kept[question.name], reader())
     drive = principal(question, on.drive)
     try:
         result = question.ask(drive, known=on.known, progress=progress, **(choices or {}))
     except InputError as error:
         return refused(question.name, _(question.title), error)
-    return None if result is None else page(gather(question, on.drive, question.answer(drive, result)), reader())
+    if result is None:
+        return None
+    found = gather(question, on.drive, question.answer(drive, result))
+    if kept is not None:
+        kept[question.name] = found
+    return page(found, reader())
 
 
 # What a part of the report says where the drive file does not answer it: what is missing, or why it is refused.

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from cardan.answers.answer import Column, Tone
 from cardan.answers.printed import Cell, cell, number
-from cardan.answers.quantity import Joined, say, told
+from cardan.answers.quantity import Joined, Quantity, say, told
 from cardan.answers.reader import reader
 from cardan.checks import Verdict, check
 from cardan.checks.verdict_table import MOST, alike, limit, verdict_key
@@ -25,6 +25,7 @@ from cardan.texts import _, plural
 from .block import capital
 from .subject import Progress, Subject
 
+FIRST = "speed_fluctuation"  # the check whose number stands first
 REMEDIES = 3  # cures of a verdict; those after them move the drive more
 
 
@@ -54,6 +55,28 @@ def lights(on: Subject) -> tuple[Light, ...]:
     """Return the verdicts on a drive, the worst first, rules of thumb last; without remedies."""
     run = [one for one in check(on.drive, known=on.known) if one.run]
     return tuple(_light(group) for group in alike(sorted(run, key=lambda one: (one.advice, -float(one.utilisation)))))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Headline:
+    """The one number that stands first: how far the output is from turning uniformly."""
+
+    title: str  # what it is
+    value: str  # what it comes to, with its unit
+    tone: Tone  # how good that is; plain where no limit is given
+
+
+def headline(on: Subject, shown: Sequence[Light]) -> Headline:
+    """Return the number that stands first: as its limit judges it where there is one, else as the drive is drawn.
+
+    shown: the verdicts, as of `lights`.
+    """
+    judged = next((one for one in shown if any(verdict.check == FIRST for verdict in one.verdicts)), None)
+    if judged is not None:
+        return Headline(title=judged.title, value=f"{judged.value.text} {judged.unit}", tone=judged.tone)
+    several = on.drive.movements or on.drive.poses
+    title = _("speed fluctuation of the drive as drawn") if several else _("speed fluctuation")
+    return Headline(title=title, value=number(Quantity(on.fluctuation, "share", 3), reader()).text, tone="plain")
 
 
 def with_remedies(on: Subject, progress: Progress | None = None) -> tuple[Light, ...]:
@@ -117,7 +140,7 @@ def sentence(shown: Sequence[Light]) -> str:
     return capital(told(said([verdict for one in shown for verdict in one.verdicts]), reader()))
 
 
-__all__ = ["MOST", "Light", "lights", "sentence", "with_remedies"]
+__all__ = ["MOST", "Headline", "Light", "headline", "lights", "sentence", "with_remedies"]
 
 
 # What can be put into a drive file with one touch: settings of the yokes, and changes that cure failed verdicts.

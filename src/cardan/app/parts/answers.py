@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from functools import partial
+from math import inf
 from typing import Any
 
 from nicegui import background_tasks, ui
 
+from cardan.answers.question import Lacking
 from cardan.app.state.jobs import Job, Jobs, own_fault
 from cardan.app.state.question import Question, asked
 from cardan.app.state.session import Session
-from cardan.app.state.work import result
+from cardan.app.state.work import SOON, result
 from cardan.drive.drive import Drive
 from cardan.errors import CardanError, InputError
 from cardan.io.edit import edit
@@ -23,6 +26,7 @@ from cardan.texts import _, speaking
 
 from . import widgets
 from .blocks import Export, PageView
+from .offer import Offer
 from .widgets import Timer
 
 AT_ONCE = ("motion",)  # answers so quick that they are made while the edit is worked on
@@ -40,18 +44,18 @@ class Answers:
     def __init__(self, session: Session, jobs: Jobs, *, export: Export | None = None) -> None:
         self.session = session
         self.sheets: dict[str, Sheet] = {}
-        ui.add_head_html('<link rel="stylesheet" href="/cardan/answers.css">')
         jobs.start()
         jobs.leave(session)  # what an older page of the same window was waiting for
         ui.context.client.on_delete(lambda: jobs.leave(session))
         tabs = groups()
+        self._marked: dict[str, ui.tab] = {}
         with ui.element("div").classes("asked"):
             self._tabs = ui.tabs(on_change=lambda event: self.open(str(event.value))).props(
                 "dense no-caps align=left outside-arrows mobile-arrows"
             )
             with self._tabs:
                 for title, names in tabs.items():
-                    ui.tab(names[0], label=_(title)).props(f'data-mark="tab-{names[0]}"')
+                    self._marked[title] = ui.tab(names[0], label=_(title)).props(f'data-mark="tab-{names[0]}"')
         self._bodies = ui.element("div").classes("sheets")
         self._groups: dict[str, ui.toggle] = {}
         with self._bodies:
@@ -65,6 +69,8 @@ class Answers:
         self._tabs.set_value(self.shown)
         self._show()
         session.listen("drive", self._follow, first=True)
+        self._mark()
+        session.listen("drive", self._mark)
         session.listen("text", self._judge)
         session.listen("choices", self._anew)
 
@@ -112,6 +118,14 @@ class Answers:
     def _follow(self) -> None:
         self.sheets[self.shown].follow()
 
+    def _mark(self) -> None:
+        """Mark the tabs on which nothing can be answered yet."""
+        for name, tab in self._marked.items():
+            bare = all(self.sheets[one].lacking for one in groups()[name])
+            tab.classes(**{"add" if bare else "remove": "bare"})
+            told = _("the drive file lacks keys for this")
+            tab.props(f'title="{told}"' if bare else "", remove="" if bare else "title")
+
     def _judge(self) -> None:
         self._bodies.classes(**{"remove" if self.session.document.valid else "add": "unsound"})
 
@@ -144,11 +158,18 @@ class Sheet:
                 self._joints = ui.select({0: _("all joints")}, value=0, label=_("joint"), on_change=self._chosen)
                 self._joints.props("dense options-dense outlined").classes("choice").props('data-mark="choice-joint"')
             self.view = PageView(export, self._pressed)
+            self._offer_keys = Offer(session)
 
     @property
     def quick(self) -> bool:
         """Whether it is there at once."""
-        return QUESTIONS[self.name].quick
+        return QUESTIONS[self.name].quick and not self.session.heavy
+
+    @property
+    def lacking(self) -> Lacking:
+        """What the drive lacks for it."""
+        drive = self.session.drive
+        return () if drive is None or self.name not in QUESTIONS else QUESTIONS[self.name].lacking(drive)
 
     def wake(self) -> None:
         """Come up to date: it is looked at now."""
@@ -180,16 +201,18 @@ class Sheet:
         self._hold()
         self._asked += 1
         self.about = question.drive
+        self._offer_keys.show(self.lacking)
         if self.name == "selection":
             self._offer(question.drive)
-        if self.name in AT_ONCE:
+        if self.name in AT_ONCE and self.quick:
             self._made(question, self._asked, _answer(question))
         elif self.quick:
             self._stale()
             background_tasks.create(self._beside(question, self._asked), name=f"answer {self.name}")
         else:
             self._stale()
-            self.job = self._jobs.ask(question, self.session)
+            limit = SOON if self.name in QUESTIONS and QUESTIONS[self.name].quick else inf
+            self.job = self._jobs.ask(question, self.session, limit=limit)
             if self.job.finished:
                 self._look()
             else:
@@ -229,7 +252,10 @@ class Sheet:
                 return
             self._end_watch()
             if job.state == "done":
+                self._settings = ()
                 self._show(job.result)
+                if self.name == "phasing":
+                    background_tasks.create(self._beside(job.question, self._asked), name="settings of the yokes")
             elif job.state == "failed":
                 self._progress.fail(job.message)
             elif job.question.drive is self.session.drive and self.about is job.question.drive:
@@ -333,7 +359,7 @@ class Progress:
 def applied(session: Session, change: Applicable) -> None:
     """Put a change into the file of a session, and say so, or why not."""
     try:
-        session.change(lambda text: edit(text, change.values, folder=session.workspace.enclosed))
+        session.change(partial(edit, values=change.values, folder=session.workspace.enclosed))
     except InputError as error:
         widgets.refused(error)
     else:

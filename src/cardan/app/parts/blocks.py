@@ -6,7 +6,6 @@ import json
 from array import array
 from base64 import b64encode
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from html import escape
 from math import nan
 from typing import Any, TypeAlias
 
@@ -21,7 +20,7 @@ from cardan.figures.render_svg import inline_svg
 from cardan.report.block import Block, Cell, Listing, Page, Picture, Points, Table, Words
 from cardan.texts import _
 
-from .widgets import Live
+from .widgets import Live, escaped
 
 Export: TypeAlias = Callable[[Figure | Page], object]  # what takes a figure or a page away from the app, into a file
 
@@ -31,22 +30,22 @@ BUTTONS = "(event) => { const one = event.target.closest('[data-do]'); if (one) 
 
 def words_html(block: Words) -> str:
     """Return a paragraph; with a tone a remark with its sign."""
-    title = f"<h4>{escape(block.title)}</h4>" if block.title else ""
+    title = f"<h4>{escaped(block.title)}</h4>" if block.title else ""
     if block.tone == "plain":
-        return f"{title}<p>{escape(block.text)}</p>"
+        return f"{title}<p>{escaped(block.text)}</p>"
     sign = f'<span class="sign" aria-hidden="true">{block.sign}</span>'
-    return f'{title}<p class="remark {block.tone}">{sign}{escape(block.text)}</p>'
+    return f'{title}<p class="remark {block.tone}">{sign}{escaped(block.text)}</p>'
 
 
 def points_html(block: Points) -> str:
     """Return a list of short remarks."""
-    items = "".join(f"<li>{escape(item)}</li>" for item in block.items)
-    return f"<h4>{escape(block.title)}</h4><ul>{items}</ul>"
+    items = "".join(f"<li>{escaped(item)}</li>" for item in block.items)
+    return f"<h4>{escaped(block.title)}</h4><ul>{items}</ul>"
 
 
 def listing_html(block: Listing) -> str:
     """Return text as it stands in a file."""
-    return f"<h4>{escape(block.title)}</h4><pre>{escape(block.text)}</pre>"
+    return f"<h4>{escaped(block.title)}</h4><pre>{escaped(block.text)}</pre>"
 
 
 def cell_html(cell: Cell, *, left: bool, button: str = "") -> str:
@@ -55,10 +54,10 @@ def cell_html(cell: Cell, *, left: bool, button: str = "") -> str:
     left: words, not a number; button: a button behind it, as HTML.
     """
     names = " ".join(filter(None, ["left" if left else "", "" if cell.tone == "plain" else cell.tone]))
-    attributes = (f' class="{names}"' if names else "") + (f' title="{escape(cell.full)}"' if cell.full else "")
-    chip = f'<i class="chip" style="background:{escape(cell.chip)}"></i>' if cell.chip else ""
+    attributes = (f' class="{names}"' if names else "") + (f' title="{escaped(cell.full)}"' if cell.full else "")
+    chip = f'<i class="chip" style="background:{escaped(cell.chip)}"></i>' if cell.chip else ""
     sign = f'<span class="sign" aria-hidden="true">{cell.sign}</span>' if cell.sign else ""
-    return f"<td{attributes}>{chip}{sign}{escape(cell.text)}{button}</td>"
+    return f"<td{attributes}>{chip}{sign}{escaped(cell.text)}{button}</td>"
 
 
 def table_html(block: Table, buttons: Mapping[str, str] | None = None) -> str:
@@ -71,13 +70,13 @@ def table_html(block: Table, buttons: Mapping[str, str] | None = None) -> str:
     def button(name: str) -> str:
         if name not in given:
             return ""
-        return f'<button type="button" class="apply" data-do="{escape(name)}">{escape(given[name])}</button>'
+        return f'<button type="button" class="apply" data-do="{escaped(name)}">{escaped(given[name])}</button>'
 
     heads = []
     for k, column in enumerate(block.columns):
-        unit = f' <span class="unit">{escape(column.unit)}</span>' if column.unit else ""
+        unit = f' <span class="unit">{escaped(column.unit)}</span>' if column.unit else ""
         side = ' class="left"' if column.left else ""
-        heads.append(f'<th scope="col"{side}>{escape(column.heading)}{unit}{button(column.heading) if k else ""}</th>')
+        heads.append(f'<th scope="col"{side}>{escaped(column.heading)}{unit}{button(column.heading) if k else ""}</th>')
     rows = []
     for row in block.rows:
         cells = [
@@ -85,8 +84,8 @@ def table_html(block: Table, buttons: Mapping[str, str] | None = None) -> str:
             for k, (column, cell) in enumerate(zip(block.columns, row, strict=True))
         ]
         rows.append(f"<tr>{''.join(cells)}</tr>")
-    title = f"<h4>{escape(block.title)}</h4>" if block.title else ""
-    note = f'<p class="small">{escape(block.note)}</p>' if block.note else ""
+    title = f"<h4>{escaped(block.title)}</h4>" if block.title else ""
+    note = f'<p class="small">{escaped(block.note)}</p>' if block.note else ""
     head, body = f"<thead><tr>{''.join(heads)}</tr></thead>", f"<tbody>{''.join(rows)}</tbody>"
     return f'{title}<div class="wide"><table>{head}{body}</table></div>{note}'
 
@@ -142,7 +141,7 @@ class Drawn:
         self.figure = block.figure
         with ui.element("figure").classes("block") as self.element:
             with ui.element("div").classes("heading"):
-                self.title = Live(escape(self.figure.title)).classes("title")
+                self.title = Live(escaped(self.figure.title)).classes("title")
                 if export is not None:
                     button = ui.button(icon="download", on_click=lambda: export(self.figure))
                     button.props(f'flat dense round size=sm aria-label="{_("save this figure")}"').props(
@@ -150,8 +149,8 @@ class Drawn:
                     )
             self.picture = Drawing(self.figure) if drawn_in_space(self.figure) else Chart(self.figure)
             with ui.element("figcaption"):
-                self.sentence = Live(escape(self.figure.sentence))
-                self.source = Live(escape(self.figure.source)).classes("small")
+                self.sentence = Live(escaped(self.figure.sentence))
+                self.source = Live(escaped(self.figure.source)).classes("small")
 
     def fits(self, block: Block) -> bool:
         """Whether a block can be shown in its place: another state of the same figure."""

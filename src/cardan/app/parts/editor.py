@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from nicegui import events, ui
@@ -15,7 +16,7 @@ from cardan.texts import _
 from cardan.units import DIMENSIONS
 
 from .form import Form, KeyField, attempt
-from .widgets import Timer
+from .widgets import Timer, first
 
 
 class Editor:
@@ -107,8 +108,8 @@ class Source:
     def _judge(self) -> None:
         self.problems.clear()
         with self.problems:
-            for problem in self.session.document.problems:
-                ui.label(str(problem)).classes("wrong")
+            for told in first(self.session.document.problems):
+                ui.label(told).classes("wrong")
 
 
 # Where the drive lies: its points as a table, and in plan and side view to be dragged.
@@ -191,7 +192,7 @@ class Centres:
         share = DIMENSIONS["length"]["mm"] / entry.units[entry.unit]
         value = [float(f"{float(x) * share:.9g}") for x in at]
         gesture = f"drag {path}"
-        attempt(self.session, lambda text: amend(text, {entry.key(): value}), gesture=gesture)
+        attempt(self.session, partial(amend, values={entry.key(): value}), gesture=gesture)
         if last:
             self.session.end_gesture()
 

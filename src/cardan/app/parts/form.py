@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 from nicegui import ui
@@ -79,13 +80,13 @@ class Form:
     def _add_joint(self) -> None:
         tree = self.session.document.tree or {}
         at = len(tables(tree, "joints"))
-        attempt(self.session, lambda text: with_joint(text, at))
+        attempt(self.session, partial(with_joint, at=at))
         self.session.select(f"joints[{at}]")
 
     def _add(self, name: str) -> None:
         tree = self.session.document.tree or {}
         at = len(tables(tree, name))
-        attempt(self.session, lambda text: insert(text, f"{name}[{at}]", NEW[name]))
+        attempt(self.session, partial(insert, path=f"{name}[{at}]", values=NEW[name]))
         self.session.select(f"{name}[{at}]")
 
 
@@ -212,7 +213,7 @@ class Table:
     def _begin(self, entry: Entry, before: Any) -> None:
         """Show an empty field for a key, or write a new table."""
         if entry.sort == "tables":
-            attempt(self.session, lambda text: insert(text, f"{entry.key()}[0]", {}))
+            attempt(self.session, partial(insert, path=f"{entry.key()}[0]", values={}))
         elif entry.sort == "table":
             apply(self.session, {entry.key(): {}})
         else:
@@ -224,12 +225,12 @@ class Table:
         with ui.element("div").classes("tools"):
             if self.path.startswith("joints[") and "." not in self.path:
                 at = int(self.path[7:-1])
-                act = self._changing(lambda text: joint_moved(text, at, at - 1))
+                act = self._changing(partial(joint_moved, at=at, to=at - 1))
                 _tool("arrow_upward", _("earlier in the chain"), act)
-                act = self._changing(lambda text: joint_moved(text, at, at + 1))
+                act = self._changing(partial(joint_moved, at=at, to=at + 1))
                 _tool("arrow_downward", _("later in the chain"), act)
-                _tool("add", _("a joint after this one"), self._changing(lambda text: with_joint(text, at + 1)))
-                _tool("delete", _("take this joint out"), self._changing(lambda text: without_joint(text, at)))
+                _tool("add", _("a joint after this one"), self._changing(partial(with_joint, at=at + 1)))
+                _tool("delete", _("take this joint out"), self._changing(partial(without_joint, at=at)))
             elif now.removable:
                 _tool("delete", _("take this out"), lambda: apply(self.session, {now.removable: None}))
             if now.removable.endswith("]") and "." in now.removable:
@@ -237,7 +238,7 @@ class Table:
 
     def _another(self) -> None:
         stem, _bracket, place = self.path[:-1].rpartition("[")
-        attempt(self.session, lambda text: insert(text, f"{stem}[{int(place) + 1}]", {}))
+        attempt(self.session, partial(insert, path=f"{stem}[{int(place) + 1}]", values={}))
 
     def _changing(self, change: Callable[[str], str]) -> Callable[[], None]:
         return lambda: attempt(self.session, change)
@@ -410,7 +411,7 @@ class KeyField:
 
 def apply(session: Session, values: dict[str, Any]) -> None:
     """Change keys of the file; say why where it cannot be."""
-    attempt(session, lambda text: amend(text, values))
+    attempt(session, partial(amend, values=values))
 
 
 def attempt(session: Session, change: Callable[[str], str], *, gesture: str = "") -> None:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from nicegui import events, ui
 
 from cardan.app.state import work as papers
-from cardan.app.state.document import read
+from cardan.app.state.document import full_name, read
 from cardan.app.state.jobs import Jobs
 from cardan.app.state.session import Session
 from cardan.app.state.variants import LONGEST
@@ -15,13 +15,15 @@ from cardan.errors import InputError
 from cardan.io import starter
 from cardan.reading.limits import MAX_BYTES
 from cardan.report.block import Page
-from cardan.texts import LANGUAGES, _
+from cardan.texts import LANGUAGES, _, visible
 from cardan.units import DIMENSIONS, label
 
 from . import widgets as toasts
 from .blocks import PageView
 from .download import Exports, Making, ReportMenu
-from .widgets import asking, drop_down, pop_up, sending
+from .widgets import Timer, asking, drop_down, pop_up, sending
+
+LOOK = 2.0  # seconds between two looks whether somebody else changed the file
 
 
 class Header:
@@ -43,6 +45,7 @@ class Header:
                 self.report = ReportMenu(session, jobs)
             self._files()
             SettingsMenu(session)
+        self._disk()
         self._follow()
         session.listen("file", self._follow)
 
@@ -52,9 +55,42 @@ class Header:
             self.name.set_text("")
             return
         state = _("saved") if session.saved else _("not saved")
-        self.name.set_text(f"{session.name or _('new drive')} {'●' if not session.saved else '○'} {state}")
+        foreign = session.foreign is not None
+        if foreign:
+            state = _("changed on the disk")
+        name = visible(session.name) or _("new drive")
+        self.name.set_text(f"{name} {'○' if session.saved and not foreign else '●'} {state}")
+        self.disk.set_visibility(foreign)
+        if foreign:
+            self.told.set_text(_("Somebody else has changed {name} on the disk.").format(name=name))
         self.undo.set_enabled(bool(session.history.before))
         self.redo.set_enabled(bool(session.history.behind))
+
+    def _disk(self) -> None:
+        """Tell once somebody else writes the file, and offer what can be done."""
+        with ui.element("div").classes("disk").props('role=alert data-mark="disk"') as self.disk:
+            self.told = ui.label()
+            self._ways(lambda: None)
+        self.disk.set_visibility(False)
+        Timer(self.session, self.disk, LOOK, self.session.look, once=False)
+
+    def _ways(self, then: Callable[[], object]) -> None:
+        """Offer to take what somebody else wrote, or to keep both."""
+
+        def act(how: Callable[[], None], told: str) -> None:
+            if self._try(how):
+                then()
+                with self.session.speaking():
+                    toasts.done(told.format(name=visible(self.session.name)))
+
+        def apart() -> None:
+            self.session.save(self.session.workspace.free(self.session.name))
+
+        again, kept = _("{name} is read again; undo goes back."), _("{name} is saved.")
+        reload = ui.button(_("Read it again"), on_click=lambda: act(self.session.reload, again))
+        reload.props('flat dense no-caps data-mark="disk-reload"')
+        both = ui.button(_("Keep both"), on_click=lambda: act(apart, kept))
+        both.props('flat dense no-caps data-mark="disk-both"')
 
     def _files(self) -> None:
         with drop_down(_("File"), "file-menu"):
@@ -113,22 +149,59 @@ class Header:
         """Write the file; ask for a name first where it has none."""
         if not self.session.name:
             self.save_as()
-        elif self._try(self.session.save):
-            toasts.done(_("{name} is saved.").format(name=self.session.name))
+        else:
+            self._write(self.session.name, lambda: None)
 
     def save_as(self) -> None:
         """Ask for a name and write the file."""
-        with self.session.speaking(), asking("save-file-as") as dialog:
-            name = ui.input(_("name"), value=self.session.name or "drive.toml").props("autofocus outlined dense")
+        session = self.session
+        with session.speaking(), asking("save-file-as") as dialog:
+            proposed = session.name or session.workspace.free(session.example or "drive")
+            name = ui.input(_("name"), value=proposed).props('autofocus outlined dense data-mark="save-name"')
 
             def named() -> None:
-                if self._try(lambda: self.session.save(name.value.strip())):
-                    dialog.close()
+                self._write(name.value.strip(), dialog.close)
 
             name.on("keydown.enter", named)
             with ui.row().classes("ends"):
                 ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
                 ui.button(_("Save"), on_click=named).props("no-caps").props('data-mark="save-named"')
+
+    def _write(self, name: str, then: Callable[[], object], *, over: bool = False) -> None:
+        """Write the file under a name; ask where something stands there that is not ours."""
+
+        def act() -> None:
+            obstacle = "" if over else self.session.obstacle(name)
+            if obstacle:
+                self._ask_over(name, obstacle, then)
+                return
+            self.session.save(name, over=over)
+            then()
+            toasts.done(_("{name} is saved.").format(name=visible(self.session.name)))
+
+        self._try(act)
+
+    def _ask_over(self, name: str, obstacle: str, then: Callable[[], object]) -> None:
+        """Ask whether to write over what stands there."""
+        told = _("There is another file {name}. Replace it?")
+        if obstacle == "changed":
+            told = _("Somebody else has changed {name} on the disk since it was read here. Replace it?")
+        with asking("write-over", role="alertdialog") as dialog:
+
+            def left() -> None:
+                dialog.close()
+                then()
+
+            def replaced() -> None:
+                dialog.close()
+                self._write(name, then, over=True)
+
+            ui.label(told.format(name=visible(full_name(name))))
+            with ui.row().classes("ends"):
+                ui.button(_("Stay"), on_click=dialog.close).props("flat no-caps autofocus")
+                if obstacle == "changed":
+                    self._ways(left)
+                ui.button(_("Replace"), on_click=replaced).props('no-caps color=negative data-mark="replace"')
 
     def download(self) -> None:
         """Give the file to the browser."""
@@ -152,7 +225,7 @@ def _of_folder(session: Session, dialog: ui.dialog, taken: Callable[[str], None]
         ui.label(_("There is no drive file yet.")).classes("hint")
     with ui.element("div").classes("files"):
         for name in names:
-            button = ui.button(name, on_click=lambda name=name: taken(name))
+            button = ui.button(visible(name), on_click=lambda name=name: taken(name))
             button.props(f"flat no-caps align=left{mark}").classes(classes)
     ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
 
@@ -232,7 +305,6 @@ class VariantsMenu:
     def __init__(self, session: Session, jobs: Jobs) -> None:
         self.session = session
         self._jobs = jobs
-        ui.add_head_html('<link rel="stylesheet" href="/cardan/variants.css">')
         with drop_down(_("Variants"), "variants-menu").on("before-show", self._filled) as self._button:
             self._list = ui.element("div").classes("variants")
         self._listed: object = None

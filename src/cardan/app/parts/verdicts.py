@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from html import escape
+from math import inf
+from typing import cast
 
 from nicegui import ui
 
 from cardan.app.state.jobs import Job, Jobs, own_fault
-from cardan.app.state.question import asked
+from cardan.app.state.question import Question, asked
 from cardan.app.state.session import Session
-from cardan.app.state.work import REMEDIES, VERDICTS, result
+from cardan.app.state.work import REMEDIES, VERDICTS, Judged, result
+from cardan.app.state.work import SOON as SOONER
 from cardan.errors import CardanError
 from cardan.report.answers import subject
 from cardan.report.block import SIGNS
-from cardan.report.verdict_list import MOST, Applicable, Light, sentence, synchronous
+from cardan.report.verdict_list import MOST, Applicable, Headline, Light, sentence, synchronous
 from cardan.texts import _
 
 from .answers import applied
-from .widgets import Live, Timer
+from .widgets import Live, Timer, escaped, first
 
 QUIET = 0.4  # seconds without an edit after which cures are looked for
 SOON = 0.002  # seconds by which verdicts follow the curves
@@ -50,6 +52,7 @@ class Verdicts:
         self._watch: Timer | None = None
         with ui.element("div").classes("lights") as self.body:
             self._problems = ui.html("", sanitize=False).props("role=alert").props('data-mark="problems-of-verdicts"')
+            self._first = Live().classes("first").props('data-mark="headline"')
             self._summed = Live().classes("summed").props("role=status").props('data-mark="judgement"')
             with ui.element("div").classes("tools"):
                 even = ui.button(_("make synchronous"), on_click=self._even).props("outline dense no-caps size=sm")
@@ -79,6 +82,10 @@ class Verdicts:
         question = asked(self.session, VERDICTS)
         if question is None:
             return
+        if self.session.heavy:
+            self._list.classes(add="stale")
+            self._ask(question, limit=SOONER)
+            return
         try:
             found = result(question)
         except CardanError as error:
@@ -89,7 +96,13 @@ class Verdicts:
             self._summed.say(own_fault(question.language, f"{type(error).__name__}: {error}"))
             self._show(())
             return
-        assert isinstance(found, tuple)
+        self._found(cast("Judged", found))
+
+    def _found(self, judged: Judged) -> None:
+        """Show the number that stands first and the verdicts, and look for what cures the failed ones."""
+        number, found = judged
+        self._first.show(headline_html(number))
+        self._list.classes(remove="stale")
         self._summed.say(sentence(found))
         self._show(found)
         if any(one.tone == "failed" for one in found):
@@ -97,9 +110,11 @@ class Verdicts:
 
     def _search(self) -> None:
         question = asked(self.session, REMEDIES)
-        if question is None:
-            return
-        self._job = self._jobs.ask(question, self.session)
+        if question is not None:
+            self._ask(question)
+
+    def _ask(self, question: Question, limit: float = inf) -> None:
+        self._job = self._jobs.ask(question, self.session, limit=limit)
         if self._job.finished:
             self._look()
         else:
@@ -110,8 +125,12 @@ class Verdicts:
         if job is None or not job.finished:
             return
         self._end()
-        if job.state == "done" and job.question.drive is self.session.drive:
-            self._show(job.result)
+        if job.question.drive is not self.session.drive:
+            return
+        if job.state == "failed" and job.question.name == VERDICTS:
+            self._summed.say(job.message)
+        elif job.state == "done":
+            (self._found if job.question.name == VERDICTS else self._show)(job.result)
 
     def _show(self, found: Sequence[Light]) -> None:
         self.lights = tuple(found)
@@ -121,11 +140,11 @@ class Verdicts:
         """Show what is wrong with the file, over the verdicts of when it was sound."""
         document = self.session.document
         self._list.classes(**{"remove" if document.valid else "add": "stale"})
-        said = "".join(f"<li>{escape(str(one))}</li>" for one in document.problems)
+        said = "".join(f"<li>{escaped(told)}</li>" for told in first(document.problems))
         head = _("The file describes no drive; the verdicts below are those of when it last did.")
         if self.session.drive is None:
             head = _("The file describes no drive yet.")
-        self._problems.set_content("" if document.valid else f'<p class="wrong">{escape(head)}</p><ul>{said}</ul>')
+        self._problems.set_content("" if document.valid else f'<p class="wrong">{escaped(head)}</p><ul>{said}</ul>')
 
     def _pressed(self, what: str) -> None:
         action, _space, name = what.partition(" ")
@@ -169,25 +188,36 @@ def field_of(light: Light) -> str:
     return next(iter((*paths, *light.design_variables, light.path)), "")
 
 
+def headline_html(number: Headline) -> str:
+    """Return the number that stands first."""
+    return f'<b class="{number.tone}">{escaped(number.value)}</b><span>{escaped(number.title)}</span>'
+
+
 def lights_html(lights: Sequence[Light], opened: set[str]) -> str:
     """Return the list of verdicts, rules of thumb under a heading of their own."""
     parts = [_light(one, one.name in opened) for one in lights if not one.advice]
     advice = [_light(one, one.name in opened) for one in lights if one.advice]
     if advice:
-        parts.append(f"<h3>{escape(_('Advice: rules of thumb, they fail no drive'))}</h3>")
+        parts.append(f"<h3>{escaped(_('Advice: rules of thumb, they fail no drive'))}</h3>")
     return "".join([*parts, *advice])
 
 
 def _light(one: Light, opened: bool) -> str:
-    value = escape(f"{one.value.text} {one.unit}".strip())
-    full = f' title="{escape(one.value.full)}"' if one.value.full else ""
+    value = escaped(f"{one.value.text} {one.unit}".strip())
+    full = f' title="{escaped(one.value.full)}"' if one.value.full else ""
     summary = (
         f'<summary><span class="sign" aria-hidden="true">{SIGNS[one.tone]}</span>'
-        f'<span>{escape(one.title)}<span class="word">{escape(one.verdict)}</span></span>'
-        f'<span class="value"{full}>{value}</span></summary>'
+        f'<span>{escaped(one.title)}<span class="word">{escaped(one.verdict)}</span></span>'
+        f'<span class="value"{full}>{value}<span class="word">{escaped(_against(one))}</span></span></summary>'
     )
     state = " open" if opened else ""
-    return f'<details class="{one.tone}" data-name="{escape(one.name)}"{state}>{summary}{_more(one)}</details>'
+    return f'<details class="{one.tone}" data-name="{escaped(one.name)}"{state}>{summary}{_more(one)}</details>'
+
+
+def _against(one: Light) -> str:
+    """Return limit and share of it."""
+    used = f"{100.0 * one.used:.0f}" if one.used <= MOST else f"> {100.0 * MOST:.0f}"
+    return " · ".join(filter(None, [one.limit, f"{used} %"]))
 
 
 def _more(one: Light) -> str:
@@ -195,7 +225,7 @@ def _more(one: Light) -> str:
     said = _("{share} % of the limit").format(
         share=f"{100.0 * one.used:.0f}" if one.used <= MOST else f"> {100.0 * MOST:.0f}"
     )
-    bar = f'<div class="used" role="img" aria-label="{escape(said)}"><i style="width:{100.0 * share:.1f}%"></i></div>'
+    bar = f'<div class="used" role="img" aria-label="{escaped(said)}"><i style="width:{100.0 * share:.1f}%"></i></div>'
     rows = [
         (_("limit"), one.limit),
         (_("utilisation"), said),
@@ -203,19 +233,19 @@ def _more(one: Light) -> str:
         (_("why"), one.why),
         (_("depends on"), ", ".join(one.design_variables[:6])),
     ]
-    told = "".join(f"<dt>{escape(name)}</dt><dd>{escape(text)}</dd>" for name, text in rows if text)
+    told = "".join(f"<dt>{escaped(name)}</dt><dd>{escaped(text)}</dd>" for name, text in rows if text)
     return f'<div class="more">{bar}<dl>{told}</dl>{"".join(_remedies(one))}</div>'
 
 
 def _remedies(one: Light) -> list[str]:
     if not one.remedies:
         return []
-    word = escape(_("apply"))
-    made = [f"<h3>{escape(_('Remedies'))}</h3>"]
+    word = escaped(_("apply"))
+    made = [f"<h3>{escaped(_('Remedies'))}</h3>"]
     for k, remedy in enumerate(one.remedies):
-        name = escape(f"cure {k} {one.name}")
+        name = escaped(f"cure {k} {one.name}")
         made.append(
-            f'<div class="cure"><code>{escape(remedy.label)}</code><small>{escape(remedy.effect)}</small>'
+            f'<div class="cure"><code>{escaped(remedy.label)}</code><small>{escaped(remedy.effect)}</small>'
             f'<button type="button" class="apply" data-do="{name}">{word}</button></div>'
         )
     return made

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
-from contextlib import suppress
-from typing import Any
+from typing import Any, cast
 
 from nicegui import run, ui
 
-import cardan
-from cardan import Verdict
 from cardan.app.scene.element import SceneView
-from cardan.app.state.jobs import own_fault
+from cardan.app.state.jobs import Jobs, own_fault
+from cardan.app.state.question import asked
 from cardan.app.state.session import Session
+from cardan.app.state.work import SCENE, Drawn, drawn
+from cardan.app.state.work import SOON as SOONER
 from cardan.drive.drive import Drive
 from cardan.errors import CardanError
-from cardan.scene.scene import Scene, scene
+from cardan.scene.scene import Scene
 from cardan.texts import _
 
 from .widgets import Timer, drop_down
@@ -23,6 +24,7 @@ from .widgets import Timer, drop_down
 TURNING = -1  # in place of the index of a mode shape: the drive turns
 LOADED = ("forces", "couples")  # groups that need the forces of the drive
 QUIET = 0.35  # seconds without an edit after which utilisations, forces and mode shapes are calculated anew
+LOOK = 0.05  # seconds between two looks whether a heavy file is drawn
 SOON = 0.02  # seconds by which the view follows the form
 
 FOLLOWING = (
@@ -35,10 +37,14 @@ FOLLOWING = (
 
 
 class View:
-    """The view in space with its controls."""
+    """The view in space with its controls.
 
-    def __init__(self, session: Session) -> None:
+    jobs: where heavy files are drawn.
+    """
+
+    def __init__(self, session: Session, jobs: Jobs) -> None:
         self.session = session
+        self._jobs = jobs
         self.shown: Scene | None = None
         self.on: set[str] | None = None
         self.mode: int | None = None  # None until mode shapes were asked for
@@ -115,28 +121,22 @@ class View:
             return
         with self.session.speaking():
             self._offer_poses(drive)
-            found = self._attempted(drive)
+            found = None if self.session.heavy else self._attempted(drive)
             if found is not None:
                 self._show(found)
         if self._waiting is not None:
             self._waiting.cancel()
         self._waiting = self._timer(QUIET, self._complete)
 
-    def _attempted(self, drive: Drive, **more: bool) -> Scene | None:
+    def _attempted(self, drive: Drive, **more: bool) -> Drawn | None:
         """Return the scene; where there is none, say why."""
         try:
-            return self._made(drive, **more)
+            return drawn(drive, pose=self.pose, **more)
         except CardanError as error:
             self.told.set_text(str(error))
         except Exception as error:  # whatever it is, the page goes on and says so
             self.told.set_text(own_fault(self.session.choices.language, f"{type(error).__name__}: {error}"))
         return None
-
-    def _made(self, drive: Drive, *, used: bool = False, forces: bool = False, modes: bool = False) -> Scene:
-        verdicts: tuple[Verdict, ...] = ()
-        with suppress(CardanError):
-            verdicts = cardan.check(drive) if used else ()
-        return scene(drive, verdicts=verdicts, pose=self.pose, with_forces=forces, with_modes=modes)
 
     async def _complete(self) -> None:
         """Add utilisations, forces and mode shapes, away from the page's own work."""
@@ -145,20 +145,35 @@ class View:
             return
         forces, modes = bool(self.on and self.on.intersection(LOADED)), self.mode is not None
 
-        def made() -> Scene | None:
+        def made() -> Drawn | None:
             with self.session.speaking():
                 return self._attempted(drive, used=True, forces=forces, modes=modes)
 
-        found = await run.io_bound(made)
+        if self.session.heavy:
+            found = await self._elsewhere(used=True, forces=forces, modes=modes)
+        else:
+            found = await run.io_bound(made)
         if found is not None and drive is self.session.drive and not self.stage.is_deleted:
             with self.session.speaking():
                 self._show(found)
 
-    def _show(self, found: Scene) -> None:
+    async def _elsewhere(self, **more: bool) -> Drawn | None:
+        """Return the scene of a heavy file, made in a process of its own; where there is none, say why."""
+        question = asked(self.session, SCENE, pose=self.pose, **more)
+        assert question is not None
+        job = self._jobs.ask(question, self.session, limit=SOONER)
+        while not job.finished:
+            await asyncio.sleep(LOOK)
+        if job.state == "failed" and not self.stage.is_deleted:
+            self.told.set_text(job.message)
+        return cast("Drawn | None", job.result)
+
+    def _show(self, drawn: Drawn) -> None:
+        found, described = drawn
         self.shown = found
         if self.on is None:
             self.on = {group.name for group in found.groups if group.on}
-        self.scene.show(found.described())
+        self.scene.show(described)
         self.scene.groups(self.on)
         self._switches(found)
         self._shapes(found)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable, Iterable, Iterator
+from collections import deque
+from collections.abc import Awaitable, Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from html import escape
 from inspect import isawaitable
@@ -11,9 +12,28 @@ from inspect import isawaitable
 from nicegui import background_tasks, events, ui
 from nicegui.element import Element
 
-from cardan.app.state.session import Session
-from cardan.errors import InputError
-from cardan.texts import _
+from cardan.app.state.document import Change as TextChange
+from cardan.app.state.document import Document, Edit
+from cardan.app.state.jobs import Jobs
+from cardan.app.state.session import Session, Step
+from cardan.app.state.work import EDIT
+from cardan.errors import InputError, Problem
+from cardan.texts import _, visible
+
+
+def escaped(text: str) -> str:
+    """Return a text for HTML, marks that turn its direction spelled out."""
+    return escape("\n".join(map(visible, text.expandtabs(4).splitlines())))
+
+
+MOST = 50  # problems of a file that are shown
+
+
+def first(problems: Sequence[Problem]) -> list[str]:
+    """Return the first problems of a file in words, and how many more there are."""
+    more = len(problems) - MOST
+    return [*map(str, problems[:MOST]), *([_("and {count} more").format(count=more)] if more > 0 else [])]
+
 
 # HTML that is changed by a message of its own: what follows an edit at once does not wait for the rest of the page.
 
@@ -43,10 +63,12 @@ class Live(Element, component="live.js"):
 
     def say(self, text: str) -> None:
         """Show plain words."""
-        self.show(escape(text))
+        self.show(escaped(text))
 
 
-# Timers of a part of the page.
+# Timers of a part of the page, and edits that take longer.
+
+GLANCE = 0.01  # seconds between two looks whether an edit is made
 
 
 class Timer:
@@ -82,6 +104,48 @@ class Timer:
                     await called
             if self._once:
                 return
+
+
+class Apart:
+    """Makes steps of a session in a process of its own, one after the other; where one cannot be made, says why."""
+
+    def __init__(self, session: Session, jobs: Jobs) -> None:
+        self._session, self._jobs = session, jobs
+        self._client = ui.context.client
+        self._steps: deque[tuple[int, Step]] = deque()
+        self.busy = False
+        self._client.on_delete(lambda: jobs.leave(self))
+
+    def __call__(self, step: Step) -> None:
+        """Make a step once those before it are made."""
+        self._steps.append((self._session.opened, step))
+        if not self.busy:
+            self.busy = True
+            background_tasks.create(self._work(), name="edits of a heavy file")
+
+    async def _work(self) -> None:
+        try:
+            while self._steps and not self._client.is_deleted:
+                opened, step = self._steps.popleft()
+                if opened == self._session.opened:
+                    await self._made(opened, *step())
+        finally:
+            self.busy = False
+
+    async def _made(self, opened: int, how: TextChange, then: Callable[[Document], None]) -> None:
+        session = self._session
+        folder, language = session.workspace.folder, session.choices.language
+        edit = Edit(text=session.document.text, change=how, folder=folder, language=language)
+        job = self._jobs.ask(edit, self, limit=EDIT)
+        while not job.finished:
+            await asyncio.sleep(GLANCE)
+        if self._client.is_deleted or opened != session.opened:
+            return
+        with self._client, session.speaking():
+            if job.state == "done":
+                then(job.result)
+            elif job.state == "failed":
+                refused(job.message)
 
 
 # Dialogs that belong to the window, not to the part that asked for them: they stay when that part is built anew.

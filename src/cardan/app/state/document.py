@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, refuse
@@ -18,6 +19,8 @@ from cardan.reading.limits import check_size
 from cardan.texts import _
 
 from .form import tree_of
+
+Change: TypeAlias = Callable[[str], str]  # of a file: text before -> text behind; another process can take it
 
 # Undo and redo: every text that the drive file was.
 
@@ -80,15 +83,41 @@ class Workspace:
 
     def write(self, name: str, text: str) -> str:
         """Write a file and return its name, with .toml at its end."""
-        full = name if name.endswith(".toml") or not name else f"{name}.toml"
-        write_text(self.place(full), text)
-        return full
+        write_text(self.place(full_name(name)), text)
+        return full_name(name)
+
+    def there(self, name: str) -> str | None:
+        """Return the text of a file; None where there is no such file, nothing where it is no text that we read."""
+        try:
+            return self.read(name) if os.path.lexists(self.place(name)) else None
+        except InputError:
+            return ""
+
+    def stamp(self, name: str) -> tuple[int, int, int] | None:
+        """Return what differs once a file was written again; None where there is no such file."""
+        try:
+            told = self.place(name).stat()
+        except OSError:
+            return None
+        return told.st_mtime_ns, told.st_size, told.st_ino
+
+    def free(self, name: str) -> str:
+        """Return a name like another one that no file of the folder has."""
+        stem, number = full_name(name).removesuffix(".toml"), 1
+        while os.path.lexists(self.place(free := f"{stem}-{number}.toml" if number > 1 else f"{stem}.toml")):
+            number += 1
+        return free
 
     def place(self, name: str) -> Path:
         """Return where the file of a name is."""
         if not re.fullmatch(r"[^/\\\x00-\x1f:*?\"<>|.][^/\\\x00-\x1f:*?\"<>|]{0,120}", name):
             raise refuse("name", _("{name} is not a file name").format(name=repr(name)))
         return self.enclosed / name
+
+
+def full_name(name: str) -> str:
+    """Return the name of a file with .toml at its end."""
+    return name if name.endswith(".toml") or not name else f"{name}.toml"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -121,9 +150,38 @@ def read(text: str, folder: Enclosed) -> Document:
         return Document(text=text, problems=error.problems)
 
 
-def changed(document: Document, change: Callable[[str], str], folder: Enclosed) -> Document:
+def changed(document: Document, change: Change, folder: Enclosed) -> Document:
     """Return the document after a change of its text; a change that cannot be made leaves it and tells why."""
     return read(change(document.text), folder)
+
+
+HEAVY = 24  # tables of a file up to which it is read, judged and drawn in a few hundredths of a second
+LONG = 20_000  # characters likewise
+
+_TABLE = re.compile(r"^[ \t]*\[|\{", re.MULTILINE)
+
+
+def heavy(text: str) -> bool:
+    """Tell whether a file is so large that work on it would keep other windows waiting."""
+    return len(text) > LONG or len(_TABLE.findall(text)) > HEAVY
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Edit:
+    """A change of a heavy file, as it goes to another process."""
+
+    text: str  # the file before
+    change: Change
+    folder: Path  # where files that it names are looked for, and nowhere else
+    language: str  # in which it is told why it cannot be made
+    name: str = "edit"
+    key: str = ""  # its answer is not kept
+
+    def made(self) -> Document:
+        """Return the document behind the change."""
+        document = read(self.change(self.text), Enclosed(self.folder))
+        assert document.tree is not None or not document.valid  # read there, so that it need not be read again here
+        return document
 
 
 def sent(name: str, content: bytes, folder: Enclosed) -> str:

@@ -16,7 +16,7 @@ from cardan.errors import InputError, Problem
 from cardan.io.amend import kind_at, steps_of
 from cardan.io.drive_file import parsed
 from cardan.reading.fields import WORD_OR_FLAG, Field, fields_of
-from cardan.texts import _
+from cardan.texts import _, visible
 
 Sort: TypeAlias = Literal[
     "number", "whole", "text", "choice", "flag", "point", "numbers", "words", "named", "table", "tables", "changes"
@@ -211,7 +211,7 @@ def _shaft(tree: Mapping[str, Any], k: int) -> Mapping[str, Any]:
 
 def _titled(title: str, table: Mapping[str, Any]) -> str:
     name = table.get("name", "")
-    return f"{title} · {name}" if name and isinstance(name, str) else title
+    return f"{title} · {visible(name)}" if name and isinstance(name, str) else title
 
 
 def _found(tree: Mapping[str, Any], path: str) -> tuple[Any, Mapping[str, Any], Any]:

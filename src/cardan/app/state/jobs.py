@@ -6,11 +6,11 @@ import threading
 import time
 from collections import OrderedDict
 from collections.abc import Hashable
+from math import inf
 from typing import Any, Literal, TypeAlias
 
 from cardan.texts import _, speaking
 
-from .question import Question
 from .work import result
 from .worker import Done, Failed, Made, Share, Worker
 
@@ -24,14 +24,17 @@ KEPT = 48  # answers kept, the ones asked for last
 class Job:
     """A question on its way; read it as often as you like, from any thread.
 
+    question: a `Question` or an `Edit`; limit: seconds that work on it may take.
     state: waiting, running, done, failed or cancelled; share: how much is done, 0 to 1.
     result: the answer, once it is done; message: why it failed, in the language of the question.
     """
 
-    def __init__(self, question: Question, owner: Hashable) -> None:
+    def __init__(self, question: Any, owner: Hashable, limit: float = inf) -> None:
         self.question = question
         self.owner = owner
+        self.limit = limit
         self.key = question.key
+        self.matter: str = getattr(question, "matter", "")
         self.state: State = "waiting"
         self.share = 0.0
         self.result: Any = None
@@ -51,6 +54,11 @@ class Job:
         if self.state != "running" or self.share < 0.02 or spent < 0.5:
             return None
         return spent * (1.0 - self.share) / self.share
+
+    @property
+    def late(self) -> bool:
+        """Whether work on it took longer than it may."""
+        return time.monotonic() - self._began > self.limit
 
     def begin(self) -> None:
         """Note that work on it begins."""
@@ -77,6 +85,8 @@ class Jobs:
         self._served: dict[Hashable, int] = {}
         self._turn = 0
         self._kept: OrderedDict[str, Any] = OrderedDict()
+        self._homes: OrderedDict[str, int] = OrderedDict()  # matter -> the hand whose worker knows the answer
+        self._busy: set[int] = set()
         self._hands: list[threading.Thread] = []
         self._closed = False
 
@@ -86,18 +96,19 @@ class Jobs:
             if self._hands or self._closed:
                 return
             self._hands = [
-                threading.Thread(target=self._serve, daemon=True, name=f"cardan-jobs-{k}") for k in range(self._count)
+                threading.Thread(target=self._serve, args=(k,), daemon=True, name=f"cardan-jobs-{k}")
+                for k in range(self._count)
             ]
             for hand in self._hands:
                 hand.start()
 
-    def ask(self, question: Question, owner: Hashable) -> Job:
+    def ask(self, question: Any, owner: Hashable, *, limit: float = inf) -> Job:
         """Return the job that answers a question; an older one on the same question of the same owner ends.
 
-        owner: who asks; all owners are served alike.
+        owner: who asks; all owners are served alike; limit: seconds that it may take.
         """
         self.start()
-        job = Job(question, owner)
+        job = Job(question, owner, limit)
         with self._change:
             for other in (*self._waiting, *self._running):
                 if other.owner == owner and other.question.name == question.name:
@@ -109,7 +120,7 @@ class Jobs:
                 job.state = "cancelled"
             else:
                 self._waiting.append(job)
-                self._change.notify()
+                self._change.notify_all()
         return job
 
     def cancel(self, job: Job) -> None:
@@ -141,29 +152,42 @@ class Jobs:
             self._waiting.remove(job)
             job.state = "cancelled"
 
-    def _next(self) -> Job | None:
-        """Wait for the job that is next: of who has the least at work, then of who was served longest ago."""
+    def _next(self, hand: int) -> Job | None:
+        """Wait for the job that is next: of who has the least at work, then of who was served longest ago.
+
+        hand: who asks; what another one knows the answer to is left to it, unless that one is busy.
+        """
+
+        def mine() -> list[Job]:
+            return [one for one in self._waiting if self._homes.get(one.matter, hand) in (hand, *self._busy)]
+
         with self._change:
-            self._change.wait_for(lambda: self._closed or self._waiting)
+            self._change.wait_for(lambda: self._closed or mine())
             if self._closed:
                 return None
 
             def rank(job: Job) -> tuple[int, int]:
                 return sum(one.owner == job.owner for one in self._running), self._served.get(job.owner, -1)
 
-            job = min(self._waiting, key=rank)
+            job = min(mine(), key=rank)
             self._turn += 1
             self._served[job.owner] = self._turn
             self._waiting.remove(job)
             self._running.append(job)
+            self._busy.add(hand)
+            if job.matter:
+                self._homes[job.matter] = hand
+                self._homes.move_to_end(job.matter)
+                while len(self._homes) > KEPT:
+                    self._homes.popitem(last=False)
             job.begin()
             return job
 
-    def _serve(self) -> None:
+    def _serve(self, hand: int) -> None:
         """Hand one job after the other to a worker, and the next one to a new worker where the old one is no more."""
         worker: Worker | None = Worker(self._made)
         try:
-            while job := self._next():
+            while job := self._next(hand):
                 try:
                     if worker is not None and not worker.process.is_alive():
                         worker.end()
@@ -178,6 +202,8 @@ class Jobs:
                 finally:
                     with self._change:
                         self._running.remove(job)
+                        self._busy.discard(hand)
+                        self._change.notify_all()
         finally:
             if worker is not None:
                 worker.end()
@@ -200,6 +226,9 @@ class Jobs:
                         return False
                     worker.stop()
                     told = time.monotonic()
+                if job.late:
+                    job.fail(_late(job.question.language, job.limit))
+                    return False
                 if told is not None and time.monotonic() - told > PATIENCE:
                     return False
         except (EOFError, OSError):
@@ -217,7 +246,8 @@ class Jobs:
             job.fail(own_fault(job.question.language, word.text) if word.own else word.text)
         else:
             with self._change:
-                self._kept[job.key] = word.result
+                if job.key:
+                    self._kept[job.key] = word.result
                 while len(self._kept) > KEPT:
                     self._kept.popitem(last=False)
             job.result, job.share, job.state = word.result, 1.0, "done"
@@ -229,6 +259,11 @@ def _died(language: str, code: int | None) -> str:
             "The process that worked on this was ended from outside (code {code}), as happens when memory runs out. "
             "Nothing else is lost; ask again, or for less."
         ).format(code=code)
+
+
+def _late(language: str, limit: float) -> str:
+    with speaking(language):
+        return _("This took longer than {count} s and was given up. Nothing else is lost.").format(count=round(limit))
 
 
 def own_fault(language: str, error: str) -> str:

@@ -32,7 +32,13 @@ class Question:
 
     @property
     def key(self) -> str:
-        """The same for questions with the same answer."""
+        """The same for questions with the same answer in the same words and units."""
+        seen = (self.matter, sorted(self.reader.units.items()), self.reader.sign)
+        return hashlib.sha256(pickle.dumps(seen)).hexdigest()
+
+    @property
+    def matter(self) -> str:
+        """The same for questions with the same answer in the same language, whatever units it is told in."""
         files = []
         for name in (*self.drive.settings.catalogues, *filter(None, [self.drive.report.logo])):
             try:
@@ -40,8 +46,7 @@ class Question:
                 files.append((name, told.st_mtime_ns, told.st_size))
             except Exception:  # a file that is not there, or not to be read: the answer will say so
                 files.append((name, 0, 0))
-        seen = (self.language, sorted(self.reader.units.items()), self.reader.sign)
-        whole = (self.name, self.drive, str(self.folder), seen, sorted(self.choices.items()), files)
+        whole = (self.name, self.drive, str(self.folder), self.language, sorted(self.choices.items()), files)
         return hashlib.sha256(pickle.dumps(whole)).hexdigest()
 
 

@@ -5,14 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field, fields, replace
-from typing import Any, Literal, TypeAlias
+from functools import partial
+from typing import Any, Literal, Protocol, TypeAlias
 
 from cardan.answers.reader import Reader, reading
 from cardan.drive.drive import Drive
-from cardan.texts import LANGUAGES, speaking
+from cardan.errors import refuse
+from cardan.texts import LANGUAGES, _, speaking
 from cardan.units import DIMENSIONS
 
-from .document import Document, History, Workspace, changed, read, sent
+from .document import Change as TextChange
+from .document import Document, History, Workspace, changed, full_name, heavy, read, sent
+from .kept import Kept
 from .recordings import Recordings
 from .variants import Variants
 
@@ -21,6 +25,19 @@ Change: TypeAlias = Literal["text", "drive", "file", "selection", "choices", "va
 drive the user looks at, the user's choices, the variants kept."""
 
 Listener: TypeAlias = Callable[[], None]
+Step: TypeAlias = "Callable[[], tuple[TextChange, Callable[[Document], None]]]"
+"""Tells, once it is its turn, how the text changes and who takes the document behind the change."""
+
+
+class Elsewhere(Protocol):
+    """What makes steps of heavy files, one after the other."""
+
+    @property
+    def busy(self) -> bool:
+        """Whether it has steps to make, so that later ones have to wait."""
+
+    def __call__(self, step: Step) -> None:
+        """Make a step once those before it are made."""
 
 
 class Session:
@@ -30,11 +47,15 @@ class Session:
     document: the file as it stands.
     drive: the last sound drive; answers are about this one.
     name: name of the file in the workspace; empty for one that was never saved.
+    example: the shipped example that the drive began as; empty for others.
+    foreign: what stands in the file now, where somebody else wrote it after we did; None where nobody did.
     selected: path of the part the user looks at, ``joints[1]``, ``shafts[2]``; empty for none.
     notice: what the user should be told first; empty for nothing.
     dark: whether the system of the user is dark; asked of the browser.
     variants: the variants kept, also while another file is opened.
     recordings: the recording that is open, which nobody else sees.
+    apart: makes steps of heavy files elsewhere, one after the other; None makes them here.
+    opened: how many files were opened.
     rebuild: builds the parts of the page anew: another file, another language.
     later: calls a function once what cannot wait has gone out to the browser; at once unless a page says otherwise.
     """
@@ -45,6 +66,8 @@ class Session:
         self.document = Document(text="")
         self.drive: Drive | None = None
         self.name = ""
+        self.example = ""
+        self.foreign: str | None = None
         self.selected = ""
         self.notice = ""
         self.dark = False
@@ -52,7 +75,10 @@ class Session:
         self.variants = Variants()
         self.recordings = Recordings(workspace)
         self._saved = ""
+        self._stamp: object = None
         self._gesture = ""
+        self.apart: Elsewhere | None = None
+        self.opened = 0
         self.rebuild: Listener = _nothing
         self.later: Callable[[Listener], None] = _at_once
         self._listeners: dict[Change, list[Listener]] = {}
@@ -103,27 +129,65 @@ class Session:
         """The units and the decimal sign that the user likes."""
         return Reader(units=dict(self.choices.units), decimal=self.choices.decimal)
 
+    def read(self, text: str) -> Document:
+        """Return the document that a text is in this workspace."""
+        return read(text, self.workspace.enclosed)
+
     @property
     def saved(self) -> bool:
         """Whether the file holds what the user sees."""
         return self.document.text == self._saved
 
     @property
+    def heavy(self) -> bool:
+        """Whether work on the drive would keep other windows waiting."""
+        return heavy(self.document.text)
+
+    @property
     def empty(self) -> bool:
         """Whether no drive was opened yet."""
         return not self.document.text and not self.history.before
 
-    def open(self, text: str, name: str = "", *, saved: bool = True) -> None:
+    @property
+    def losing(self) -> bool:
+        """Whether something would be lost if the user went away."""
+        return bool((self.history.before and not self.saved) or len(self.variants))
+
+    def open(self, text: str, name: str = "", *, saved: bool = True, example: str = "") -> None:
         """Begin with another file; the page is built anew for it.
 
-        name: its name in the workspace; empty for a new one.
+        name: its name in the workspace; empty for a new one; example: the shipped example that it is.
         """
-        self.history, self.selected, self.name = History(), "", name
+        self._begin(Kept(text=text, saved=text if saved else "", name=name, example=example, variants=self.variants))
+
+    def kept(self) -> Kept:
+        """Return all that the user would miss."""
+        return Kept(
+            text=self.document.text,
+            saved=self._saved,
+            name=self.name,
+            example=self.example,
+            history=self.history,
+            variants=self.variants,
+        )
+
+    def resume(self, kept: Kept) -> None:
+        """Go on where a window was left."""
+        self._begin(kept)
+        self.look()
+
+    def _begin(self, kept: Kept) -> None:
+        self.history, self.variants, self.selected = kept.history, kept.variants, ""
+        self.name, self.example, self._saved = kept.name, kept.example, kept.saved
+        self.foreign, self._stamp = None, None
+        self.opened += 1
         self.end_gesture()
-        self._saved = text if saved else ""
-        self.document = read(text, self.workspace.enclosed)
+        elsewhere = self.apart is not None and heavy(kept.text)
+        self.document = Document(text=kept.text) if elsewhere else self.read(kept.text)
         self.drive = self.document.drive
         self.rebuild()
+        if elsewhere:
+            self._make(lambda: (partial(_whole, kept.text), self._now))
 
     def take(self, name: str, content: bytes) -> None:
         """Begin with a file that the user sent; it is read as data and written nowhere."""
@@ -132,15 +196,26 @@ class Session:
     def rewrite(self, text: str) -> None:
         """Take a whole new text, as from the editor."""
         if text != self.document.text:
-            self._step(read(text, self.workspace.enclosed))
+            self._make(lambda: (partial(_whole, text), self._stepped), text)
 
-    def change(self, how: Callable[[str], str], *, gesture: str = "") -> None:
+    def change(self, how: TextChange, *, gesture: str = "") -> None:
         """Change the text by a function of it.
 
-        how: text before -> text behind; gesture: changes of the same gesture, such as a drag, are undone together.
+        how: text before -> text behind, such that another process can take it.
+        gesture: changes of the same gesture, such as a drag, are undone together.
         Raises InputError: the change cannot be made; everything stays as it was.
         """
-        after = changed(self.document, how, self.workspace.enclosed)
+        self._make(lambda: (how, partial(self._stepped, gesture=gesture)))
+
+    def _make(self, step: Step, text: str = "") -> None:
+        """Make a step here, or elsewhere where it would keep others waiting."""
+        if self.apart is not None and (self.apart.busy or heavy(self.document.text) or heavy(text)):
+            self.apart(step)
+            return
+        how, then = step()
+        then(changed(self.document, how, self.workspace.enclosed))
+
+    def _stepped(self, after: Document, gesture: str = "") -> None:
         if after.text == self.document.text:
             return
         if gesture and gesture == self._gesture:
@@ -156,20 +231,71 @@ class Session:
     def undo(self) -> None:
         """Go a step back."""
         self.end_gesture()
-        text, self.history = self.history.undone(self.document.text)
-        self._now(read(text, self.workspace.enclosed))
+        self._make(lambda: self._walked(self.history.undone))
 
     def redo(self) -> None:
         """Go a step forward again."""
         self.end_gesture()
-        text, self.history = self.history.redone(self.document.text)
-        self._now(read(text, self.workspace.enclosed))
+        self._make(lambda: self._walked(self.history.redone))
 
-    def save(self, name: str = "") -> None:
-        """Write the file into the workspace."""
-        self.name = self.workspace.write(name or self.name, self.document.text)
-        self._saved = self.document.text
+    def _walked(self, walk: Callable[[str], tuple[str, History]]) -> tuple[TextChange, Callable[[Document], None]]:
+        text, history = walk(self.document.text)
+
+        def then(document: Document) -> None:
+            self.history = history
+            self._now(document)
+
+        return partial(_whole, text), then
+
+    def save(self, name: str = "", *, over: bool = False) -> None:
+        """Write the file into the workspace.
+
+        over: write over what somebody else wrote there.
+        Raises InputError: it cannot be written, or `obstacle` tells what is in its way.
+        """
+        full = full_name(name or self.name)
+        if not over and self.obstacle(full):
+            raise refuse(full, _("another file stands there; nothing was written"))
+        self.name = self.workspace.write(full, self.document.text)
+        self._settled(self.document.text)
         self.tell("file")
+
+    def obstacle(self, name: str = "") -> Literal["", "another", "changed"]:
+        """Tell what saving would write over: another file, or what somebody else wrote into ours."""
+        full = full_name(name or self.name)
+        there = self.workspace.there(full)
+        if there is None or there == self.document.text:
+            return ""
+        if full != self.name:
+            return "another"
+        return "" if there == self._saved else "changed"
+
+    def look(self) -> None:
+        """See whether somebody else changed the file, or took it away."""
+        if not self.name or self.workspace.stamp(self.name) == self._stamp:
+            return
+        before = self.foreign, self._saved
+        self._stamp = self.workspace.stamp(self.name)
+        there = self.workspace.there(self.name)
+        self.foreign = None if there in (None, self._saved, self.document.text) else there
+        if there is None:
+            self._saved = ""
+        elif there == self.document.text:
+            self._saved = there
+        if before != (self.foreign, self._saved):
+            self.tell("file")
+
+    def reload(self) -> None:
+        """Take what somebody else wrote into the file; undo goes back to what was here."""
+        there = self.workspace.read(self.name)
+        self._settled(there)
+        if there == self.document.text:
+            self.tell("file")
+        else:
+            self.rewrite(there)
+
+    def _settled(self, text: str) -> None:
+        self._saved, self.foreign, self._stamp = text, None, self.workspace.stamp(self.name)
 
     def keep(self, variants: Variants) -> None:
         """Take other variants to be kept."""
@@ -211,6 +337,10 @@ class Session:
         """Tell all who could wait."""
         changes, self._behind = self._behind, ()
         self._call(one for change in changes for one in self._heard(change, self._lasting, self._listeners))
+
+
+def _whole(text: str, _before: str) -> str:
+    return text
 
 
 def _nothing() -> None:

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import re
+from collections import OrderedDict
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
+from cardan import Verdict, check
+from cardan.answers.answer import Answer
 from cardan.answers.reader import reading
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
-from cardan.errors import refuse
+from cardan.errors import CardanError, refuse
 from cardan.figures import Figure
 from cardan.files import Enclosed
 from cardan.io import dumps
 from cardan.io.drive_file import known_to
+from cardan.register import QUESTIONS
 from cardan.report.answers import answered, subject
 from cardan.report.block import Page
 from cardan.report.compare import Variant, compared
@@ -22,22 +27,34 @@ from cardan.report.content import content
 from cardan.report.recorded import Recorded
 from cardan.report.render.exports import Exported, exported
 from cardan.report.render.renderer import renderer_for
-from cardan.report.verdict_list import Light, lights, with_remedies
+from cardan.report.subject import Subject
+from cardan.report.verdict_list import Headline, Light, headline, lights, with_remedies
+from cardan.scene.scene import Scene, scene
 from cardan.texts import _, speaking
 
 from . import recordings
+from .document import Document, Edit
 from .question import Progress, Question, asked
 from .session import Session
 
-Result: TypeAlias = Page | tuple[Light, ...] | Exported | Recorded
+Drawn: TypeAlias = tuple[Scene, dict[str, Any]]  # a drive in space, and the same as the browser draws it
+Judged: TypeAlias = tuple[Headline, tuple[Light, ...]]  # the number that stands first, and the verdicts
+Result: TypeAlias = Page | Judged | tuple[Light, ...] | Exported | Recorded | Drawn | Document
 
 
-VERDICTS, REMEDIES = "verdicts", "remedies"
-"""Questions beside those of the register: the verdicts, and the same with what cures them."""
+VERDICTS, REMEDIES, SCENE = "verdicts", "remedies", "scene"
+"""Questions beside those of the register: the verdicts, the same with what cures them, the drive in space."""
+
+RETOLD = 6  # long answers that a process keeps
+SOON = 60.0  # seconds that may be spent on what is quick but for heavy files
+EDIT = 20.0  # seconds that may be spent on reading a heavy file
 
 
-def result(question: Question, progress: Progress | None = None) -> Result:
-    """Return the answer to a question, in its language."""
+def result(question: Question | Edit, progress: Progress | None = None) -> Result:
+    """Return the answer to a question, in its language, or the document behind an edit."""
+    if isinstance(question, Edit):
+        with speaking(question.language):
+            return question.made()
     with speaking(question.language), reading(question.reader):
         known = known_to(question.drive, Enclosed(question.folder)) if question.drive.settings.catalogues else None
         if question.name in (REPORT, PART, COMPARE):
@@ -46,10 +63,51 @@ def result(question: Question, progress: Progress | None = None) -> Result:
             return recordings.heard(question.drive, question.choices["recording"], known, progress)
         on = subject(question.drive, known=known)
         if question.name == VERDICTS:
-            return lights(on)
+            shown = lights(on)
+            return headline(on, shown), shown
+        if question.name == SCENE:
+            return drawn(question.drive, **question.choices)
         if question.name == REMEDIES:
             return with_remedies(on, progress)
+        return _told(question, on, progress)
+
+
+_answers: OrderedDict[str, dict[str, Answer]] = OrderedDict()
+"""What a process calculated last, to be told in other units without calculating it again."""
+
+
+def _told(question: Question, on: Subject, progress: Progress | None) -> Page:
+    """Return an answer; one that took long is kept."""
+    if QUESTIONS[question.name].quick:
         return answered(question.name, on, progress, question.choices)
+    stopped = False
+
+    def followed(share: float) -> object:
+        nonlocal stopped
+        said = progress(share) if progress is not None else None
+        stopped = stopped or said == "stop"
+        return said
+
+    matter = question.matter
+    kept = _answers.setdefault(matter, {})
+    _answers.move_to_end(matter)
+    while len(_answers) > RETOLD:
+        _answers.popitem(last=False)
+    page = answered(question.name, on, followed, question.choices, kept)
+    if stopped:  # it may be half an answer
+        _answers.pop(matter, None)
+    return page
+
+
+def drawn(
+    drive: Drive, *, pose: int | None = None, used: bool = False, forces: bool = False, modes: bool = False
+) -> Drawn:
+    """Return a drive in space; used, forces, modes: with utilisations, forces, mode shapes."""
+    verdicts: tuple[Verdict, ...] = ()
+    with suppress(CardanError):
+        verdicts = check(drive) if used else ()
+    found = scene(drive, verdicts=verdicts, pose=pose, with_forces=forces, with_modes=modes)
+    return found, found.described()
 
 
 # Reports and exports as answers to questions: made in a process of their own, as bytes with a name.

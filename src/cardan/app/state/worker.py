@@ -13,10 +13,17 @@ from multiprocessing.connection import Connection
 from typing import Any, TypeAlias
 
 from cardan.errors import CardanError
+from cardan.texts import _, speaking
 
-from .question import Progress, Question
+from .question import Progress
 
-Made: TypeAlias = "Callable[[Question, Progress], Any]"  # what answers a question; picklable
+try:
+    import resource
+except ImportError:  # a system that knows no limits of a process
+    resource = None  # type: ignore[assignment]
+
+Made: TypeAlias = "Callable[[Any, Progress], Any]"  # what answers a `Question` or makes an `Edit`; picklable
+MEMORY = 4 * 10**9  # bytes that a process may take
 OFTEN = 0.1  # seconds between two words on how far the work is
 
 
@@ -52,7 +59,7 @@ class Worker:
         self.process.start()
         far.close()
 
-    def ask(self, question: Question) -> None:
+    def ask(self, question: Any) -> None:
         """Send a question."""
         self.line.send(question)
 
@@ -76,6 +83,9 @@ def _serve(line: Connection, made: Made) -> None:
     """Answer questions until the line is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # ctrl-C is for the server, which ends us
     threading.Thread(target=_die_with_parent, daemon=True).start()
+    if resource is not None:
+        _soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
+        resource.setrlimit(resource.RLIMIT_DATA, (MEMORY if hard < 0 else min(MEMORY, hard), hard))
     if hasattr(os, "nice"):
         os.nice(5)  # pages come first
     while True:
@@ -93,7 +103,7 @@ def _serve(line: Connection, made: Made) -> None:
                 line.send(_own(error))
 
 
-def _answer(line: Connection, made: Made, question: Question) -> Done | Failed:
+def _answer(line: Connection, made: Made, question: Any) -> Done | Failed:
     told = time.monotonic()
     stopped = False
 
@@ -110,6 +120,10 @@ def _answer(line: Connection, made: Made, question: Question) -> Done | Failed:
         return Done(made(question, progress))
     except CardanError as error:
         return Failed(str(error), own=False)
+    except MemoryError:
+        with speaking(question.language):
+            said = _("This needs more than {size} GB of memory and was given up. Nothing else is lost.")
+            return Failed(said.format(size=MEMORY // 10**9), own=False)
     except Exception as error:  # whatever it is, the app goes on and says so
         return _own(error)
 

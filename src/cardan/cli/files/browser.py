@@ -14,7 +14,8 @@ from cardan.texts import _
 def browser(
     file: Annotated[Path | None, argument("[FILE]", _("Drive file to open; examples are offered without."))] = None,
     host: Annotated[
-        str, option("--host", "ADDRESS", _("Address to listen at; others than this machine need a token."))
+        str,
+        option("--host", "ADDRESS", _("Address to listen at; at others than this machine every visitor has a folder.")),
     ] = "127.0.0.1",
     port: Annotated[
         int | None,

@@ -16,12 +16,11 @@ from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cache
 from typing import Any
-from unicodedata import category
 
 from cardan.errors import CardanError, InputError, MissingExtraError, Problem
 from cardan.files import refusal
 from cardan.later import later
-from cardan.texts import _, language, mark, plural
+from cardan.texts import _, language, mark, plural, visible
 
 words = later("cardan.cli.shared.words")
 
@@ -142,19 +141,14 @@ def _text(head: str, problems: Sequence[Problem]) -> str:
     word = _("error:")
     if sys.stderr.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb":
         word = f"\033[1;31m{word}\033[0m"
-    lines = [f"{word} {_visible(head)}"]
+    lines = [f"{word} {visible(head)}"]
     if len(problems) > 1:
-        lines += [f"  {_visible(str(problem))}" for problem in problems[:SHOWN]]
+        lines += [f"  {visible(str(problem))}" for problem in problems[:SHOWN]]
         if len(problems) > SHOWN:
             lines.append(_("  … and {count} more; --json lists all").format(count=len(problems) - SHOWN))
     for tables in dict.fromkeys(problem.paste for problem in problems if problem.paste):
         lines += ["", _("These tables in the file would hold it; put the bearings where they are:"), "", tables]
     return "\n".join(lines)
-
-
-def _visible(text: str) -> str:
-    """Return a text in which characters that a terminal would obey are spelled out; blanks of all widths may stay."""
-    return "".join(sign if sign.isprintable() or category(sign) == "Zs" else ascii(sign)[1:-1] for sign in text)
 
 
 def _closed(code: int) -> int:
