@@ -13,15 +13,12 @@ from multiprocessing.connection import Connection
 from typing import Any, TypeAlias
 
 from cardan.errors import CardanError
+from cardan.later import later
 from cardan.texts import _, speaking
 
 from .question import Progress
 
-try:
-    import resource
-except ImportError:  # a system that knows no limits of a process
-    resource = None  # type: ignore[assignment]
-
+resource = later("resource")
 Made: TypeAlias = "Callable[[Any, Progress], Any]"  # what answers a `Question` or makes an `Edit`; picklable
 MEMORY = 4 * 10**9  # bytes that a process may take
 OFTEN = 0.1  # seconds between two words on how far the work is
@@ -83,9 +80,10 @@ def _serve(line: Connection, made: Made) -> None:
     """Answer questions until the line is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # ctrl-C is for the server, which ends us
     threading.Thread(target=_die_with_parent, daemon=True).start()
-    if resource is not None:
-        _soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
-        resource.setrlimit(resource.RLIMIT_DATA, (MEMORY if hard < 0 else min(MEMORY, hard), hard))
+    if os.name == "posix":
+        kind = resource().RLIMIT_DATA
+        _soft, hard = resource().getrlimit(kind)
+        resource().setrlimit(kind, (MEMORY if hard < 0 else min(MEMORY, hard), hard))
     if hasattr(os, "nice"):
         os.nice(5)  # pages come first
     while True:
