@@ -305,5 +305,5 @@ def test_a_sweep_without_points_is_done(tmp_path):
 
 def test_where_the_rows_come_from_is_told_everywhere(tmp_path):
     run(WORK, chunk=CHUNK, into=tmp_path)
-    assert json.loads((tmp_path / "manifest.json").read_text())["provenance"] == WORK.provenance
+    assert json.loads((tmp_path / "_manifest.json").read_text())["provenance"] == WORK.provenance
     assert read_sweep(tmp_path).provenance == WORK.provenance

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pyarrow.dataset
 import pytest
 
 from cardan.batch.engine.running import run
@@ -154,12 +155,19 @@ def test_a_question_that_has_no_answer_is_told_in_words(found):
 def test_folders_that_hold_no_sweep(tmp_path, folder):
     with pytest.raises(InputError, match="holds no sweep"):
         results(tmp_path)
-    (tmp_path / "manifest.json").write_text("{}", encoding="utf-8")
+    (tmp_path / "_manifest.json").write_text("{}", encoding="utf-8")
     with pytest.raises(InputError, match="is not the manifest of a sweep"):
         results(tmp_path)
     summaries = run(Suspension(), into=tmp_path / "none", rows="none").folder
     with pytest.raises(InputError, match="summaries alone"):
         results(summaries)
+
+
+def test_the_folder_is_one_table_for_any_reader(folder):
+    """Arrow's readers, by which pandas and Dask read too, take a folder as it is."""
+    rows = pyarrow.dataset.dataset(folder, format="parquet").to_table()
+    assert rows.num_rows == SIZE
+    assert set(rows.column_names) >= {HEIGHT, "duty.speed_rpm"}
 
 
 def test_a_damaged_file_is_one_clear_message(tmp_path):

@@ -31,7 +31,7 @@ except ImportError:
     fcntl = None  # type: ignore[assignment]
 
 FORMAT = 1
-MANIFEST, SUMMARY, LOCK = "manifest.json", "summary.json", ".lock"
+MANIFEST, SUMMARY, LOCK = "_manifest.json", "_summary.json", ".lock"  # readers of data skip such names
 
 FEW = 3  # how many names a message tells
 
