@@ -73,3 +73,19 @@ def test_a_phase_counts_from_zero_wherever_the_turn_begins() -> None:
 def test_angles_that_are_no_turn_are_refused(angle: object) -> None:
     with pytest.raises(InputError, match="do not divide one turn"):
         over_turn(np.asarray(angle), np.asarray(angle))
+
+
+def test_orders_and_extremes_of_two_turns_count_in_turns_of_the_input() -> None:
+    """A torque that repeats in two turns: order 2 is order 2, and the top of the second turn counts."""
+    phi = np.linspace(0.0, 4 * np.pi, 721)
+    values = 5.0 + 2.0 * np.cos(0.5 * phi - 0.9 * np.pi) + 0.7 * np.cos(2.0 * phi + 0.3)
+    found = harmonics(phi, values)
+    np.testing.assert_allclose(found.amplitude[:4], [5.0, 0.0, 0.7, 0.0], atol=1e-12)
+    assert found.phase[2] == pytest.approx(0.3)
+    dense = np.linspace(0.0, 4 * np.pi, 400_001)
+    curve = 5.0 + 2.0 * np.cos(0.5 * dense - 0.9 * np.pi) + 0.7 * np.cos(2.0 * dense + 0.3)
+    turn = over_turn(phi, values)
+    assert turn.high == pytest.approx(curve.max(), rel=1e-9)
+    # a step of 3e-5 rad on a top whose bend is of order 3
+    assert turn.high_angle == pytest.approx(dense[np.argmax(curve)], abs=1e-4)
+    assert turn.mean == pytest.approx(5.0)

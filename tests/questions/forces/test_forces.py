@@ -557,3 +557,24 @@ def test_a_locked_drive_has_no_torques_and_leaves_its_batch_alone(at: str) -> No
     for k in (0, 2):
         np.testing.assert_array_equal(found.input_torque[k], freely.input_torque[k])
         np.testing.assert_allclose(found.reaction[k], freely.reaction[k], rtol=1e-12)
+
+
+def test_a_torque_that_repeats_in_two_turns_is_followed_over_both():
+    """Order 0.5 by power, τ_1 ω_1 = M(φ_2) ω_2: the top stands in the second turn, and the mean is that of both."""
+    drive, size, part = Drive.from_angles([20 * deg]), 100.0, 0.4
+    wave = Harmonic(order=0.5, torque=part * size, phase=-1.7 * np.pi)
+    found = forces(drive, Duty(torque=size, harmonics=(wave,)))
+    assert found.angle[-1] == pytest.approx(4.0 * np.pi)
+    turned = motion(drive, np.linspace(0.0, 4.0 * np.pi, 721))
+    by_power = size * (1.0 + part * np.cos(0.5 * turned.output_angle + wave.phase)) * turned.ratio
+    np.testing.assert_allclose(found.input_torque, by_power, rtol=1e-12)
+    first, second = np.max(by_power[:361]), np.max(by_power[360:])
+    assert second > 1.05 * first
+    assert np.max(found.input_torque) == pytest.approx(second, rel=1e-12)
+    # over both turns the work of the swing is that of order 0.5 on orders 2, 4, … of the joint: none
+    assert float(np.mean(found.input_torque[:-1])) == pytest.approx(size, rel=1e-9)
+
+
+def test_swings_that_no_two_turns_hold_are_followed_as_far_as_life_follows_them():
+    duty = Duty(torque=10.0, harmonics=(Harmonic(order=1.0 / 3.0, torque=1.0), Harmonic(order=0.5, torque=1.0)))
+    assert forces(Drive.from_angles([0.2]), duty).angle[-1] == pytest.approx(12.0 * np.pi)

@@ -20,6 +20,7 @@ from cardan.drive.shaft import Shaft
 from cardan.questions.forces.answer import answer, ask
 from cardan.questions.forces.forces import forces, kinetostatics
 from cardan.questions.forces.gap_closure import gap_closure, least_load
+from cardan.questions.motion.motion import motion
 from cardan.units import deg
 from tests.builders.trains import one, trains
 
@@ -160,3 +161,18 @@ def test_the_check_judges_many_drives_and_parts_of_a_duty_as_one_by_one() -> Non
         (one,) = check(replace(drive, joints=joints), only=["gap_closure"])
         assert (many.value[k], many.limit[k]) == (one.value, pytest.approx(one.limit, rel=1e-5))
         assert one.value == 200.0
+
+
+def test_the_least_load_counts_both_turns_of_a_torque_that_repeats_in_two():
+    """By power at very many places of two turns: behind joint 1 stands T = (M + J ε)·i_3 with the swing in M."""
+    drive = Drive.from_angles([20 * deg, 25 * deg])
+    wave, inertia, speed = Harmonic(order=0.5, torque=8.0, phase=-0.5 * np.pi), np.asarray([0.02, 0.05]), 120.0
+    found = least_load(given_chain(drive), inertia, speed, harmonics=(wave,))
+    phi = np.linspace(0.0, 4.0 * np.pi, 200_001)
+    turned = motion(drive, phi)
+    ratio, slope = turned.shaft_ratio[1:], turned.shaft_slope[1:]
+    power = inertia[:, None] * speed**2 * ratio * slope
+    swing = wave.torque * np.cos(0.5 * turned.output_angle + wave.phase)
+    need = -(np.cumsum(power[::-1], axis=0)[::-1] / ratio[-1] + swing)
+    np.testing.assert_allclose(found, np.max(need, axis=-1), rtol=1e-6)
+    assert np.all(np.max(need, axis=-1) > np.max(need[:, :100_001], axis=-1) * 1.01)

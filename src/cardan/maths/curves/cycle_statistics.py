@@ -47,16 +47,16 @@ class Harmonics:
 
 
 def over_turn(angle: Array, values: Array) -> Turn:
-    """Return least and largest value with their angles, mean and root mean square over a turn.
+    """Return least and largest value with their angles, mean and root mean square over a turn, or several.
 
-    angle (p,) [rad]: input angles that divide one turn evenly; the end of the turn may be there or not.
+    angle (p,) [rad]: input angles that divide whole turns evenly; the end of the last may be there or not.
     values (..., p).
-    Raises InputError: the angles are not those of one turn.
+    Raises InputError: the angles are not those of whole turns.
     Between samples a polynomial through seven of them is looked at, where it is to be trusted; on smooth curves sampled
     by the degree that leaves less than 1e-9 of the swing. Mean values are those of the samples, exact up to half as
     many orders as there are samples.
     """
-    phi, table = _one_turn(angle, values)
+    phi, table, _turns = _whole_turns(angle, values)
     step = float(phi[1] - phi[0])
     high, high_at = _highest(table, step)
     low, low_at = _highest(-table, step)
@@ -73,14 +73,14 @@ def over_turn(angle: Array, values: Array) -> Turn:
 def harmonics(angle: Array, values: Array, *, count: int = 13) -> Harmonics:
     """Return the first orders of a quantity over a turn.
 
-    angle (p,) [rad]: input angles that divide one turn evenly; values (..., p).
-    count: how many orders, 0 included; at most half the samples.
+    angle (p,) [rad]: input angles that divide one turn evenly, or several turns; values (..., p).
+    count: how many orders, 0 included; at most half the samples of a turn.
     """
-    phi, table = _one_turn(angle, values)
-    samples = table.shape[-1]
+    phi, table, turns = _whole_turns(angle, values)
+    samples = table.shape[-1] // turns
     kept = min(count, samples // 2 + 1)
     order = np.arange(kept)
-    waves = np.fft.rfft(table, axis=-1)[..., :kept] / samples * np.exp(-1j * order * phi[0])
+    waves = np.fft.rfft(table, axis=-1)[..., ::turns][..., :kept] / table.shape[-1] * np.exp(-1j * order * phi[0])
     waves = np.where((order > 0) & (2 * order < samples), 2.0 * waves, waves)
     amplitude = np.abs(waves)
     amplitude[..., 0] = waves[..., 0].real
@@ -89,17 +89,19 @@ def harmonics(angle: Array, values: Array, *, count: int = 13) -> Harmonics:
     return Harmonics(order=order, amplitude=amplitude, phase=phase)
 
 
-def _one_turn(angle: Array, values: Array) -> tuple[Array, Array]:
-    """Return angles and values without the end of the turn."""
+def _whole_turns(angle: Array, values: Array) -> tuple[Array, Array, int]:
+    """Return angles and values without the end of the last turn, and how many turns they are."""
     phi, table = np.asarray(angle, dtype=float), np.asarray(values, dtype=float)
-    if phi.size > 2 and abs(phi[-1] - phi[0] - 2.0 * np.pi) < 1e-9:
+    turns = max(round(float(phi[-1] - phi[0]) / (2.0 * np.pi)), 1) if phi.size else 1
+    if phi.size > 2 and abs(phi[-1] - phi[0] - 2.0 * np.pi * turns) < 1e-9:
         phi, table = phi[:-1], table[..., :-1]
-    even = phi.size > 2 * AROUND + 1 and bool(np.allclose(np.diff(phi), 2.0 * np.pi / phi.size, rtol=0.0, atol=1e-9))
-    if not even:
+    step = 2.0 * np.pi * turns / max(phi.size, 1)
+    even = phi.size > 2 * AROUND * turns + 1 and bool(np.allclose(np.diff(phi), step, rtol=0.0, atol=1e-9))
+    if not even or phi.size % turns:
         raise refuse(
             "angle", _("these angles do not divide one turn into equal steps; leave them out, or give at least eight")
         )
-    return phi, table
+    return phi, table, turns
 
 
 def _highest(table: Array, step: float) -> tuple[Array, Array]:
@@ -125,7 +127,7 @@ def _highest(table: Array, step: float) -> tuple[Array, Array]:
     where = at[place] + np.where(inner, shift, 0.0) / FINE
     trusted = np.abs(value - other) <= AGREE * (value - top) + 1e-6 * np.max(np.abs(near - top[..., None]), axis=-1)
     far = np.where(trusted, where, 0.0)
-    return np.where(trusted, value, top), np.remainder((best + far) * step, 2.0 * np.pi)
+    return np.where(trusted, value, top), np.remainder((best + far) * step, table.shape[-1] * step)
 
 
 def _lagrange(nodes: Array, at: Array) -> Array:

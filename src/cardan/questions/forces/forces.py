@@ -27,6 +27,7 @@ from cardan.texts import _
 from .elastic import elastic, redundancy, refuse_soft
 from .kinetostatics import Couples, KinematicState, couples, resisted, standing, swinging
 from .reactions import Determinacy, Frame, Load, forces_of, frame, right_side, solved, thrusts, weights, whole_balance
+from .turn_loads import turns
 
 __all__ = ["Forces", "forces", "kinetostatics"]
 
@@ -47,7 +48,8 @@ def forces(
     duty : Duty, optional
         Torque, speed and acceleration; those of the drive by default.
     angle : array (p,) [rad], optional
-        Input angle φ_1 from the start position; one turn in steps of a degree by default.
+        Input angle φ_1 from the start position; in steps of a degree by default over one turn, or over as many as the
+        swinging parts of the torque take to repeat.
     movement : Movement, sequence of Movement or function, optional
         What moves the joint centres meanwhile, the input angle zero at its start; they stand still when not given.
 
@@ -107,7 +109,7 @@ def _forces(
     if used.speed == 0.0 and whole.drag is not None:
         raise refuse("duty.speed", _("at standstill the sense of friction is open; give the speed of running, or none"))
     xp = namespace(whole.points, angle)
-    phi = positions(angle, xp)
+    phi = positions(angle, xp, turns=turns(used.harmonics))
     if isinstance(drive, Drive) and movement is None:
         _refuse_locked(whole, np.asarray(whole.chain.joint_angle))
     if movement is None:

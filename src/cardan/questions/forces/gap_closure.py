@@ -18,6 +18,7 @@ from cardan.questions.motion.motion import motion
 
 from .forces import Forces
 from .kinetostatics import couples, standing
+from .turn_loads import turns
 
 COARSE = 361
 """Positions of a turn from which the least couples are sharpened."""
@@ -150,8 +151,8 @@ def least_load(
     Of a single joint that is M_2 > J_2 ε_max, Kozhevnikov & Perfil'ev (1978), eq. 121, 122.
     """
     outer = np.broadcast_shapes(chain.joint_angle.shape[:-1], np.shape(speed), inertia.shape[:-1])
-    places = FEW if math.prod(outer) > 1 else MANY
-    period = 2.0 * np.pi if harmonics else np.pi
+    period = 2.0 * np.pi * turns(harmonics) if harmonics else np.pi
+    places = (FEW if math.prod(outer) > 1 else MANY) * (turns(harmonics) if harmonics else 1)
     angle = np.arange(places) * (period / places)
     turned = motion(chain, angle)
     ratio, slope = turned.shaft_ratio[..., 1:, :], turned.shaft_slope[..., 1:, :]
@@ -192,6 +193,6 @@ def gaps(drive: Drive, found: Forces) -> Gaps | None:
         harmonics=drive.duty.harmonics,
         backwards=torque < 0.0,
     )
-    turned = found.angle[-1] - found.angle[0] > 2.0 * np.pi - 1e-9
+    turned = found.angle[-1] - found.angle[0] > 2.0 * np.pi * turns(drive.duty.harmonics) - 1e-9
     press = found.joint_torque[:, :-1] if turned else found.joint_torque
     return Gaps(open_share=open_share(press, torque), load_needed=max(0.0, float(np.max(needed))))

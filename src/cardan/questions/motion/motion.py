@@ -246,10 +246,11 @@ def _next_phase(psi: Array, joint_angle: Array) -> Array:
     return psi + mobius.angle_error(mobius.hooke(joint_angle), w)
 
 
-def positions(angle: ArrayLike | None, xp: object) -> Array:
-    """Return the input angles to look at, one turn in steps of a degree when none are given; array (p,) [rad]."""
+def positions(angle: ArrayLike | None, xp: object, *, turns: int = 1) -> Array:
+    """Return the input angles to look at, whole turns in steps of a degree when none are given; array (p,) [rad]."""
     if angle is None:
-        return xp.linspace(0.0, 2.0 * np.pi, TURN, dtype=xp.float64)  # type: ignore[attr-defined]
+        places = turns * (TURN - 1) + 1
+        return xp.linspace(0.0, 2.0 * np.pi * turns, places, dtype=xp.float64)  # type: ignore[attr-defined]
     phi = real(angle, xp)
     if phi.ndim > 1:
         raise refuse("angle", _("has {count} axes; one list of angles is meant").format(count=phi.ndim))
