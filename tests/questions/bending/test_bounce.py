@@ -178,3 +178,19 @@ def test_an_undamped_run_up_is_lewis_s():
     peak = run_up(100.0, 1e-6, 10.0, 20.0).peak
     assert peak == pytest.approx(1.466 * 100.0 / np.sqrt(10.0), rel=0.01)
     assert 0.0 < LOSS["shaft"] < LOSS["support"] < 0.2
+
+
+def test_check_and_bending_speak_of_the_same_shaft_where_many_supports_give_way_below_it():
+    """More modes of soft supports than joints lie below the one in which a shaft bows: it decides in both."""
+    line = Drive.from_points([(-0.3, 0, 0), (0, 0, 0), (0.6, 0, 0), (1.2, 0, 0), (1.5, 0, 0)])
+    tube = {"outer": 0.06, "inner": 0.03, "material": Material(youngs=E, density=RHO)}
+    soft = tuple(Support(shaft=k, position=x, stiffness=2e5) for k, x in ((1, -0.05), (2, 0.3), (3, 0.3), (4, 0.05)))
+    ends = (Support(shaft=1, position=-0.25, stiffness=2e5), Support(shaft=4, position=0.25, stiffness=2e5))
+    shafts = (Shaft(number=1, **tube), Shaft(number=2, **tube), Shaft(number=3, **tube))
+    whole = replace(line, shafts=(*shafts, Shaft(number=4, **tube)), supports=(*soft, *ends))
+    whole = replace(whole, duty=Duty(speed=150.0))
+    found = bending_speeds(whole)
+    assert found.deciding is not None
+    assert found.deciding >= len(whole.joints)
+    margins = [float(one.value) for one in check(whole, only=["critical_speed"]) if one.run and one.sense == "at_least"]
+    assert min(margins) == pytest.approx(found.margin.ratio, rel=1e-6)

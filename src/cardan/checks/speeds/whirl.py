@@ -28,6 +28,9 @@ from cardan.texts import _
 MOVES = r"(shafts|joints|supports)\[|input\.|output\."
 """Paths that may change the speeds of the line."""
 
+FEWEST = 3
+"""Modes of the line asked for at least, as many as the answer about bending has."""
+
 STEP = 0.02
 """Share of a size by which it is changed to see how the speeds of the line go with it."""
 
@@ -95,7 +98,9 @@ def _top(design: Design) -> float:
 def _line(drive: Drive, top: float) -> dict[Part, tuple[float, int]]:
     """Return the critical speeds of the whole line with the shaft that bends most; none where the file lacks some."""
     try:
-        found = bending_speeds(drive, Duty(speed=top or None), modes=len(drive.joints))
+        found = bending_speeds(drive, Duty(speed=top or None), modes=max(len(drive.joints), FEWEST))
+        if found.deciding is not None and found.deciding >= len(found.speed):  # below it only supports give way
+            found = bending_speeds(drive, Duty(speed=top or None), modes=found.deciding + 1)
     except InputError:
         return {}
     modes: dict[Part, tuple[float, int]] = {}
