@@ -24,6 +24,7 @@ from .angles import (
     speed_angle,
     speed_fluctuation,
 )
+from .audit import answers_agree
 from .check import Check
 from .design import Design, design
 from .moving import stood, stopped, worst_of_poses
@@ -93,6 +94,7 @@ CHECKS: dict[str, Check] = {
         runout,
         length,
         layout,
+        answers_agree,
     )
 }
 """Name of a check -> the check; its code is the file of the same name."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -12,12 +12,17 @@ from cardan.answers.quantity import Quantity, Say, Text, say
 from cardan.answers.question import Lacking
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import Catalogue
+from cardan.checks.audit.answers_agree import CHECK as AUDIT
+from cardan.checks.audit.answers_agree import Compared, audit, verdict_on
+from cardan.checks.check import part_of
 from cardan.checks.checks import CHECKS, check
+from cardan.checks.design import design
 from cardan.checks.figure import check_figures
 from cardan.checks.key_figures import key_figures
 from cardan.checks.torsion.line import NO_MODEL
 from cardan.checks.verdict import Verdict
 from cardan.checks.verdict_table import (
+    MOST,
     alike,
     missing_table,
     share,
@@ -51,11 +56,21 @@ class Checked:
 
     verdicts: tuple[Verdict, ...]
     remedies: tuple[Remedy, ...] = ()  # the smallest changes of single keys that make failed verdicts pass
+    compared: tuple[Compared, ...] = ()  # answers side by side, where all were asked for
+
+    @property
+    def agreement(self) -> Verdict | None:
+        """Whether answers that speak of the same quantity agree; None where nothing was compared."""
+        return next((one for one in self.verdicts if one.check == AUDIT.name and one.run), None)
 
     @property
     def binding(self) -> list[Verdict]:
-        """Verdicts that were reached and that the drive must keep, the worst first."""
-        return sorted((one for one in self.verdicts if one.run and not one.advice), key=_worst)
+        """Verdicts that were reached and that the drive must keep, the worst first.
+
+        That answers agree is no merit of the drive; that they do not is its first trouble.
+        """
+        own = (one for one in self.verdicts if one.run and not one.advice)
+        return sorted((one for one in own if one.check != AUDIT.name or not one.passed), key=_worst)
 
     @property
     def advice(self) -> list[Verdict]:
@@ -92,16 +107,24 @@ def checked(
     *,
     only: Sequence[str] = (),
     known: Catalogue | None = None,
+    whole: bool = False,
     progress: Callable[[float], object] | None = None,
 ) -> Checked:
     """Return the verdicts on a drive and their remedies.
 
     only: names of checks; all when empty.
     known: the shipped one when not given.
+    whole: compare all answers that speak of the same quantity, those too that take long.
     progress: called with the share done; answering "stop" ends the search for remedies.
     """
-    verdicts = check(drive, only=only, known=known)
-    return Checked(verdicts=verdicts, remedies=remedies(drive, verdicts, known=known, progress=progress))
+    verdicts, compared = check(drive, only=only, known=known), ()
+    if whole:
+        subject = design(drive, known=known)
+        compared = audit(subject)
+        told = replace(AUDIT, judge=lambda _design: verdict_on(compared)).verdicts(subject)
+        verdicts = (*(one for one in verdicts if one.check != AUDIT.name), *told)
+    found = remedies(drive, verdicts, known=known, progress=progress)
+    return Checked(verdicts=verdicts, remedies=found, compared=compared)
 
 
 def ask(drive: Drive, *, known: Catalogue | None = None) -> Checked | None:
@@ -199,7 +222,55 @@ def _tables(drive: Drive, result: Checked, *, sources: bool, missing: bool) -> I
     lacks = [one for one in result.verdicts if one.missing]
     if lacks:
         yield missing_table(lacks, "brief" if missing or not result.binding else "full")
+    if result.compared:
+        yield compared_table(drive, result.compared)
     yield verdict_records(result.verdicts, "verdicts")
+
+
+def compared_table(drive: Drive, found: Sequence[Compared]) -> Table:
+    """Return answers that speak of the same quantity side by side, those that differ most first."""
+    rows = sorted(found, key=lambda one: -one.deviation)
+
+    def side(k: int) -> list[Cell]:
+        return [
+            Cell(value=Quantity(one.values[k], one.pair.dimension), before="" if k == 0 or same(one) else "≥ ")
+            for one in rows
+        ]
+
+    def same(one: Compared) -> bool:
+        return one.pair.sense == "same"
+
+    return Table(
+        name="compared",
+        title=_("Answers that speak of the same quantity, side by side"),
+        records=True,
+        columns=(
+            Column(key="quantity", heading=_("quantity"), values=[_(one.pair.quantity) for one in rows], left=True),
+            Column(key="", heading=_("of"), values=[_part(drive, one.part) for one in rows], left=True),
+            Column(key="part", values=[one.part for one in rows], depth="data"),
+            Column(key="first", heading=_("question"), values=[one.pair.first for one in rows], left=True),
+            Column(key="first_value", heading=_("tells"), values=side(0)),
+            Column(key="second", heading=_("question"), values=[one.pair.second for one in rows], left=True),
+            Column(key="second_value", heading=_("tells"), values=side(1)),
+            Column(
+                key="deviation",
+                heading=_("of what may be"),
+                values=[one.deviation for one in rows],
+                decimals=2,
+                most=MOST,
+            ),
+            Column(key="tolerance", heading=_("may differ by"), values=[one.pair.tolerance for one in rows], digits=2),
+            Column(key="why", heading=_("because"), values=[_(one.pair.why) for one in rows], left=True, wrap=True),
+        ),
+    )
+
+
+def _part(drive: Drive, path: str) -> str:
+    """Return a part in words; what is no part of the drive as it is called."""
+    if not path.startswith(("joints[", "shafts[")):
+        return path.partition("[")[0]
+    kind = _("joint {number}") if path.startswith("joints[") else _("shaft {number}")
+    return kind.format(number=part_of(drive, path))
 
 
 def remedy_table(drive: Drive, result: Checked, *, helpful: bool = False) -> Table:
@@ -287,12 +358,21 @@ def _remarks(result: Checked, *, sources: bool, missing: bool) -> Iterator[Remar
     yield from (Remark(text=text, tone="failed") for text in _unremedied(result))
     if result.failed:
         yield Remark(text=sentence(result.verdicts), tone="failed", alarm=True, depth="data")
+    yield from (
+        Remark(text=say(_("Two answers contradict each other. {note}"), note=one.note), tone="failed", alarm=True)
+        for one in result.failed
+        if one.check == AUDIT.name
+    )
     for why in dict.fromkeys(one.unfit for one in result.verdicts if one.unfit):
         titles = "; ".join(map(title_of, _alike_unfit([one for one in result.verdicts if one.unfit == why])))
         yield Remark(text=_("Not run ({why}): {titles}.").format(why=why, titles=titles))
     if result.beyond and not result.binding:
         yield Remark(text=sentence(result.verdicts), tone="warning", alarm=True, depth="data")
     yield from unconfirmed_remark(result.binding)
+    agreement = result.agreement
+    if agreement is not None and agreement.passed:
+        text = _("Answers that speak of the same quantity agree: {count}.")
+        yield Remark(text=say(text, count=agreement.note), code=AUDIT.name)
     kept = sum(one.met for one in result.advice)
     if kept and not sources:
         text = plural("One rule of thumb is kept.", "{count} rules of thumb are kept.", kept)
@@ -314,7 +394,8 @@ def _unremedied(result: Checked) -> Iterator[str]:
     """Yield what fails and has no remedy."""
     remedied = {one.title for one in result.remedies}
     text = _("Failed, and no single parameter remedies it: {title}.")
-    yield from (text.format(title=one.title) for one in result.failed if one.title not in remedied)
+    own = [one for one in result.failed if one.check != AUDIT.name]
+    yield from (text.format(title=one.title) for one in own if one.title not in remedied)
 
 
 def _alike_unfit(verdicts: Sequence[Verdict]) -> list[list[Verdict]]:
@@ -346,7 +427,8 @@ def answer_of_list() -> Answer:
 
 
 def _column_values(drive: Drive) -> tuple[float, float]:
-    used = [float(np.max(one.utilisation)) for one in check(drive) if one.run and not one.advice]
+    verdicts = check(drive, only=[name for name in CHECKS if name != AUDIT.name])
+    used = [float(np.max(one.utilisation)) for one in verdicts if one.run and not one.advice]
     return (max(used, default=0.0), float(sum(not one <= 1.0 for one in used)))
 
 

@@ -27,6 +27,9 @@ def check(
     catalogue: MoreRows = None,
     sources: Annotated[bool, flag("--sources", _("Say of every verdict where it comes from."))] = False,
     missing: Annotated[bool, flag("--missing", _("Say which keys the checks need that were not run."))] = False,
+    audit: Annotated[
+        bool, flag("--audit", _("Compare all answers that speak of the same quantity, and tell them side by side."))
+    ] = False,
     torque: TorqueNm = None,
     speed_rpm: SpeedRpm = None,
     json: AsJson = False,
@@ -44,7 +47,7 @@ def check(
     drive = on_duty(read(file, more), speed_rpm, torque)
     known = known_to(drive, "." if file == STDIN else file.parent, more)
     with keys_of(file), watching(_("searching remedies")) as progress:
-        result = checked(drive, only=only or (), known=known, progress=progress)
+        result = checked(drive, only=only or (), known=known, whole=audit, progress=progress)
     return tell(answer(drive, result, sources=sources, missing=missing), file, drive, json=json, csv=csv, plot=plot)
 
 

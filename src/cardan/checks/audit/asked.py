@@ -1,0 +1,153 @@
+"""What the questions answer about one drive as drawn, each asked once and not before a pair of answers needs it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TypeVar
+
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.load_case import Case
+from cardan.checks.verdict import Verdict
+from cardan.drive.drive import Drive
+from cardan.drive.models.dynamics_model import Train, train
+from cardan.errors import InputError
+from cardan.maths.arrays import Array
+from cardan.questions.bending.balance import Balance, balance
+from cardan.questions.bending.bending import CriticalSpeeds, bending_speeds
+from cardan.questions.bending.rotor import Rotor, rotor
+from cardan.questions.forces.assembly import AssemblyForces, assembly
+from cardan.questions.forces.forces import Forces, forces
+from cardan.questions.life.life import life
+from cardan.questions.life.lives import Life
+from cardan.questions.losses.losses import Losses, losses
+from cardan.questions.mobility.mobility import Mobility, mobility
+from cardan.questions.motion.articulation import Articulation, articulation
+from cardan.questions.motion.motion import Motion, motion
+from cardan.questions.motion.turning import Evenness, each_shaft
+from cardan.questions.phases.phases import Phasing, phases
+from cardan.questions.torsion.model.answer import lacking
+from cardan.questions.torsion.steady.torsion_response import TorsionResponse, torsion_response
+
+T = TypeVar("T")
+
+
+def _told(ask: Callable[[], T]) -> T | None:
+    """Return an answer, None where the file does not let it be told."""
+    try:
+        return ask()
+    except InputError:
+        return None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Asked:
+    """A drive and what each question answers about it, as it stands in its duty; None where it does not answer."""
+
+    design: Design  # of one drive
+
+    @cached_property
+    def here(self) -> Design:
+        """The design as drawn: without poses and movements."""
+        whole = self.design
+        if not whole.drive.poses and not whole.drive.movements:
+            return whole
+        return replace(whole, drive=replace(whole.drive, poses=(), movements=()))
+
+    @property
+    def drive(self) -> Drive:
+        """The drive as drawn: without poses and movements."""
+        return self.here.drive
+
+    def verdicts(self, check: Check) -> Sequence[Verdict]:
+        """Return those of the verdicts of a check on the drive as drawn that were reached."""
+        return [one for one in check.verdicts(self.here) if one.run]
+
+    @property
+    def case(self) -> Case | None:
+        """The duty itself among the ways to run; None where it has no torque."""
+        return next((one for one in self.here.loaded if not one.name and not one.block), None)
+
+    @cached_property
+    def motion(self) -> Motion:
+        """How every shaft turns."""
+        return motion(self.drive)
+
+    @cached_property
+    def even(self) -> Evenness:
+        """How uniformly every shaft turns."""
+        return each_shaft(self.drive)
+
+    @cached_property
+    def articulation(self) -> Articulation | None:
+        """What happens while it moves; None where it does not move."""
+        moving = replace(self.design.drive, poses=())
+        return _told(lambda: articulation(moving)) if moving.movements else None
+
+    @cached_property
+    def phasing(self) -> Phasing | None:
+        """What its yokes can do."""
+        return _told(lambda: phases(self.drive, poses={}))
+
+    @cached_property
+    def train(self) -> Train | None:
+        """Its points, masses and supports."""
+        return _told(lambda: train(self.drive, kinds=True))
+
+    @cached_property
+    def forces(self) -> Forces | None:
+        """What its parts carry."""
+        return _told(lambda: forces(self.drive))
+
+    @cached_property
+    def losses(self) -> Losses | None:
+        """What it turns to heat."""
+        return _told(lambda: losses(self.drive))
+
+    @cached_property
+    def life(self) -> Life | None:
+        """How long its joints last."""
+        return _told(lambda: life(self.drive))
+
+    @cached_property
+    def response(self) -> TorsionResponse | None:
+        """How it vibrates in torsion at the speed of its duty."""
+        if lacking(self.drive) or not self.drive.duty.speed:
+            return None
+        return _told(lambda: torsion_response(self.drive))
+
+    @cached_property
+    def bending(self) -> CriticalSpeeds | None:
+        """Its critical speeds in bending."""
+        return _told(lambda: bending_speeds(self.drive))
+
+    @cached_property
+    def rotor(self) -> Rotor | None:
+        """Its shaft that whirls first, as a mass on a spring."""
+        return _told(lambda: rotor(self.drive))
+
+    @cached_property
+    def balance(self) -> Balance | None:
+        """How well its shafts must be balanced."""
+        return _told(lambda: balance(self.drive, known=self.design.known))
+
+    @cached_property
+    def mobility(self) -> Mobility | None:
+        """How it can move, and what holds it twice."""
+        return _told(lambda: mobility(self.drive))
+
+    @cached_property
+    def assembly(self) -> AssemblyForces | None:
+        """What it carries because its parts do not fit."""
+        return _told(lambda: assembly(self.drive))
+
+
+def of_parts(kind: str, values: Array | Sequence[float], first: int = 1) -> Mapping[str, float]:
+    """Return values by the part they are of, counted from ``first``.
+
+    >>> of_parts("shafts", [1.0, 2.0])
+    {'shafts[0]': 1.0, 'shafts[1]': 2.0}
+    """
+    return {f"{kind}[{k + first - 1}]": float(one) for k, one in enumerate(values)}

@@ -1,0 +1,741 @@
+"""Pairs of answers about one drive that speak of the same quantity: how each tells it, and how closely they agree.
+
+A reading gives the values of a quantity in SI by the part they are of, as paths name it; nothing where the question
+does not answer, or where what one of them counts the other leaves out on purpose and says so.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from cardan.checks.angles import acceleration, joint_angle, output_error, speed_fluctuation
+from cardan.checks.check import Check
+from cardan.checks.speeds import critical_speed
+from cardan.checks.speeds.whirl import whirls
+from cardan.checks.strength import bearing_life
+from cardan.checks.strength.section import sections
+from cardan.checks.strength.shaft_life import STRENGTHS, fatigue, fatigue_life, lasting
+from cardan.checks.torsion.parametric_stability import CHECK as PARAMETRIC
+from cardan.drive.models.kinematics_model import mixed, unmapped
+from cardan.maths.arrays import Array
+from cardan.maths.curves.extremes import peak
+from cardan.questions.accuracy.accuracy import one_turn, sensitivity
+from cardan.questions.forces.reactions import Determinacy
+from cardan.questions.motion.motion import motion
+from cardan.questions.motion.standing import still
+from cardan.questions.motion.turning import each_shaft
+from cardan.questions.torsion.model.excitation import turns_freely
+from cardan.questions.torsion.steady.run_stability import Verdict as Stability
+from cardan.texts import mark
+
+from .asked import Asked, of_parts
+
+Values: TypeAlias = Mapping[str, float]
+"""Values of a quantity in SI by the path of the part they are of; empty for the drive as a whole."""
+
+Sense: TypeAlias = Literal["same", "at_most"]
+"""Whether both must be the same, or the first at most as large as the second."""
+
+FOLLOWS = 1e-9
+"""Both ways are exact: rounding, amplified by joints that bend steeply."""
+
+SAMPLED = 1e-4
+"""One way looks at places of a turn, and meets a kink of friction or the top of a curve between them so closely."""
+
+FOUND = 1e-3
+"""Both ways search: the tops of torques that swing in high orders are met so closely between the places looked at."""
+
+RUBBING = 1e-3
+"""Share of the input power that supports may turn to heat where their friction is left out of one of two answers."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pair:
+    """Two answers that speak of the same quantity."""
+
+    quantity: str  # what both speak of, marked for translation
+    first: str  # names of the questions or checks, as of `cardan.register.QUESTIONS` and `CHECKS`
+    second: str
+    read: tuple[Callable[[Asked], Values], Callable[[Asked], Values]]  # how each tells it; the same parts are compared
+    tolerance: float  # share of the larger value by which they may differ
+    why: str  # why they may, marked for translation
+    dimension: str = ""  # of `cardan.units.DIMENSIONS`
+    sense: Sense = "same"
+    least: float = 0.0  # size in SI up to which the tolerance is a share of this
+    quick: bool = True  # whether an ordinary check compares them: nothing is asked for it that takes long
+
+
+EXACT = mark("both are exact, to rounding")
+BETWEEN = mark("one looks at places of a turn, and between them by curves")
+SEARCHED = mark("both search the top of a curve between places of a turn")
+COUNTED = mark("a yes or a no")
+
+
+# Motion.
+
+
+def _uneven(asked: Asked) -> Values:
+    return of_parts("shafts", asked.even.speed_fluctuation, 2)
+
+
+def _seen_uneven(asked: Asked) -> Values:
+    ratio = asked.motion.shaft_ratio[1:]
+    return of_parts("shafts", peak(ratio[:, :-1]) + peak(-ratio[:, :-1]), 2)
+
+
+def _phased(asked: Asked) -> Values:
+    found = asked.phasing
+    if found is None or unmapped(asked.drive.joints):
+        return {}
+    return of_parts("shafts", found.as_built.shaft_speed_fluctuation, 2)
+
+
+def _judged(check: Check, *, errors: bool = True) -> Callable[[Asked], Values]:
+    """Return how the verdicts of a check tell its value; without errors only where no joint has any."""
+
+    def read(asked: Asked) -> Values:
+        if not errors and any(joint.error is not None for joint in asked.drive.joints):
+            return {}
+        return {one.subject: float(np.max(one.value)) for one in asked.verdicts(check)}
+
+    return read
+
+
+def _angle_error(asked: Asked) -> Values:
+    return {f"shafts[{len(asked.drive.joints)}]": float(asked.even.max_angle_error[-1])}
+
+
+def _output_uneven(asked: Asked) -> Values:
+    return {f"shafts[{len(asked.drive.joints)}]": float(asked.even.speed_fluctuation[-1])}
+
+
+def _seen_error(asked: Asked) -> Values:
+    lead = asked.motion.angle_error[-1, :-1]
+    return {f"shafts[{len(asked.drive.joints)}]": 0.5 * float(peak(lead) + peak(-lead))}
+
+
+def _accelerated(asked: Asked) -> Values:
+    top = asked.here.top_speed
+    if top is None:
+        return {}
+    return {f"shafts[{len(asked.drive.joints)}]": float(np.max(top)) ** 2 * float(asked.even.max_acceleration[-1])}
+
+
+def _bent(asked: Asked) -> Values:
+    if any(one.joint_angle is not None for one in asked.drive.duty.blocks):
+        return {}
+    return of_parts("joints", asked.motion.joint_angle)
+
+
+def _felt(asked: Asked) -> Values:
+    """Return least and largest speed ratio as the accuracy has it: how the output feels the phase of joint 1."""
+    if mixed(asked.drive.joints):
+        return {}
+    felt = sensitivity(asked.drive, one_turn())[:, 0, 0]
+    return {"least": -float(peak(-felt)), "largest": float(peak(felt))}
+
+
+def _ratios(asked: Asked) -> Values:
+    return {"least": float(asked.even.ratio_min[-1]), "largest": float(asked.even.ratio_max[-1])}
+
+
+def _moving(asked: Asked) -> Values:
+    found = asked.articulation
+    if found is None or unmapped(asked.drive.joints):
+        return {}
+    return {one.what: one.value for one in found.worst if one.what in ("speed_fluctuation", "joint_angle")}
+
+
+def _standing(asked: Asked) -> Values:
+    """Return the same of the drive that stands as it does at the worst instants."""
+    found = asked.articulation
+    if found is None or unmapped(asked.drive.joints):
+        return {}
+    told = {}
+    for one in found.worst:
+        if one.what == "speed_fluctuation":
+            told[one.what] = float(each_shaft(still(asked.design.drive, one.time)).speed_fluctuation[one.number - 2])
+        if one.what == "joint_angle":
+            here = motion(still(asked.design.drive, one.time), [0.0])
+            told[one.what] = float(here.joint_angle[one.number - 1])
+    return told
+
+
+# Torques, forces and heat.
+
+
+def _light(asked: Asked) -> bool:
+    """Tell whether neither friction, masses nor torsional vibration change the torques of the duty."""
+    whole, case = asked.train, asked.case
+    if whole is None or case is None or case.vibration is not None:
+        return False
+    return all(one is None for one in (whole.drag, whole.resisting_torque)) and (
+        not asked.drive.duty.speed or (whole.inertia is None and whole.cross_inertia is None)
+    )
+
+
+def _torque_carried(asked: Asked) -> Values:
+    found = asked.forces
+    if found is None or not _light(asked):
+        return {}
+    return of_parts("shafts", peak(np.abs(found.shaft_torque[:, :-1])))
+
+
+def _torque_counted(asked: Asked) -> Values:
+    case = asked.case
+    return {} if case is None else of_parts("shafts", case.shaft_torque)
+
+
+def _couple_carried(asked: Asked) -> Values:
+    """Return the largest part across each shaft of the couples that the joints at its ends put on it."""
+    found = asked.forces
+    if found is None or not _light(asked):
+        return {}
+
+    def across(couple: Array, axis: Array) -> Array:
+        """Return the largest part of couples (n, p, 3) across axes (n, p, 3) [N·m]."""
+        along = np.sum(couple * axis, axis=-1, keepdims=True)
+        return peak(np.linalg.norm(couple - along * axis, axis=-1)[:, :-1])
+
+    before = across(found.driving_couple, found.axis[:-1])
+    behind = across(found.driven_couple, found.axis[1:])
+    return of_parts("shafts", np.maximum(np.append(before, 0.0), np.append(0.0, behind)))
+
+
+def _couple_counted(asked: Asked) -> Values:
+    case = asked.case
+    return {} if case is None else of_parts("shafts", case.end_bending)
+
+
+def _journals_carried(asked: Asked) -> Values:
+    """Return the largest load of the journals of every joint, where no forces through the joints add to it."""
+    found, whole = asked.forces, asked.train
+    if found is None or whole is None or found.joint_force is not None or whole.cross_inertia is not None:
+        return {}
+    size = np.max(found.journals.size[..., :-1, :], axis=-1)
+    return of_parts("joints", asked.drive.duty.shock_factor * peak(size))
+
+
+def _journals_lasting(asked: Asked) -> Values:
+    found = asked.life
+    steady = found is not None and len(found.parts) == 1 and all(math.isnan(one) for one in found.vibration)
+    if not steady or found is None or found.parts[0].path not in ("", "duty"):
+        return {}
+    return of_parts("joints", found.journal_force[0])
+
+
+def _rubs(asked: Asked) -> bool:
+    """Tell whether losses and forces count the same friction, in one condition; losses take crosses without mass."""
+    found, whole = asked.losses, asked.train
+    if found is None or found.each or found.locked or not abs(found.input_power) > 0.0:
+        return False
+    if whole is None or whole.cross_inertia is not None:
+        return False
+    return float(np.sum(found.supports) + np.sum(found.splines)) <= RUBBING * SAMPLED * abs(found.input_power)
+
+
+def _heat_of_forces(asked: Asked) -> Values:
+    found = asked.forces
+    if found is None or not _rubs(asked):
+        return {}
+    return of_parts("joints", np.mean(found.loss[:, :-1], axis=-1))
+
+
+def _heat_of_losses(asked: Asked) -> Values:
+    return of_parts("joints", asked.losses.joints) if asked.losses is not None and _rubs(asked) else {}
+
+
+def _power_of_forces(asked: Asked) -> Values:
+    found = asked.forces
+    if found is None or not _rubs(asked):
+        return {}
+    entering = found.input_torque * found.speed[0]
+    leaving = found.output_torque * found.speed[-1]
+    return {"input": float(np.mean(entering[:-1])), "output": float(np.mean(leaving[:-1]))}
+
+
+def _power_of_losses(asked: Asked) -> Values:
+    found = asked.losses
+    if found is None or not _rubs(asked):
+        return {}
+    return {"input": found.input_power, "output": found.output_power}
+
+
+def _held_up(asked: Asked) -> Values:
+    """Return the sum of all forces of the supports over the largest of them, along each axis."""
+    found = asked.forces
+    if found is None or found.reaction is None:
+        return {}
+    largest = float(np.max(np.abs(found.reaction)))
+    total = np.mean(np.sum(found.reaction, axis=0), axis=0)
+    return of_parts("axes", total / largest) if largest > 0.0 else {}
+
+
+def _weighing(asked: Asked) -> Values:
+    """Return the weight of all parts the other way round, over the same force."""
+    found, whole = asked.forces, asked.train
+    if found is None or found.reaction is None or whole is None or whole.gravity is None:
+        return {}
+    largest = float(np.max(np.abs(found.reaction)))
+    mass = sum(float(np.sum(one)) for one in (whole.mass, whole.cross_mass) if one is not None)
+    return of_parts("axes", -mass * np.asarray(whole.gravity) / largest) if largest > 0.0 else {}
+
+
+# Strength and life.
+
+
+def _life_judged(asked: Asked) -> Values:
+    return {one.subject: float(np.max(one.value)) for one in asked.verdicts(bearing_life.CHECK)}
+
+
+def _life_told(asked: Asked) -> Values:
+    found = asked.life
+    return {} if found is None else of_parts("joints", found.of("iso"))
+
+
+def _fatigued(asked: Asked) -> Values:
+    """Return of every shaft whether the ways of running that make up its time keep below its endurance, 1, or not."""
+    return _endurance(asked, lambda k: min(_safeties(asked, k)) > 1.0)
+
+
+def _endless(asked: Asked) -> Values:
+    """Return of every shaft whether its life is without end."""
+    return _endurance(asked, lambda k: math.isinf(float(fatigue_life(asked.here, k))))
+
+
+def _safeties(asked: Asked, k: int) -> list[float]:
+    here = asked.here
+    return [float(fatigue(here, k, one, case).safety) for one in sections(here, k) for case in lasting(here)]
+
+
+def _endurance(asked: Asked, lasts: Callable[[int], bool]) -> Values:
+    here = asked.here
+    if not lasting(here) or here.duty.torque_history is not None or here.duty.starts is not None:
+        return {}
+    found = {}
+    for k in range(here.joints + 1):
+        stretches = list(sections(here, k))
+        strengths = [one.of_material(name) for one in stretches for name in STRENGTHS]
+        if not stretches or here.drive.shafts[k].layup is not None or here.missing(*strengths):
+            continue
+        if all(abs(one - 1.0) > FOUND for one in _safeties(asked, k)):  # at the endurance itself rounding decides
+            found[f"shafts[{k}]"] = float(lasts(k))
+    return found
+
+
+# Torsional vibration.
+
+
+def _torque_of_response(asked: Asked) -> Values:
+    """Return the largest torque of every shaft at the speed of the duty."""
+    found, case = asked.response, asked.case
+    if found is None or case is None or not bool(np.all(found.steady.found)):
+        return {}
+    model = found.train.model
+    size = np.maximum(np.abs(found.torque_lowest), np.abs(found.torque_highest))
+    told: dict[str, float] = {}
+    for e, (a, b) in enumerate(model.elements):
+        if found.train.hangs[b] is None:
+            path = f"shafts[{model.shaft[a]}]"
+            told[path] = max(told.get(path, 0.0), float(size[e]))
+    return told
+
+
+def _steady_torque(asked: Asked) -> Values:
+    """Return the mean torque that drives the input at the speed of the duty, as the vibration has it."""
+    found = asked.response
+    if found is None or not bool(np.all(found.steady.found)) or turns_freely(asked.drive, asked.drive.duty):
+        return {}
+    if asked.train is None or asked.train.drag is not None or asked.drive.duty.torques or found.train.usual_loss:
+        return {}
+    lost = found.train.model
+    if np.any(lost.damping > 0.0) or np.any(lost.ground_damping > 0.0) or np.any(lost.loss_factor > 0.0):
+        return {}
+    return {"": float(found.steady.drive_torque.mean[..., 0])}
+
+
+def _driving_torque(asked: Asked) -> Values:
+    found = asked.forces
+    return {} if found is None else {"": float(np.mean(found.input_torque[:-1]))}
+
+
+def _grows(asked: Asked) -> Values:
+    found = asked.response
+    return {} if found is None else {"": float(int(found.floquet.verdict) == Stability.UNSTABLE)}
+
+
+def _damped(asked: Asked) -> Values:
+    """Return whether the check of parametric resonance fails or is near to it."""
+    found = asked.verdicts(PARAMETRIC)
+    return {"": float(not all(one.met for one in found))} if found else {}
+
+
+# Bending.
+
+
+def _whirl_judged(asked: Asked) -> Values:
+    return {f"shafts[{one.shaft}]": float(np.max(one.actual)) for one in whirls(asked.here) if one.exact}
+
+
+def _whirl_told(asked: Asked) -> Values:
+    found = asked.bending
+    if found is None:
+        return {}
+    told: dict[str, float] = {}
+    for part, speed in zip(found.part, found.actual, strict=True):
+        if part.kind == "shaft":
+            told.setdefault(f"shafts[{part.number - 1}]", float(speed))
+    return told
+
+
+def _margin_judged(asked: Asked) -> Values:
+    """Return the least margin of the shafts that whirl, in the verdicts."""
+    found = [float(np.max(one.value)) for one in asked.verdicts(critical_speed.CHECK) if one.sense == "at_least"]
+    return {"": min(found)} if found and asked.bending is not None else {}
+
+
+def _margin_told(asked: Asked) -> Values:
+    found = asked.bending
+    if found is None or found.margin is None:
+        return {}
+    return {"": float(found.margin.ratio)}
+
+
+def _one_mass(asked: Asked) -> Values:
+    found = asked.rotor
+    return {} if found is None else {f"shafts[{found.shaft - 1}]": found.critical}
+
+
+def _balanced_mass(asked: Asked) -> Values:
+    found = asked.balance
+    return {} if found is None else {f"shafts[{one.number - 1}]": one.mass for one in found.shafts}
+
+
+def _mass_carried(asked: Asked) -> Values:
+    whole = asked.train
+    return {} if whole is None or whole.mass is None else of_parts("shafts", whole.mass)
+
+
+# What holds the shafts.
+
+
+def _adrift(asked: Asked) -> Values:
+    """Return whether shafts move while the input stands still."""
+    found = asked.mobility
+    return {} if found is None or found.parasitic is None or not found.certain else {"": float(found.parasitic > 0)}
+
+
+def _loose(asked: Asked) -> Values:
+    """Return whether statics finds a shaft that nothing holds."""
+    found = asked.forces
+    return {} if found is None or found.reaction is None else {"": float(np.any(found.status == Determinacy.LOOSE))}
+
+
+def _standing_fast(asked: Asked) -> Values:
+    """Return whether shafts stand fast while the input stands still."""
+    return {part: 1.0 - one for part, one in _adrift(asked).items()}
+
+
+def _bows(asked: Asked) -> Values:
+    """Return whether the line whirls at a speed above zero, as one that is held does."""
+    found = asked.bending
+    return {} if found is None else {"": float(np.min(found.speed) > 0.0)}
+
+
+def _twice(asked: Asked) -> Values:
+    found = asked.mobility
+    return {} if found is None or not found.certain else {"": float(found.redundant)}
+
+
+def _degree(asked: Asked) -> Values:
+    found = asked.assembly
+    return {} if found is None else {"": float(found.degree)}
+
+
+def _surplus(asked: Asked) -> Values:
+    """Return whether the balance of the shafts does not tell the forces of all supports."""
+    found = asked.forces
+    if found is None or found.reaction is None:
+        return {}
+    return {"": float(np.any(found.status == Determinacy.INDETERMINATE))}
+
+
+def _redundant(asked: Asked) -> Values:
+    return {part: float(one > 0.0) for part, one in _twice(asked).items()}
+
+
+PAIRS: tuple[Pair, ...] = (
+    Pair(
+        quantity=mark("speed fluctuation of every shaft"),
+        first="motion",
+        second="motion",
+        read=(_uneven, _seen_uneven),
+        tolerance=SAMPLED,
+        why=BETWEEN,
+        dimension="share",
+        least=1e-3,
+    ),
+    Pair(
+        quantity=mark("speed fluctuation of every shaft"),
+        first="motion",
+        second="phasing",
+        read=(_uneven, _phased),
+        tolerance=FOLLOWS,
+        why=EXACT,
+        dimension="share",
+        least=1.0,
+        quick=False,
+    ),
+    Pair(
+        quantity=mark("speed fluctuation of the output"),
+        first="motion",
+        second="speed_fluctuation",
+        read=(_output_uneven, _judged(speed_fluctuation.CHECK, errors=False)),
+        tolerance=FOLLOWS,
+        why=EXACT,
+        dimension="share",
+        least=1.0,
+    ),
+    Pair(
+        quantity=mark("angle error of the output"),
+        first="motion",
+        second="output_error",
+        read=(_angle_error, _judged(output_error.CHECK, errors=False)),
+        tolerance=FOLLOWS,
+        why=EXACT,
+        dimension="angle",
+        least=1.0,
+    ),
+    Pair(
+        quantity=mark("angle error of the output"),
+        first="motion",
+        second="motion",
+        read=(_angle_error, _seen_error),
+        tolerance=SAMPLED,
+        why=BETWEEN,
+        dimension="angle",
+        least=1e-3,
+    ),
+    Pair(
+        quantity=mark("acceleration of the output"),
+        first="motion",
+        second="acceleration",
+        read=(_accelerated, _judged(acceleration.CHECK)),
+        tolerance=FOLLOWS,
+        why=EXACT,
+        dimension="angular_acceleration",
+        least=1.0,
+    ),
+    Pair(
+        quantity=mark("joint angles"),
+        first="motion",
+        second="joint_angle",
+        read=(_bent, _judged(joint_angle.CHECK)),
+        tolerance=FOLLOWS,
+        why=EXACT,
+        dimension="angle",
+        least=1.0,
+    ),
+    Pair(
+        quantity=mark("speed ratio of the output"),
+        first="motion",
+        second="accuracy",
+        read=(_ratios, _felt),
+        tolerance=1e-6,
+        why=BETWEEN,
+    ),
+    Pair(
+        quantity=mark("the drive at the worst instants of its movement"),
+        first="articulation",
+        second="motion",
+        read=(_moving, _standing),
+        tolerance=1e-6,
+        why=SEARCHED,
+        least=1.0,
+        quick=False,
+    ),
+    Pair(
+        quantity=mark("torque of every shaft"),
+        first="forces",
+        second="strength",
+        read=(_torque_carried, _torque_counted),
+        tolerance=SAMPLED,
+        why=BETWEEN,
+        dimension="torque",
+    ),
+    Pair(
+        quantity=mark("secondary couple of every shaft"),
+        first="forces",
+        second="strength",
+        read=(_couple_carried, _couple_counted),
+        tolerance=FOUND,
+        why=BETWEEN,
+        dimension="torque",
+        least=1e-6,
+    ),
+    Pair(
+        quantity=mark("load of the journals of every joint"),
+        first="forces",
+        second="life",
+        read=(_journals_carried, _journals_lasting),
+        tolerance=FOUND,
+        why=BETWEEN,
+        dimension="force",
+    ),
+    Pair(
+        quantity=mark("heat of every joint"),
+        first="forces",
+        second="losses",
+        read=(_heat_of_forces, _heat_of_losses),
+        tolerance=SAMPLED,
+        why=BETWEEN,
+        dimension="power",
+        least=1e-3,
+    ),
+    Pair(
+        quantity=mark("power at both ends"),
+        first="forces",
+        second="losses",
+        read=(_power_of_forces, _power_of_losses),
+        tolerance=SAMPLED,
+        why=BETWEEN,
+        dimension="power",
+    ),
+    Pair(
+        quantity=mark("forces of the supports together"),
+        first="forces",
+        second="weights",
+        read=(_held_up, _weighing),
+        tolerance=FOLLOWS,
+        why=EXACT,
+        least=1.0,
+    ),
+    Pair(
+        quantity=mark("life of the bearings of every joint"),
+        first="life",
+        second="bearing_life",
+        read=(_life_told, _life_judged),
+        tolerance=FOLLOWS,
+        why=EXACT,
+        dimension="duration",
+    ),
+    Pair(
+        quantity=mark("whether every shaft keeps below its endurance"),
+        first="tube_fatigue",
+        second="shaft_life",
+        read=(_fatigued, _endless),
+        tolerance=0.5,
+        why=COUNTED,
+    ),
+    Pair(
+        quantity=mark("largest torque of every shaft in torsional vibration"),
+        first="torsion",
+        second="strength",
+        read=(_torque_of_response, _torque_counted),
+        tolerance=FOUND,
+        why=SEARCHED,
+        dimension="torque",
+        sense="at_most",
+        quick=False,
+    ),
+    Pair(
+        quantity=mark("mean torque that drives the input"),
+        first="torsion",
+        second="forces",
+        read=(_steady_torque, _driving_torque),
+        tolerance=SAMPLED,
+        why=BETWEEN,
+        dimension="torque",
+        quick=False,
+    ),
+    Pair(
+        quantity=mark("whether torsional vibration grows at the speed of the duty"),
+        first="torsion",
+        second="parametric_stability",
+        read=(_grows, _damped),
+        tolerance=0.5,
+        why=COUNTED,
+        sense="at_most",
+        quick=False,
+    ),
+    Pair(
+        quantity=mark("critical speed of every shaft"),
+        first="bending",
+        second="critical_speed",
+        read=(_whirl_told, _whirl_judged),
+        tolerance=1e-6,
+        why=EXACT,
+        dimension="angular_speed",
+        quick=False,
+    ),
+    Pair(
+        quantity=mark("margin of the highest speed below the critical speed"),
+        first="bending",
+        second="critical_speed",
+        read=(_margin_told, _margin_judged),
+        tolerance=1e-6,
+        why=EXACT,
+        quick=False,
+    ),
+    Pair(
+        quantity=mark("critical speed of the shaft that whirls first"),
+        first="rotor",
+        second="bending",
+        read=(_one_mass, _whirl_told),
+        tolerance=1e-6,
+        why=EXACT,
+        dimension="angular_speed",
+        quick=False,
+    ),
+    Pair(
+        quantity=mark("mass of every shaft"),
+        first="balance",
+        second="forces",
+        read=(_balanced_mass, _mass_carried),
+        tolerance=FOLLOWS,
+        why=EXACT,
+        dimension="mass",
+    ),
+    Pair(
+        quantity=mark("whether a shaft is held by nothing"),
+        first="mobility",
+        second="forces",
+        read=(_adrift, _loose),
+        tolerance=0.5,
+        why=COUNTED,
+    ),
+    Pair(
+        quantity=mark("whether what is held can whirl"),
+        first="mobility",
+        second="bending",
+        read=(_standing_fast, _bows),
+        tolerance=0.5,
+        why=COUNTED,
+        sense="at_most",
+        quick=False,
+    ),
+    Pair(
+        quantity=mark("whether supports hold more than they need"),
+        first="mobility",
+        second="forces",
+        read=(_redundant, _surplus),
+        tolerance=0.5,
+        why=COUNTED,
+    ),
+    Pair(
+        quantity=mark("redundant constraints"),
+        first="mobility",
+        second="assembly",
+        read=(_twice, _degree),
+        tolerance=0.5,
+        why=COUNTED,
+        least=1.0,
+        quick=False,
+    ),
+)
+"""All pairs, in the order of the questions."""

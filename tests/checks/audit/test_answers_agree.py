@@ -1,0 +1,138 @@
+"""Answers that speak of the same quantity agree, of all examples and of drives at random; where not, it is told."""
+
+from collections import Counter
+from dataclasses import replace
+
+import pytest
+
+from cardan import Drive, example
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
+from cardan.checks import check, design
+from cardan.checks.audit import answers_agree, pairs
+from cardan.checks.audit.answers_agree import CHECK, Compared, audit
+from cardan.checks.audit.pairs import PAIRS
+from cardan.checks.design import Design
+from cardan.choices.check_answer import answer, checked
+from cardan.drive.duty import Limits
+from cardan.io.examples import example_names
+from cardan.questions.motion.turning import each_shaft
+from tests.audit.running import audited
+
+QUICK, WHOLE = 200, 40
+"""Drives at random whose quick pairs are compared, and those of them all whose pairs are."""
+
+SEEN = Counter[str]()
+
+
+def named(pair):
+    return f"{pair.quantity}: {pair.first}, {pair.second}"
+
+
+def contradictions(found):
+    return [(named(one.pair), one.part, one.values, one.deviation) for one in found if one.deviation > 1.0]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", example_names())
+def test_nothing_about_an_example_contradicts_itself(name):
+    found = audit(design(example(name)))
+    SEEN.update(named(one.pair) for one in found)
+    assert found
+    assert contradictions(found) == []
+
+
+@pytest.mark.slow
+def test_nothing_about_a_drive_at_random_contradicts_itself():
+    for seed in range(QUICK):
+        found = audited(seed, quick=seed >= WHOLE)
+        SEEN.update(named(one.pair) for one in found or ())
+        assert contradictions(found or ()) == [], seed
+
+
+@pytest.mark.slow
+def test_every_pair_is_compared_somewhere():
+    """After the two above: a pair whose readings never meet would compare nothing."""
+    if not SEEN:
+        pytest.skip("the tests before it did not run")
+    assert {named(one) for one in PAIRS} <= set(SEEN)
+
+
+@pytest.mark.parametrize("pair", PAIRS, ids=named)
+def test_a_pair_that_differs_by_more_than_it_may_is_seen(pair):
+    size = 2.0 * max(pair.least, 1.0)
+    for more, agrees in ((0.5, True), (3.0, False)):
+        other = size * (1.0 - more * pair.tolerance)
+        one = Compared(pair=pair, part="", values=(size, other))
+        assert (one.deviation <= 1.0) == agrees
+    assert Compared(pair=pair, part="", values=(float("inf"), float("inf"))).deviation == 0.0
+    assert Compared(pair=pair, part="", values=(float("inf"), 1.0)).deviation > 1.0
+
+
+def test_strength_that_leaves_torsional_vibration_out_contradicts_the_response(monkeypatch):
+    """A drive near its resonance: without what vibration adds, strength counts less than the response tells."""
+    monkeypatch.setattr(Design, "_vibration", lambda _design, _case: None)
+    found = contradictions(audit(design(example("pto-flywheel"))))
+    assert found
+    assert {name.partition(" of")[0] for name, *_rest in found} == {"largest torque"}
+
+
+def test_a_contradiction_fails_the_drive_and_is_told_with_both_values(monkeypatch):
+    wrong = replace(PAIRS[2], read=(PAIRS[2].read[0], lambda asked: {one: 0.5 for one in PAIRS[2].read[0](asked)}))
+    monkeypatch.setattr(answers_agree, "PAIRS", (wrong,))
+    drive = replace(Drive.from_angles([0.1, 0.5]), limits=Limits(joint_angle=1.0))
+    result = checked(drive)
+    said = answer(drive, result)
+    assert said.tone == "failed"
+    assert said.code == 1
+    assert result.failed[0].check == "answers_agree"
+    (alarm,) = [told(one.text, USUAL) for one in said.remarks if "contradict" in told(one.text, USUAL)]
+    share = 100.0 * float(each_shaft(drive).speed_fluctuation[-1])
+    assert f"{share:.2f} % in motion, 50.00 % in speed_fluctuation" in alarm
+    assert not any("no single parameter" in told(one.text, USUAL) for one in said.remarks)
+
+
+def test_that_answers_agree_is_no_merit_of_the_drive():
+    drive = replace(Drive.from_angles([0.1, 0.5]), limits=Limits(joint_angle=1.0))
+    result = checked(drive)
+    (one,) = [one for one in result.verdicts if one.check == "answers_agree"]
+    assert one.state == "passed"
+    assert one not in result.binding
+    assert "comparisons" in one.note
+    said = answer(drive, result)
+    (remark,) = [one for one in said.remarks if one.code == "answers_agree"]
+    assert told(remark.text, USUAL) == f"Answers that speak of the same quantity agree: {one.note}."
+
+
+def test_all_are_told_side_by_side_where_they_are_asked_for():
+    drive = example("pto-drive")
+    result = checked(drive, whole=True)
+    assert len(result.compared) > len(audit(design(drive), quick=True))
+    (table,) = [one for one in answer(drive, result).tables if one.name == "compared"]
+    assert len(table.columns[0].values) == len(result.compared)
+    assert [column.key for column in table.columns if column.key] == [
+        "quantity",
+        "part",
+        "first",
+        "first_value",
+        "second",
+        "second_value",
+        "deviation",
+        "tolerance",
+        "why",
+    ]
+
+
+def test_many_drives_and_poses_are_not_compared_one_by_one():
+    drive = Drive.from_angles([0.1, 0.2])
+    assert check(drive, only=["answers_agree"], vary={"joints[0].joint_angle_deg": [1.0, 2.0]}) == ()
+    posed = example("rolling-mill-upper-spindle")
+    assert posed.poses
+    assert len(check(posed, only=["answers_agree"])) == 1
+
+
+def test_what_one_of_them_does_not_answer_is_not_compared():
+    found = audit(design(Drive.from_angles([0.1])))
+    assert {one.pair.second for one in found} <= {"motion", "joint_angle", "accuracy", "phasing"}
+    assert CHECK.name == "answers_agree"
+    assert all(callable(read) for one in pairs.PAIRS for read in one.read)
