@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, replace
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table
-from cardan.answers.quantity import Quantity, Say, Text, say
+from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import Catalogue
@@ -240,18 +240,12 @@ def compared_table(drive: Drive, found: Sequence[Compared]) -> Table:
     def same(one: Compared) -> bool:
         return one.pair.sense == "same"
 
+    parts = [_part(drive, one.part) for one in rows]
     return Table(
         name="compared",
         title=_("Answers that speak of the same quantity, side by side"),
         records=True,
         columns=(
-            Column(key="quantity", heading=_("quantity"), values=[_(one.pair.quantity) for one in rows], left=True),
-            Column(key="", heading=_("of"), values=[_part(drive, one.part) for one in rows], left=True),
-            Column(key="part", values=[one.part for one in rows], depth="data"),
-            Column(key="first", heading=_("question"), values=[one.pair.first for one in rows], left=True),
-            Column(key="first_value", heading=_("tells"), values=side(0)),
-            Column(key="second", heading=_("question"), values=[one.pair.second for one in rows], left=True),
-            Column(key="second_value", heading=_("tells"), values=side(1)),
             Column(
                 key="deviation",
                 heading=_("of what may be"),
@@ -259,9 +253,29 @@ def compared_table(drive: Drive, found: Sequence[Compared]) -> Table:
                 decimals=2,
                 most=MOST,
             ),
-            Column(key="tolerance", heading=_("may differ by"), values=[one.pair.tolerance for one in rows], digits=2),
-            Column(key="why", heading=_("because"), values=[_(one.pair.why) for one in rows], left=True, wrap=True),
+            Column(key="first_value", heading=_("first"), values=side(0)),
+            Column(key="second_value", heading=_("second"), values=side(1)),
+            Column(
+                key="",
+                heading=_("questions"),
+                values=[f"{one.pair.first}, {one.pair.second}" for one in rows],
+                left=True,
+            ),
+            Column(
+                key="",
+                heading=_("what"),
+                values=[Joined([_(one.pair.quantity), part]) for one, part in zip(rows, parts, strict=True)],
+                left=True,
+                wrap=True,
+            ),
+            Column(key="quantity", values=[_(one.pair.quantity) for one in rows], depth="data"),
+            Column(key="part", values=[one.part for one in rows], depth="data"),
+            Column(key="first", values=[one.pair.first for one in rows], depth="data"),
+            Column(key="second", values=[one.pair.second for one in rows], depth="data"),
+            Column(key="tolerance", values=[one.pair.tolerance for one in rows], depth="data"),
+            Column(key="why", values=[_(one.pair.why) for one in rows], depth="data"),
         ),
+        note=_("How far they may differ, and why, stands in the JSON."),
     )
 
 
