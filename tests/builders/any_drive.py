@@ -112,7 +112,7 @@ def _duty(rng: Rng) -> Duty:
         made["life"] = float(rng.uniform(500.0, 20e3)) * HOUR
     if rng.random() < 0.3:
         made["shock_factor"] = float(rng.uniform(1.0, 2.0))
-    if rng.random() < 0.25:
+    if rng.random() < 0.25 and "torque" in made:
         made["torque_at"] = "input"
     if rng.random() < 0.25 and "torque" in made:
         part = float(rng.uniform(0.02, 0.6)) * abs(made["torque"])
