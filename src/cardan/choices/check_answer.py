@@ -117,7 +117,8 @@ def checked(
     whole: compare all answers that speak of the same quantity, those too that take long.
     progress: called with the share done; answering "stop" ends the search for remedies.
     """
-    verdicts, compared = check(drive, only=only, known=known), ()
+    verdicts = check(drive, only=only, known=known)
+    compared: tuple[Compared, ...] = ()
     if whole:
         subject = design(drive, known=known)
         compared = audit(subject)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from cardan.answers.quantity import Quantity, say
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
@@ -58,7 +58,7 @@ def verdict_on(found: tuple[Compared, ...]) -> Iterator[Verdict]:
     if not found:
         return
     worst = max(found, key=lambda one: one.deviation)
-    text = plural("{count} comparison", "{count} comparisons", len(found)).format(count=len(found))
+    text: Text = plural("{count} comparison", "{count} comparisons", len(found)).format(count=len(found))
     if worst.deviation > 1.0:
         first, second = (Quantity(one, worst.pair.dimension) for one in worst.values)
         said = _("{quantity}: {first} in {one}, {second} in {other}; please report this, with the drive file")
