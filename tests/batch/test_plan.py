@@ -185,3 +185,13 @@ def test_a_column_by_its_old_name_is_refused_with_the_new_one(old):
     for told in ({"constraints": [f"{old} <= 0.02"]}, {"reduce": [f"max {old}"]}):
         with pytest.raises(InputError, match="the nearest is speed_fluctuation_percent"):
             work_of(DRIVE, AXES, ["speed_fluctuation"], **told)
+
+
+@pytest.mark.parametrize(
+    ("ask", "old"), [("check", "utilisation"), ("strength", "strength_used"), ("balance", "unbalance_used")]
+)
+def test_a_utilisation_is_in_per_cent_and_its_old_column_is_refused(ask, old):
+    drive = example("truck-duty-cycle")
+    for told in ({"constraints": [f"{old} <= 1"]}, {"reduce": [f"max {old}"]}):
+        with pytest.raises(InputError, match=f"the nearest is {old}_percent"):
+            work_of(drive, {}, [ask], **told)

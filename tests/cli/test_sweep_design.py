@@ -105,10 +105,10 @@ def test_the_choice_of_suppliers_that_is_shipped(cardan, tmp_path):
         "sweep",
         "show",
         tmp_path / "offers",
-        *("--pareto", "min price_eur", "--pareto", "max life_h", "--limit", "strength_used <= 1", "--json"),
+        *("--pareto", "min price_eur", "--pareto", "max life_h", "--limit", "strength_used_percent <= 100", "--json"),
     ).content
     assert said["rows"]["supplier"] == ["Birch", "Dogwood"]
-    assert all(one <= 1.0 for one in said["rows"]["strength_used"])
+    assert all(one <= 100.0 for one in said["rows"]["strength_used_percent"])
 
 
 @pytest.mark.slow

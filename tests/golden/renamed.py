@@ -15,6 +15,7 @@ COMMAND_LINES: tuple[tuple[str, str], ...] = (
     (r"^catalogue max_bends", "catalogue max_joint_angles"),
     (r"^(simulate-fault \S+) bends", r"\1 joint_angles"),
     (r"^(?!calc )(.*)\bbend_deg", r"\1joint_angle_deg"),
+    (r"strength_used <= 1\b", "strength_used_percent <= 100"),
 )
 """Pattern in a whole command line -> what stands there now: ``(r"^simulate-fault ", "fault ")``."""
 
@@ -73,6 +74,7 @@ PATHS: tuple[tuple[str, str, str], ...] = (
     ("check", r"cures\.(.*)", r"remedies.\1"),
     ("torsion stability", r"over\.bend_deg", "over.joint_angle_deg"),
     ("sweep", r"(.*[._ ])?irregularity(.*)", r"\1speed_fluctuation_percent\2"),
+    ("sweep", r"(.*)strength_used <= 1\b(.*)", r"\1strength_used_percent <= 100\2"),
     ("(sweep|catalogue|joint)", r"(.*[._ ])?irregularity(.*)bend(.*)", r"\1speed_fluctuation\2joint_angle\3"),
     ("(sweep|catalogue|joint)", r"(.*[._ ])?irregularity(.*)", r"\1speed_fluctuation\2"),
     ("(sweep|catalogue|joint)", r"(.*[._ ])?bend_(.*)", r"\1joint_angle_\2"),

@@ -35,6 +35,7 @@ from cardan.checks.verdict_table import (
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
 from cardan.drive.fields.paths import bare_path, in_words
+from cardan.drive.yokes import yokes_estimated
 from cardan.texts import _, mark, plural
 from cardan.units import dimension_of, factor
 
@@ -162,7 +163,7 @@ def answer(drive: Drive, result: Checked, *, sources: bool = False, missing: boo
         else "plain",
         figures=lambda: check_figures(result.verdicts, name=drive.name),
         tables=tuple(_tables(drive, result, sources=sources, missing=missing)),
-        remarks=tuple(_remarks(result, sources=sources, missing=missing)),
+        remarks=(*yokes_estimated(drive), *_remarks(result, sources=sources, missing=missing)),
         keys=tuple(key_figures(drive, result.verdicts)),
         facts={
             "passed": not result.failed,
@@ -452,7 +453,12 @@ COLUMNS = (
         name="check",
         doc=mark("greatest utilisation over all checks that the drive can be put to, and how many fail"),
         told=(
-            OutputColumn(name="utilisation", text=mark("greatest utilisation of a limit")),
+            OutputColumn(
+                name="utilisation_percent",
+                dimension="share",
+                unit="percent",
+                text=mark("greatest utilisation of a limit"),
+            ),
             OutputColumn(name="failed_checks", text=mark("how many checks fail")),
         ),
         of_one=_column_values,

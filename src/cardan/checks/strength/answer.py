@@ -454,7 +454,12 @@ COLUMNS = (
         name="strength",
         doc=mark("greatest use of the strength of a part, and the torque at which it is used up"),
         told=(
-            OutputColumn(name="strength_used", text=mark("greatest use of the strength of a part")),
+            OutputColumn(
+                name="strength_used_percent",
+                dimension="share",
+                unit="percent",
+                text=mark("greatest use of the strength of a part"),
+            ),
             OutputColumn(
                 name="rated_torque_Nm", dimension="torque", unit="Nm", text=mark("torque that uses the strength up")
             ),

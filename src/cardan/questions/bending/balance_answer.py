@@ -279,7 +279,9 @@ COLUMNS = (
                 text=mark("largest rotating force of unbalance, of the permissible one where none was measured"),
             ),
             OutputColumn(
-                name="unbalance_used",
+                name="unbalance_used_percent",
+                dimension="share",
+                unit="percent",
                 text=mark("largest measured unbalance of a tolerance plane over the permissible one"),
             ),
         ),
