@@ -46,6 +46,8 @@ class Check:
         Of drives that it is made for, as of `Duty`; empty where it judges all.
     moves : bool
         Whether it judges a drive that moves at the instants of its movement, as all do whose use grows with the torque.
+    slides : bool
+        Whether it judges a drive that moves where its shafts are longest and shortest, too.
     gathers : str
         "worst" where each pose is judged by itself; "sum" where one verdict is over all of them by their shares.
     """
@@ -64,6 +66,7 @@ class Check:
     crosses: Literal["", "each", "all", "law"] = ""
     application: str = ""
     moves: bool = False
+    slides: bool = False
     gathers: Gathering = "worst"
 
     @property

@@ -149,10 +149,13 @@ def check(
     refuse_all(Problem("only", _unknown(name)) for name in unknown)
     subject = design(drive, duty, vary=vary, known=known)
     each = [name for name in only or CHECKS if CHECKS[name].gathers == "worst"]
-    loads = [name for name in each if CHECKS[name].instants]
+    moved = [name for name in each if CHECKS[name].instants]
+    lines = [name for name in moved if CHECKS[name].slides]
+    loads = [name for name in moved if name not in lines]
     poses: list[tuple[Text, Sequence[Verdict]]] = []
     poses += [(said, _judged(one, each)) for said, one in stood(subject)] if each else []
     poses += stopped(subject, lambda one: _judged(one, loads)) if loads else []
+    poses += stopped(subject, lambda one: _judged(one, lines), slides=True) if lines else []
     return worst_of_poses(_judged(subject, only), poses)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -74,10 +73,13 @@ def stood(design: Design) -> list[tuple[Text, Design]]:
     return [(_("in the pose {name}").format(name=name), one) for name, one in posed(design)]
 
 
-def stopped(design: Design, judge: Callable[[Design], Sequence[Verdict]]) -> list[tuple[Text, Sequence[Verdict]]]:
+def stopped(
+    design: Design, judge: Callable[[Design], Sequence[Verdict]], *, slides: bool = False
+) -> list[tuple[Text, Sequence[Verdict]]]:
     """Return the verdicts on a design, as drawn and in every pose, where its movements make them worst.
 
-    judge: by what the joint angles and planes of an instant decide.
+    judge: by what the joint angles, planes and lengths of an instant decide.
+    slides: at the instants, too, at which a shaft is longest or shortest, where the modes of a line may change places.
     Of one drive at the instants at which a verdict uses most of its limit, found over the whole movement; of many that
     of each of them.
     """
@@ -88,7 +90,7 @@ def stopped(design: Design, judge: Callable[[Design], Sequence[Verdict]]) -> lis
         if one.varied:
             found.append((Joined([pose, _("while the drive moves")]), _worst_of_instants(one, judge)))
             continue
-        for time in worst_instants(one.drive, partial(_used, one, judge), rounds=1):
+        for time in worst_instants(one.drive, _course(one, judge, slides=slides), rounds=1):
             here = still(one.drive, time)
             at = say(_("while the drive moves, at {time}"), time=Quantity(time, "time", 3, trim=True))
             other = replace(one, drive=here, duty=here.duty, drawn=design.drawn or design)
@@ -96,11 +98,21 @@ def stopped(design: Design, judge: Callable[[Design], Sequence[Verdict]]) -> lis
     return found
 
 
-def _used(design: Design, judge: Callable[[Design], Sequence[Verdict]], times: Array) -> Array:
-    """Return the shares of their limits that verdicts use at instants (t,), array (v, t)."""
-    used = [one.utilisation for one in judge(along(design, times)) if one.run]
-    table: Array = np.stack(np.broadcast_arrays(np.full(times.shape, -np.inf), *used))[1:]
-    return table
+def _course(design: Design, judge: Callable[[Design], Sequence[Verdict]], *, slides: bool) -> Callable[[Array], Array]:
+    """Return how much of their limits verdicts use: from instants (t,) [s], all of the movement first, to (v, t)."""
+    rows: list[tuple[str, str]] = []
+
+    def used(times: Array) -> Array:
+        here = along(design, times)
+        found = {(one.check, one.title): one.utilisation for one in judge(here) if one.run}
+        rows[:] = rows or list(found)
+        none = np.full(times.shape, -np.inf)
+        ends = [np.asarray(here.length(k), dtype=float) for k in range(1, design.joints)] if slides else []
+        each = (found.get(row, none) for row in rows)
+        table: Array = np.stack(np.broadcast_arrays(none, *each, *ends, *(-one for one in ends)))[1:]
+        return table
+
+    return used
 
 
 def _worst_of_instants(design: Design, judge: Callable[[Design], Sequence[Verdict]]) -> list[Verdict]:
@@ -159,16 +171,23 @@ def worst_of_poses(drawn: Sequence[Verdict], poses: Sequence[tuple[Text, Sequenc
     """Return for each verdict the worst of the drive as drawn and in its poses, with a word on which pose it is.
 
     drawn: of the drive as drawn, or of many.
-    poses, sequence of (Text, sequence of Verdict): which pose or instant it is, and the verdicts there.
+    poses, sequence of (Text, sequence of Verdict): which pose or instant it is, and the verdicts there; one that is
+    reached only there counts too.
     """
-    found = []
-    for one in drawn:
-        worst = one
+    known = [(one.check, one.title) for one in drawn]
+    there = {(one.check, one.title): one for _said, verdicts in poses[::-1] for one in verdicts if one.run}
+    found: list[Verdict] = []
+    for one in (*drawn, *(one for row, one in there.items() if row not in known)):
+        worst = one if len(found) < len(known) else None
         for said, verdicts in poses:
             other = next((its for its in verdicts if (its.check, its.title) == (one.check, one.title)), None)
             if other is None or not other.run:
                 continue
-            worst = _worse(worst, other, said) if worst.run else replace(other, note=joined(other.note, said))
+            if worst is None or not worst.run:
+                worst = replace(other, note=joined(other.note, said))
+            else:
+                worst = _worse(worst, other, said)
+        assert worst is not None
         found.append(worst)
     return tuple(found)
 

@@ -33,8 +33,8 @@ WORSE: tuple[Tone, ...] = ("good", "plain", "next", "warning", "failed")
 """Tones from the best to the worst."""
 
 OUTERMOST = mark(
-    "Of the movement those instants are looked at where a joint bends most, a shaft is longest or shortest, or a shaft "
-    "turns least uniformly."
+    "Of the movement only those instants are looked at where a joint bends most, a shaft is longest or shortest, or a "
+    "shaft turns least uniformly: each takes too long for all of them."
 )
 
 LOOKS = 12
@@ -189,7 +189,8 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
         figures, remark = _as_made(drive)
         keys += figures
         remarks.append(remark)
-    if has(drive)["movement"] and not question.quick and "movement" not in (*question.gathered, *question.without):
+    followed = question.quick or hasattr(question.home, "over_movement")
+    if has(drive)["movement"] and not followed and "movement" not in (*question.gathered, *question.without):
         remarks.append(Remark(text=_(OUTERMOST), code="outermost"))
     every = ways(question, drive)
     if len(every) < 2:

@@ -125,4 +125,6 @@ CHECK = Check(
     doc=mark("critical speed of every shaft in bending against the highest speed"),
     judge=_judge,
     title=mark("margin n_crit/n of shaft {number}, real"),
+    moves=True,
+    slides=True,
 )

@@ -73,4 +73,6 @@ CHECK = Check(
     dimension="angular_speed",
     unit="rpm",
     sense="outside",
+    moves=True,
+    slides=True,
 )

@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 
 from cardan.answers.quantity import Quantity, Text, say
-from cardan.checks.design import Design
+from cardan.checks.design import Design, row_of
 from cardan.checks.strength.section import Section, modulus, sections
 from cardan.checks.verdict import Verdict
 from cardan.drive.drive import Drive
@@ -22,7 +22,7 @@ from cardan.drive.fields.paths import place, with_values
 from cardan.errors import InputError
 from cardan.formulas.damping import LOSS
 from cardan.maths.arrays import Array
-from cardan.questions.bending.bending import SPLINED, bending_speeds, passing
+from cardan.questions.bending.bending import SPLINED, bending_speeds, length_powers, passing
 from cardan.texts import _
 
 MOVES = r"(shafts|joints|supports)\[|input\.|output\."
@@ -121,9 +121,11 @@ def _in_line(design: Design, part: Part) -> Whirl:
     plain, varied = Design(drive=design.drive, duty=design.duty, known=design.known), np.asarray(speed)
     for path, values in design.varied.items():
         now = plain.value(path)
-        if re.match(MOVES, path) and isinstance(now, float):
+        if re.match(MOVES, path) and isinstance(now, float) and row_of(path, design.joints) is None:
             power = _power(design.drive, path, part, _top(design))
             varied = varied * (np.maximum(values / now, 1e-9) ** power if now > 0.0 else np.exp(power * (values - now)))
+    if design.drive.form == "points":
+        varied = varied * _stretched(design, plain, part)
     bounce = kind == "support"
     own = [f"supports[{k}].stiffness", f"supports[{k}].tilt_stiffness"] if bounce else longest.design_variables
     return Whirl(
@@ -134,6 +136,20 @@ def _in_line(design: Design, part: Part) -> Whirl:
         design_variables=design.design_variables(*own, *(() if bounce else (f"shafts[{k}].wear_factor",))),
         support=k if bounce else None,
     )
+
+
+def _stretched(design: Design, plain: Design, part: Part) -> Array:
+    """Return by what a critical speed of the line changes with the lengths of its shafts, array (...)."""
+    factor = np.asarray(1.0)
+    for k in range(1, design.joints):
+        length, drawn = (np.asarray(one.length(k), dtype=float) for one in (design, plain))
+        if length.ndim:
+            nth = list(_lowest(design)).index(part)
+            factor = factor * (length / drawn) ** _length_powers(design.drive, nth + 1)[k - 1, nth]
+    return factor
+
+
+_length_powers = lru_cache(maxsize=64)(length_powers)
 
 
 @lru_cache(maxsize=256)

@@ -19,11 +19,11 @@ from cardan.formulas.critical_speed import CATALOGUE, PRACTICE
 from cardan.formulas.damping import LOSS
 from cardan.texts import _, mark, plural
 
-from .bending import CriticalSpeedMap, CriticalSpeeds, Part, Running
+from .bending import CriticalSpeedMap, CriticalSpeeds, Part, Running, over_movement
 from .bending import bending_speeds as ask
 from .figure import bending_figures, mode_name, speed_map_figures, tone_of_mode
 
-__all__ = ["COLUMNS", "answer", "answer_of_map", "ask", "lacking"]
+__all__ = ["COLUMNS", "answer", "answer_of_map", "ask", "lacking", "over_movement"]
 
 MESH = 2e-3
 """Share by which finite elements, a few dozen of them, may differ from the exact transfer matrices."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from typing import Literal
@@ -13,14 +14,17 @@ from cardan.drive.conditions import held_speeds, used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
+from cardan.drive.models.geometry import geometry
 from cardan.errors import Problem, check, refuse
 from cardan.formulas.critical_speed import HALF_BAND, SEPARATION, Margin, speed_margin, uniform_speed
 from cardan.formulas.damping import LOSS
 from cardan.formulas.run_up import passing_time
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.kernel import frames
 from cardan.maths.linear.modes import Modes, strain, synchronous
 from cardan.maths.linear.rotor_beams import Line, divided
 from cardan.maths.linear.transfer import modes_below, speeds
+from cardan.questions.motion.moving_points import moving_points
 from cardan.texts import _
 
 from .whirl_line import WhirlLine, whirl_line
@@ -584,3 +588,51 @@ def _over_length(drive: Drive, whole: WhirlLine, number: int, given: Array | Non
 def _speeds(varied: WhirlLine, whole: WhirlLine, modes: int) -> Array:
     """Return the critical speeds of a stack of lines, array (v, m) [rad/s]."""
     return synchronous(divided(varied.line, elements(whole, modes, COARSE)), modes).speed
+
+
+# Where do the critical speeds go while a spline slides in a movement?
+
+STRETCH = 0.02
+"""Share of a length by which it is changed to see how the critical speeds go with it."""
+
+
+def length_powers(drive: Drive, modes: int) -> Array:
+    """Return by which powers of the length of each shaft between two joints critical speeds go, array (n-1, m).
+
+    drive: as for `bending_speeds`; modes: how many critical speeds, lowest first.
+    """
+    lengths = [known_lengths(drive).get(number) for number in range(2, len(drive.joints) + 1)]
+    found = np.zeros((len(lengths), modes))
+    for k, length in enumerate(lengths):
+        if length is not None:
+            ends = length * (1.0 + STRETCH * np.asarray([-1.0, 1.0]))
+            speed = np.log(critical_speed_map(drive, ends, shaft=k + 2, modes=modes).speed)
+            found[k] = (speed[1] - speed[0]) / np.log(ends[1] / ends[0])
+    return found
+
+
+def over_movement(drive: Drive) -> Callable[[Array], Array]:
+    """Return how near a moving drive is to its critical speeds at any instants.
+
+    drive: with movements, as for `bending_speeds`.
+    Returns a function of instants (t,) [s] to values (k, t): the deciding critical speed and how far the speeds held
+    keep off all of them and half of them, each negative.
+    The lengths of the shafts move them, by `length_powers`: near enough for instants that are then asked by themselves.
+    """
+    found, points = bending_speeds(drive), np.asarray(geometry(drive).points)
+    powers, drawn = length_powers(drive, len(found.actual)), _lengths(points)
+    deciding = min(found.deciding or 0, len(found.actual) - 1)
+
+    def values(times: Array) -> Array:
+        length = _lengths(moving_points(points, drive.movements, times)[0])
+        actual = found.actual * np.exp(np.log(length / drawn) @ powers)
+        middle = np.concatenate((actual, 0.5 * actual), axis=-1)[..., None]
+        off = np.min(np.abs(np.log(np.asarray(found.steady) / middle)), axis=(-2, -1), initial=np.inf)
+        return np.stack((-actual[:, deciding], np.where(np.isfinite(off), -off, np.nan)))
+
+    return values
+
+
+def _lengths(points: Array) -> Array:
+    """Return the lengths of the shafts between two joints, array (..., n-1) [m]."""
+    return frames.norm(np.diff(points, axis=-2))[..., 1:-1]

@@ -10,6 +10,7 @@ from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table
 from cardan.answers.quantity import Quantity, listed, say
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
+from cardan.drive.yokes import yokes_estimated
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
@@ -36,7 +37,7 @@ def answer(drive: Drive, result: LineWhirl) -> Answer:
             order=order_name(_order(result, speed, place)),
         ),
         tables=(_parts(drive, result), _orders(result), *_supports(drive, result)),
-        remarks=tuple(_remarks(drive, result)),
+        remarks=(*yokes_estimated(drive), *_remarks(drive, result)),
         keys=(
             KeyFigure(
                 name="line_whirl",

@@ -14,6 +14,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
+from cardan.drive.yokes import yokes_estimated
 from cardan.maths.ties import foremost_of
 from cardan.texts import _, mark
 
@@ -52,7 +53,7 @@ def answer(drive: Drive, result: RotorResponse) -> Answer:
         sentence=_sentence(result),
         tone="failed" if bad else "plain",
         tables=(_peaks(result),),
-        remarks=tuple(_remarks(result)),
+        remarks=(*yokes_estimated(drive), *_remarks(result)),
         keys=tuple(_keys(result)),
         figures=lambda: rotor_figures(result),
         facts={
@@ -100,7 +101,7 @@ def answer_of_run(drive: Drive, rotor: Rotor, result: CrackedRun) -> Answer:
             speed=Quantity(result.peak_speed, "angular_speed", 3),
         ),
         tables=(table(slice(None, None, max(1, len(speed) // SHOWN))),),
-        remarks=tuple(_shaft(rotor)),
+        remarks=(*yokes_estimated(drive), *_shaft(rotor)),
         figures=lambda: (run_figure(rotor.shaft, result),),
         facts={
             "rotor": _rotor(rotor),
@@ -147,7 +148,12 @@ def answer_of_joined(drive: Drive, first: Rotor, second: Rotor, result: CrackedS
             size=Quantity(largest, "displacement", 3),
         ),
         tables=(table,),
-        remarks=(*_shaft(first), *_shaft(second), _checked(result.residual, _("the energy balance closes"))),
+        remarks=(
+            *yokes_estimated(drive),
+            *_shaft(first),
+            *_shaft(second),
+            _checked(result.residual, _("the energy balance closes")),
+        ),
         figures=lambda: (joined_figure((first.shaft, second.shaft), result),),
         facts={
             "speed": Quantity(result.speed, "angular_speed"),
