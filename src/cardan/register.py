@@ -25,7 +25,7 @@ DESIGNED = mark(
     "torsion tell."
 )
 ANGLES = mark("The movement does not count here: the map runs over joint angles, those that it passes among them.")
-WHIRLS = mark("Poses and movements do not count here: a shaft whirls by its own body and bearings.")
+WHIRLS = mark("Poses and movements do not count here: the shaft whirls at the length that it is drawn with.")
 CHOSEN = mark("Errors of the joints as made do not count here: types and sizes are chosen by loads and angles.")
 
 QUESTIONS: dict[str, Question] = {

@@ -168,9 +168,12 @@ def answer(drive: Drive, result: Carried, curves: Forces | None = None) -> Answe
 def _random(result: Carried) -> Iterator[Table]:
     """Yield what random movements make of the loads."""
     if result.random is not None:
-        note = _("Largest values over a turn; masses and friction do not count in this table.")
         for one in random_tables(result.random):
-            yield one if one.name else replace(one, note=Joined([one.note, note], between=" "))
+            yield (
+                one
+                if one.name
+                else replace(one, note=Joined([one.note, _("Largest values over a turn.")], between=" "))
+            )
 
 
 def _figures(drive: Drive, result: Carried) -> tuple[Figure, ...]:
@@ -264,6 +267,12 @@ def _remarks(drive: Drive, result: Carried, machines: tuple[int, ...]) -> Iterat
     yield from _closing(drive, found)
     yield from _thrust(found)
     yield from _without(drive, found)
+    if result.random is not None:
+        text = _(
+            "Masses and friction do not count in the table under random movements, since they depend on how fast the "
+            "axes move, not only on where they stand; the forces over one sample path count them."
+        )
+        yield Remark(text=text, code="random_without_masses")
     yield from _moving(drive, result)
     yield balanced(found)
     yield from _next(drive, found, surplus)

@@ -11,6 +11,7 @@ from cardan.answers.answer import FILE, Answer, Column, Remark, Table
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.drive.drive import Drive
 from cardan.drive.models.machine_held import held_by_machines, machine_held, machines_of
+from cardan.drive.yokes import yokes_estimated
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.questions.motion.equivalence import WARN_JOINT_ANGLE
@@ -44,7 +45,7 @@ def answer(drive: Drive, result: MovingForces) -> Answer:
         sentence=_sentence(drive, result),
         figures=lambda: moving_forces_figures(result, support_names(drive)),
         tables=tuple(_tables(drive, result)),
-        remarks=(*held_by_machines(machines), *_remarks(result)),
+        remarks=(*yokes_estimated(drive), *held_by_machines(machines), *_remarks(result)),
         facts=_facts(drive, result),
         full=lambda: _trace(drive, result),
     )

@@ -13,6 +13,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import tree_of
+from cardan.drive.yokes import yokes_estimated
 from cardan.formulas.damping import LOSS, SHAFT_SOURCE
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
@@ -55,7 +56,7 @@ def answer(drive: Drive, result: Absorber, *, chosen: bool = False) -> Answer:
         sentence=_sentence(result),
         tone=tone,
         tables=(_settings(result), _hosts(result), _station(result)),
-        remarks=tuple(_remarks(result, away)),
+        remarks=(*_remarks(result, away), *yokes_estimated(drive)),
         figures=lambda: absorber_figures(result),
         facts=_facts(result),
         full=lambda: _curves(result),

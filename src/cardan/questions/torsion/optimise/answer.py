@@ -11,6 +11,7 @@ from cardan.answers.answer import Answer, Column, Remark, Table, Tone
 from cardan.answers.quantity import Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
+from cardan.drive.yokes import yokes_estimated
 from cardan.maths.ties import foremost
 from cardan.questions.torsion.absorber.answer import LITTLE, band, cautions, curves, lacking_line, speed, torque
 from cardan.questions.torsion.steady.torsion_response import Progress
@@ -60,7 +61,7 @@ def otherwise(_drive: Drive) -> str:
     return _("No yoke of this drive may be turned; cardan torsion optimise --free takes other keys that may change.")
 
 
-def answer(_drive: Drive, result: OptimisedTorsion) -> Answer:
+def answer(drive: Drive, result: OptimisedTorsion) -> Answer:
     """Return what there is to say of a design for least torsional vibration."""
     tone, sentence = _sentence(result)
     return Answer(
@@ -69,7 +70,7 @@ def answer(_drive: Drive, result: OptimisedTorsion) -> Answer:
         sentence=sentence,
         tone=tone,
         tables=(_values(result), _peaks(result)),
-        remarks=tuple(_remarks(result)),
+        remarks=(*_remarks(result), *yokes_estimated(drive)),
         figures=lambda: torsion_design_figures(result),
         facts=_facts(result),
         full=lambda: _curves(result),

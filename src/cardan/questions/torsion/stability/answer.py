@@ -14,6 +14,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.models.kinematics_model import given_chain
+from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.formulas.damping import LOSS
 from cardan.questions.torsion.model.answer import assumptions, ranges
@@ -77,7 +78,7 @@ def ask(drive: Drive, *, progress: Callable[[float], object] | None = None) -> S
     return stability(drive, over={"duty.speed_rpm": speeds, JOINT_ANGLE: joint_angles}, progress=progress)
 
 
-def answer(_drive: Drive, result: Stability, *, signs: bool = False) -> Answer:
+def answer(drive: Drive, result: Stability, *, signs: bool = False) -> Answer:
     """Return what there is to say of stability.
 
     result: of a point, over one path or over two.
@@ -93,7 +94,7 @@ def answer(_drive: Drive, result: Stability, *, signs: bool = False) -> Answer:
         tone=tone,
         figures=lambda: stability_figures(result) if drawn else (),
         tables=(_picture(result, axes),) if signs and len(axes) == 2 else (),
-        remarks=tuple(_remarks(result, axes, signs=signs)),
+        remarks=(*_remarks(result, axes, signs=signs), *yokes_estimated(drive)),
         facts=_facts(result),
         full=lambda: _everything(result, axes),
         code=1 if not axes and tone == "failed" else 0,

@@ -11,6 +11,7 @@ from cardan.answers.answer import FILE, Answer, Column, Remark, Table, Tone, clo
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.drive.drive import Drive
 from cardan.drive.machine import RunUp, TorqueHistory
+from cardan.drive.yokes import yokes_estimated
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.torsion.model.answer import assumptions, left_out
@@ -36,7 +37,7 @@ def answer(drive: Drive, result: Transient) -> Answer:
         tone=tone,
         figures=lambda: transient_figures(result),
         tables=(element_table(result, drive.duty.run_up), _station_table(result)),
-        remarks=(*remarks(result), *left_out(drive), *_unread(drive), *_next(drive, result)),
+        remarks=(*remarks(result), *left_out(drive), *_unread(drive), *yokes_estimated(drive), *_next(drive, result)),
         facts=facts(result),
         full=lambda: everything(result),
         code=1 if tone == "failed" else 0,

@@ -14,6 +14,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.machine import RunUp
+from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.answer import left_out
@@ -93,11 +94,11 @@ def ask(drive: Drive, *, progress: Callable[[float], object] | None = None) -> F
 def answer(drive: Drive, result: FollowedRunUp) -> Answer:
     """Return what there is to say of the run-up of a drive."""
     passed = tuple(_passed(result))
-    title, motion = _("Run-up"), result.motion
+    title, motion, estimated = _("Run-up"), result.motion, tuple(yokes_estimated(drive))
     if motion is None:
         text = _("it would take {count} steps to follow; cardan torsion simulate does it.")
         count = Quantity(result.steps, digits=2)
-        return Answer(name="run-up", title=title, sentence=say(text, count=count), tables=passed)
+        return Answer(name="run-up", title=title, sentence=say(text, count=count), tables=passed, remarks=estimated)
     alarms = tuple(_alarms(motion))
     e, torque, _time = largest(motion)
     key = KeyFigure(
@@ -114,7 +115,7 @@ def answer(drive: Drive, result: FollowedRunUp) -> Answer:
         tone="warning" if alarms else "plain",
         figures=lambda: transient_figures(motion),
         tables=(element_table(motion, result.course), *passed),
-        remarks=(*alarms, *remarks(motion), *left_out(drive)),
+        remarks=(*alarms, *remarks(motion), *left_out(drive), *estimated),
         keys=(key,),
         facts=facts(motion),
         full=lambda: everything(motion),
