@@ -15,22 +15,7 @@ from cardan.io import dumps, loads
 from cardan.questions.motion.kinds import kind_name, steep
 from cardan.report.report import page
 from cardan.units import deg
-
-FILES = {
-    "hooke": "",
-    "offset_cross": "offset_mm = 12\nreach_mm = 400",
-    "double_cardan": 'centring_ratio = 0.45\nball_on = "driven"',
-    "constant_velocity": "",
-    "tracta": "driving_distance_mm = 20\ndriven_distance_mm = 21",
-    "rzeppa": "lever_b = 0.35\nlever_c = 0.7\nballs = 6",
-    "weiss": "driving_offset_mm = 3\ndriven_offset_mm = 3.3\ngroove_radius_mm = 30",
-    "tripod": "track_radius_mm = 20",
-    "half_cardan": "pairs = 2",
-    "elastic_half_cardan": "stiffness_kNm_per_rad = 20\ndamping_Nms_per_rad = 5",
-    "pin_coupling": "driving_slant_deg = 40\ndriven_slant_deg = 42\ndriving_distance_mm = 50\ndriven_distance_mm = 52",
-    "clemens": "driving = { axial_mm = 60, radial_mm = 10, radius_mm = 75 }\n"
-    "driven = { axial_mm = 62, radial_mm = 11, radius_mm = 74 }",
-}
+from tests.fixtures.joint_keys import KEYS
 
 LOADED = """
 [duty]
@@ -57,7 +42,7 @@ output.point_mm = [1100, 0, 20]
 [[joints]]
 kind = "{kind}"
 centre_mm = [0, 0, 0]
-{FILES[kind]}
+{KEYS[kind]}
 
 [[joints]]
 centre_mm = [600, 0, 30]
@@ -71,11 +56,11 @@ wall_mm = 3
 
 
 def test_every_kind_has_a_file_here() -> None:
-    assert set(FILES) == set(JOINTS)
+    assert set(KEYS) == set(JOINTS)
     assert {kind_name(made()) for name, made in JOINTS.items() if name != "offset_cross"}
 
 
-@pytest.mark.parametrize("kind", FILES)
+@pytest.mark.parametrize("kind", KEYS)
 def test_a_file_is_written_as_it_was_read(kind: str) -> None:
     drive = loads(file_of(kind))
     assert drive.joints[0].kind == kind
@@ -83,7 +68,7 @@ def test_a_file_is_written_as_it_was_read(kind: str) -> None:
         assert loads(dumps(drive, form=form), form=form) == drive
 
 
-@pytest.mark.parametrize("kind", [kind for kind in FILES if kind != "hooke"])
+@pytest.mark.parametrize("kind", [kind for kind in KEYS if kind != "hooke"])
 def test_a_report_tells_of_every_kind(kind: str) -> None:
     drive = loads(file_of(kind).replace(LOADED, "").replace("outer_mm = 60\nwall_mm = 3\n", ""))
     text = page(drive)
