@@ -6,6 +6,7 @@ import pytest
 
 from cardan.answers.data import as_json, data
 from cardan.answers.reader import Reader
+from cardan.choices.check_answer import Checked
 from cardan.drive.duty import Limits
 from cardan.drive.yokes import estimable, estimated
 from cardan.register import QUESTIONS
@@ -27,7 +28,8 @@ def drives():
 def told(question, drive):
     if question.lacking(drive):
         return None
-    result = question.ask(drive)
+    # Verdicts rest on what the questions beside them tell; asking for all of them twice takes minutes.
+    result = Checked(verdicts=()) if question.name == "check" else question.ask(drive)
     return None if result is None else data(question.answer(drive, result), Reader())
 
 
@@ -44,5 +46,5 @@ def test_an_answer_that_goes_with_an_estimated_mass_says_so(name):
     same = as_json({k: v for k, v in light.items() if k not in left}) == as_json(
         {k: v for k, v in heavy.items() if k not in left}
     )
-    assert same or "estimated_mass" in codes, "it rests on an estimated mass without a word"
+    assert (same and name != "check") or "estimated_mass" in codes, "it rests on an estimated mass without a word"
     assert "estimated_mass" not in {one.get("code") for one in heavy["remarks"]}

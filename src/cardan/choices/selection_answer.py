@@ -12,7 +12,9 @@ from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, all_of
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
+from cardan.drive.yokes import yokes_estimated
 from cardan.errors import InputError
+from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.texts import _, plural
 
 from .selection import Candidate, JointDuty, Reason, SizeFit, fitting_sizes, joint_duty, reasons, select_joint
@@ -55,7 +57,7 @@ def ask(drive: Drive, *, known: Catalogue | None = None, joint: int | None = Non
     return selected(joint_duty(drive, joint=joint, known=known), known=known)
 
 
-def answer(_drive: Drive | None, result: Selection) -> Answer:
+def answer(drive: Drive | None, result: Selection) -> Answer:
     """Return what there is to say of a choice of joints."""
     states = [one.state for one in result.types]
     tone: Tone = "good" if "ok" in states else "warning" if "conditional" in states else "failed"
@@ -65,7 +67,7 @@ def answer(_drive: Drive | None, result: Selection) -> Answer:
         sentence=_sentence(result),
         tone=tone,
         tables=(_types(result), *((_sizes(result.sizes, result.need.life is not None),) if result.sizes else ())),
-        remarks=tuple(_remarks(result)),
+        remarks=(*_remarks(result), *(yokes_estimated(drive) if drive and has_torsion(drive) else ())),
         facts=_facts(result),
         full=lambda: _rows(result),
         code=1 if tone == "failed" else 0,

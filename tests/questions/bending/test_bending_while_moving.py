@@ -68,7 +68,7 @@ def test_a_shaft_whirls_at_the_speed_of_its_longest():
     speed = closed(LENGTH) / 1.7
     drive = sliding(speed)
     margin = verdicts(drive, "critical_speed")["margin n_crit/n of shaft 2, real"]
-    # The elements know shear and rotary inertia, (π r/L)²(E/κG - 1)/2 = 0.5 % of the closed form, which leaves them out.
+    # The elements know shear and rotary inertia, (π r/L)²(E/κG - 1)/2 = 0.5 % of the closed form, which lacks them.
     assert margin.value * speed == pytest.approx(closed(LENGTH + STROKE), rel=6e-3)
     assert margin.value == pytest.approx(bending_speeds(still(drive, 0.25 * PERIOD)).actual[0] / speed, rel=1e-6)
     assert margin.state == "failed"

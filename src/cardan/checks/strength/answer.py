@@ -17,6 +17,8 @@ from cardan.checks.verdict_table import missing_table, share, unconfirmed_remark
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
+from cardan.drive.yokes import yokes_estimated
+from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.texts import _, mark, plural
 
 from .event_damage import cheapest, event_damages, ramp_damages
@@ -82,7 +84,7 @@ def answer(drive: Drive, result: Strength) -> Answer:
         tone=tone,
         figures=lambda: strength_figures(result),
         tables=tuple(_tables(drive, result)),
-        remarks=tuple(_remarks(result)),
+        remarks=(*_remarks(result), *(yokes_estimated(drive) if has_torsion(drive) else ())),
         keys=tuple(_keys(result)),
         facts=_facts(result),
         full=lambda: verdict_records(result.verdicts, "", torque=result.torque, flat=True),

@@ -17,6 +17,7 @@ from cardan.catalogue.provenance import rows_behind, unconfirmed
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
+from cardan.drive.yokes import yokes_estimated
 from cardan.maths.ties import foremost
 from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.texts import _, mark
@@ -76,7 +77,7 @@ def answer(drive: Drive, result: Life) -> Answer:
         tone=tone,
         figures=lambda: life_figures(result),
         tables=(_joints(drive, result), *_duty_cycle(result)),
-        remarks=tuple(_remarks(drive, result, loose)),
+        remarks=(*_remarks(drive, result, loose), *(yokes_estimated(drive) if has_torsion(drive) else ())),
         keys=tuple(_keys(result, loose)),
         facts={**_facts(result), "provenance": loose},
         full=lambda: _everything(result),

@@ -15,6 +15,7 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
+from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.figures.figure import Figure
 from cardan.figures.palette import colour
@@ -68,7 +69,7 @@ def answer(drive: Drive, result: Losses, over: LossMap | None = None) -> Answer:
         tone="failed" if locked else "plain",
         figures=lambda: _figures(drive, result, over),
         tables=_tables(drive, result, over, trace),
-        remarks=tuple(_remarks(drive, result, over)),
+        remarks=(*yokes_estimated(drive), *_remarks(drive, result, over)),
         keys=tuple(_keys(result)),
         facts=_facts(drive, result),
         full=lambda: trace if over is None else _map(over),
