@@ -17,7 +17,8 @@ from cardan.maths.kernel.meshes import Surface, ball, joined, placed, revolved
 from cardan.texts import _, mark
 from cardan.units import plain, quantity
 
-from .common.inner import InnerPair, Stance, touching
+from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
+from .common.laws import contact_push
 from .common.site import Site
 from .joint import REFUSALS, Joint
 from .pin_coupling import wrapped
@@ -39,10 +40,11 @@ class Clemens(Joint):
     kind: ClassVar[str] = "clemens"
     title: ClassVar[str] = mark("Clemens")
     types: ClassVar[tuple[str, ...]] = ("clemens",)
+    loose: ClassVar[bool] = True
     steepest: ClassVar[float] = 0.5 * math.pi
     refusals: ClassVar[Mapping[str, str]] = {
         **REFUSALS,
-        "forces": mark("its arms touch beside the axes, so that its shafts take forces besides the couple"),
+        "forces": mark("without its profile it is open where its arms touch, and so with what force"),
     }
 
     driving: Profile | None = plain(None, doc="profile of the driving shaft; without it the coupling counts as uniform")
@@ -67,9 +69,48 @@ class Clemens(Joint):
         )
         return course(angle, joint_angle, one, other)
 
-    def inner(self, stance: Stance) -> Iterator[InnerPair]:
-        """Yield the contact of its arms."""
-        return touching(stance)
+    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield the two hinged arms that meet and carry; a contact without their profile."""
+        if self.driving is None:
+            yield from self.inner(stance)
+            return
+        one, other = self.driving, self.driving if self.driven is None else self.driven
+        sides = [Circle(axial=side.axial, radial=side.radial, radius=side.radius) for side in (one, other)]
+        found = profile_contact(stance.theta, stance.joint_angle, *sides)
+        back, u, v = -stance.before, stance.driving, stance.driven
+        height, out = np.asarray(found.height1)[..., None], np.asarray(found.radius1)[..., None]
+        at = stance.centre + height * back + out * u
+        first = stance.centre + one.axial * back + one.radial * u
+        last = stance.centre + other.axial * stance.after + other.radial * v
+        arms = mark("driving arm of joint {number}"), mark("driven arm of joint {number}")
+        for name, links, hinge, axis in (
+            (mark("driving hinge of joint {number}"), (DRIVING, arms[0]), first, frames.cross(back + 0.0 * u, u)),
+            (mark("driven hinge of joint {number}"), (arms[1], DRIVEN), last, frames.cross(stance.after + 0.0 * v, v)),
+        ):
+            yield InnerPair(name=name, type="R", links=links, point=hinge, axis=axis)
+        tip = mark("contact of joint {number}")
+        yield InnerPair(name=tip, type="S", links=arms, point=at, axis=u)
+
+    @property
+    def told(self) -> bool:
+        """Whether its profile is given."""
+        return self.driving is not None
+
+    def push(self, angle: Array, joint_angle: Array) -> Array | None:
+        """Return the force of the contact of its arms."""
+        if self.driving is None:
+            return None
+        sides = self.driving, self.driving if self.driven is None else self.driven
+        circles = [Circle(axial=side.axial, radial=side.radial, radius=side.radius) for side in sides]
+        found = profile_contact(angle, joint_angle, *circles)
+        ends = (found.height1, found.radius1), (found.height2, found.radius2)
+        slopes = [
+            np.stack((side.radial - np.asarray(out), np.asarray(height) - side.axial), axis=-1)
+            for side, (height, out) in zip(sides, ends, strict=True)
+        ]
+        return contact_push(
+            np.asarray(found.height1), np.asarray(found.radius1), angle, joint_angle, (slopes[0], slopes[1])
+        )
 
     def solid(self, site: Site) -> None:
         """Add its hubs and its hinged arms, which meet in the bisecting plane."""

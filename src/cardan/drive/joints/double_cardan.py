@@ -18,8 +18,11 @@ from cardan.units import plain
 
 from .common import laws as tilted_plane
 from .common import site as drawn
+from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
 from .common.site import BACK, Site
 from .joint import Inside, Joint
+
+APART = 0.1  # distance of both joint centres over the length of the shaft behind, where nobody says it
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -50,6 +53,36 @@ class DoubleCardan(Joint):
         xp = namespace(joint_angle)
         pair = centred_pair(joint_angle, xp.asarray(self.centring_ratio, dtype=xp.float64))
         return pair if self.ball_on == "driving" else mobius.inverse(pair)
+
+    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield both crosses, the piece between them and the ball that slides on the other shaft.
+
+        Without a ball it is told as what its exact device holds.
+        """
+        if self.centring_ratio is None:
+            yield from self.inner(stance)
+            return
+        before, behind = self._spread(stance.joint_angle, APART * stance.length)
+        one, two = stance.centre - before * stance.before, stance.centre + behind * stance.after
+        u, between = stance.driving, frames.unit(two - one)
+        inner = frames.unit(frames.cross(between + 0.0 * u, u))
+        outer = frames.unit(frames.cross(stance.after + 0.0 * u, inner))
+        first, middle, last = (
+            mark("driving cross of joint {number}"),
+            mark("middle piece of joint {number}"),
+            mark("driven cross of joint {number}"),
+        )
+        for name, links, at, axis in (
+            (mark("driving pin of joint {number}"), (DRIVING, first), one, u),
+            (mark("driving pin of the middle piece of joint {number}"), (first, middle), one, inner),
+            (mark("driven pin of the middle piece of joint {number}"), (middle, last), two, inner),
+            (mark("driven pin of joint {number}"), (last, DRIVEN), two, outer),
+        ):
+            yield InnerPair(name=name, type="R", links=links, point=at, axis=axis, rubs=True)
+        ball, on = (
+            ((DRIVEN, DRIVING), stance.after) if self.ball_on == "driving" else ((DRIVING, DRIVEN), stance.before)
+        )
+        yield InnerPair(name=mark("ball of joint {number}"), type="SG", links=ball, point=stance.centre, axis=on)
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield how it shares its joint angle, and the way of its ball."""

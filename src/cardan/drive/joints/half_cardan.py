@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
 
 from cardan.drive.shapes import ACROSS, bolt_ring, ring
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace, unit_complex
-from cardan.maths.kernel import mobius
+from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import Surface, joined, placed, plate, revolved, toothed
 from cardan.texts import _, mark
 from cardan.units import plain, quantity
 
 from .common import laws as shared_turn
-from .common.inner import InnerPair, Stance, touching
+from .common.inner import DRIVEN, DRIVING, InnerPair, Stance, bending, crossed
 from .common.site import Site, about
-from .joint import REFUSALS, Inside, Joint
+from .joint import Inside, Joint
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -30,11 +30,8 @@ class HalfCardan(Joint):
     title: ClassVar[str] = mark("half joint")
     types: ClassVar[tuple[str, ...]] = ("half_bell", "half_gear", "gear_crowned_modern")
     crossed: ClassVar[bool] = True
+    fixed: ClassVar[bool] = True
     slides: ClassVar[bool] = True
-    refusals: ClassVar[Mapping[str, str]] = {
-        **REFUSALS,
-        "forces": mark("its faces slide, so that its bearings hold its shafts and take forces besides the couple"),
-    }
     steepest: ClassVar[float] = math.radians(5.0)
 
     pairs: int = plain(2, doc="pairs of opposite faces or teeth; between two of them there must be play", low=1)
@@ -42,6 +39,15 @@ class HalfCardan(Joint):
     def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the map of one pair of faces, that of a Hooke joint."""
         return mobius.hooke(joint_angle)
+
+    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield its slide, and the pair of faces that carries as the cross that turns alike."""
+        part = mark("middle of joint {number}")
+        at = stance.centre
+        slide = mark("slide of joint {number}")
+        yield InnerPair(name=slide, type="P", links=(DRIVING, part), point=at, axis=stance.before)
+        for pin in crossed(stance):
+            yield replace(pin, links=(part, pin.links[1]) if pin.links[0] == DRIVING else pin.links)
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield the play that it needs."""
@@ -87,11 +93,9 @@ class ElasticHalfCardan(Joint):
         "el_disc", "el_link", "el_bush", "el_hexagon", "el_tyre_split", "el_tyre_solid", "el_petal3", "el_petal8",
         "el_circular_teeth", "el_balls", "disc_pack_modern",
     )  # fmt: skip
+    fixed: ClassVar[bool] = True
+    loose: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(10.0)
-    refusals: ClassVar[Mapping[str, str]] = {
-        **REFUSALS,
-        "forces": mark("its links give way, so that what it puts on its shafts follows from their stiffness"),
-    }
 
     pairs: int | None = plain(
         None, doc="pairs of opposite links that share the torque; without it the joint counts as uniform", low=2
@@ -110,6 +114,17 @@ class ElasticHalfCardan(Joint):
         tau = mobius.tau(mobius.hooke(joint_angle))
         return shared_turn.course(angle, tau, self.pairs)
 
+    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield what its links leave free, ways in all directions and bending, as one that turns uniformly."""
+        link, ways = DRIVING, (stance.before, frames.cross(stance.normal, stance.before), stance.normal)
+        for k, way in enumerate(ways, 1):
+            part = mark("part {count} of the disc of joint {number}")
+            name = mark("give {count} of joint {number}")
+            yield InnerPair(name=name, type="P", links=(link, part), point=stance.centre, axis=way, count=k)
+            link = part.replace("{count}", str(k))
+        for one in bending(stance):
+            yield replace(one, links=(link, DRIVEN))
+
     @property
     def twist_spring(self) -> tuple[float, float] | None:
         """Its stiffness and damping against turning, where its stiffness is given."""
@@ -120,10 +135,6 @@ class ElasticHalfCardan(Joint):
         if self.pairs is not None:
             text = _("angle by which its links are strained against each other")
             yield Inside(key="strain", meaning=text, value=float(play(joint_angle, self.pairs)))
-
-    def inner(self, stance: Stance) -> Iterator[InnerPair]:
-        """Yield a contact: its links give way to all but the torque."""
-        return touching(stance)
 
     def solid(self, site: Site) -> None:
         """Add its two arms and the disc between them."""

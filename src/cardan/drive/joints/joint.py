@@ -15,9 +15,13 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``crossed``          no: its marks lie on one line when it is straight
 ``single_cross``     no: what holds for the cross of a Hooke joint alone does not hold for it
 ``fixed``            no: it may pass on forces besides a couple
+``loose``            no: it holds its shafts in its centre, but for sliding
 ``twist_spring``     none: it does not give under torque
 ``inside``           nothing else moves in it
-``inner``            pins of a cross, a slide or two axes in the bisecting plane, as the marks above say
+``inner``            pins of a cross, a contact, a slide or two axes in the bisecting plane, as the marks above say
+``mechanism``        the same as ``inner``: it has no more links inside
+``carried``          a driven shaft that keeps its direction, of a loose joint one in a bearing
+``push``             no force goes with its couple
 ``shaft_behind``     the driven shaft turns about its axis and does not wobble
 ``solid``            yokes with a cross, else a bell with balls
 ``span``             from its cross or its rating
@@ -49,7 +53,7 @@ from cardan.units import plain, quantity
 
 from .common import inner
 from .common import site as drawn
-from .common.inner import Stance
+from .common.inner import InnerPair, Stance
 from .common.site import Site
 
 Point: TypeAlias = tuple[float, float, float]
@@ -66,12 +70,8 @@ PLACES = 360  # places in a turn at which a law is looked at for its second orde
 
 REFUSALS: Mapping[str, str] = MappingProxyType(
     {
-        "articulation": mark("while its joint angle changes, only cross joints and exactly even ones are followed"),
         "forces": mark("it does not hold both shafts at its centre, so that they take forces besides its couple"),
-        "moving forces": mark("while its joint angle changes, only the couple of a cross is known"),
-        "assembly": mark("how it gives way to a misalignment is known of the pins of a cross only"),
         "losses": mark("what rubs in it is not the journals of a cross"),
-        "accuracy": mark("its errors are not those of a cross and its yokes"),
         "life": mark("it has no needle bearings on a cross"),
         "sizing": mark("the rows of the catalogue are of cross joints"),
         "cross": mark("only the law of a cross joint is taken here"),
@@ -109,10 +109,13 @@ class Joint:
     """Whether it is one cross whose arms meet, as Hooke's: all other joints are told by such a one that turns alike."""
 
     fixed: ClassVar[bool] = False
-    """Whether it holds both shafts at its centre and passes on one couple, so that forces follow from statics.
+    """Whether it passes on one couple and forces in its centre only, so that forces follow from statics.
 
     The couple follows from the law: it works on no motion that the joint allows.
     """
+
+    loose: ClassVar[bool] = False
+    """Whether it holds nothing of its shafts but the turn: no force acts in its centre."""
 
     slides: ClassVar[bool] = False
     """Whether it lets its shafts slide along each other."""
@@ -228,9 +231,12 @@ class Joint:
         question : str
             A key of `REFUSALS`.
         """
-        if (question == "forces" and self.fixed) or (question == "articulation" and self.even):
-            return ""
-        return _(self.refusals.get(question, ""))
+        return "" if question == "forces" and self.told else _(self.refusals.get(question, ""))
+
+    @property
+    def told(self) -> bool:
+        """Whether its sizes tell the forces that go with its torque."""
+        return self.fixed
 
     @classmethod
     def in_words(cls) -> str:
@@ -241,14 +247,37 @@ class Joint:
         """Yield what else moves in it at a joint angle [rad], as far as its sizes are given."""
         yield from ()
 
-    def inner(self, stance: Stance) -> Iterator[inner.InnerPair]:
+    def inner(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the pairs between its shafts, of its inner mechanism or of what holds and frees as much."""
-        if self.slides:
+        if self.loose:
+            yield from inner.touching(stance)
+        elif self.slides:
             yield from inner.sliding(stance)
         elif self.crossed:
-            yield from inner.crossed(stance, slides=self.cross.slides if self.cross else False)
+            sizes = (self.cross.journal, self.cross.span) if self.cross else (None, None)
+            slides = self.cross.slides if self.cross else False
+            yield from inner.crossed(stance, slides=slides, journal=sizes[0] or 0.0, span=sizes[1] or math.inf)
         else:
             yield from inner.bending(stance)
+
+    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield its pairs with all its inner links, which work as it does at every place of a turn; `inner` by default.
+
+        Its stance is at one place of a turn or at many (...); points and axes of the pairs have the same axes.
+        """
+        yield from self.inner(stance)
+
+    def carried(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield the pairs that hold both its shafts in the frame, so that it turns once and is held but once."""
+        yield from inner.carried(stance, loose=self.loose, slides=self.slides)
+
+    def push(self, angle: Array, joint_angle: Array) -> Array | None:
+        """Return the force of a loose joint on its driven shaft over the torque of this, array (..., 3) [1/m].
+
+        angle, joint_angle (...) [rad]: θ of its driving mark from the plane of the shafts, and α. Along the driving
+        shaft e, N × e and the normal N of the plane; None where no force goes with its couple.
+        """
+        return None
 
     def shaft_behind(self, stance: Stance) -> tuple[Array, Array]:
         """Return a point of the driven shaft [m] and its direction, as it moves: arrays (..., 3)."""

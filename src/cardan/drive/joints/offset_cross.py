@@ -18,7 +18,7 @@ from cardan.texts import _, mark
 from cardan.units import quantity
 
 from .common import site as drawn
-from .common.inner import InnerPair, Stance, crossed
+from .common.inner import DRIVEN, FRAME, InnerPair, Stance, carried, crossed
 from .common.site import Site
 from .joint import REFUSALS, Inside, Joint
 
@@ -58,6 +58,13 @@ class OffsetCross(Joint):
     def inner(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield both pins, a distance apart."""
         return crossed(stance, offset=self.offset)
+
+    def carried(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield the bearing of its driving shaft, and the sliding ball that holds the driven one."""
+        yield next(iter(carried(stance)))
+        ball, held = stance.centre + self.reach * stance.after, (DRIVEN, FRAME)
+        along = self.shaft_behind(stance)[1]
+        yield InnerPair(name=mark("sliding ball of joint {number}"), type="SG", links=held, point=ball, axis=along)
 
     def shaft_behind(self, stance: Stance) -> tuple[Array, Array]:
         """Return the driven pin and the line from it to the sliding ball."""

@@ -16,7 +16,8 @@ from cardan.maths.kernel.meshes import joined, placed, revolved
 from cardan.texts import _, mark
 from cardan.units import deg, quantity
 
-from .common.inner import InnerPair, Stance, touching
+from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
+from .common.laws import contact_push
 from .common.site import Site, about
 from .joint import REFUSALS, Inside, Joint, both_or_none
 
@@ -28,10 +29,11 @@ class PinCoupling(Joint):
     kind: ClassVar[str] = "pin_coupling"
     title: ClassVar[str] = mark("pin coupling")
     types: ClassVar[tuple[str, ...]] = ("pin_ball",)
+    loose: ClassVar[bool] = True
     steepest: ClassVar[float] = 0.5 * math.pi
     refusals: ClassVar[Mapping[str, str]] = {
         **REFUSALS,
-        "forces": mark("its pins touch beside the axes, so that its shafts take forces besides the couple"),
+        "forces": mark("without the distances of its pins it is open where they touch, and so with what force"),
     }
 
     driving_slant: float = quantity(
@@ -97,9 +99,39 @@ class PinCoupling(Joint):
         text = _("largest contact force, without friction, for each N·m of torque, in N")
         yield Inside(key="force_N_per_Nm", meaning=text, value=float(np.max(found.force)), dimension=None)
 
-    def inner(self, stance: Stance) -> Iterator[InnerPair]:
-        """Yield the contact of its pins."""
-        return touching(stance)
+    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield both its pins, along which the point slides in which they touch; a contact without their distances."""
+        if self.driving_distance is None or self.driven_distance is None:
+            yield from self.inner(stance)
+            return
+        one, other = self._slants
+        found = pin_contact(
+            stance.theta, np.asarray(stance.joint_angle), self.driving_distance, self.driven_distance, one, other
+        )
+        back, u, v = -stance.before, stance.driving, stance.driven
+        first = -np.cos(one) * back + np.sin(one) * u
+        last = -np.cos(other) * stance.after + np.sin(other) * v
+        at = stance.centre + self.driving_distance * back + np.asarray(found.first)[..., None] * first
+        point = mark("contact of joint {number}")
+        pins = mark("driving pin of joint {number}"), mark("driven pin of joint {number}")
+        yield InnerPair(name=pins[0], type="P", links=(DRIVING, point), point=at, axis=first, rubs=True)
+        yield InnerPair(name=pins[1], type="SG", links=(DRIVEN, point), point=at, axis=last, rubs=True)
+
+    @property
+    def told(self) -> bool:
+        """Whether its distances are given."""
+        return self.driving_distance is not None and self.driven_distance is not None
+
+    def push(self, angle: Array, joint_angle: Array) -> Array | None:
+        """Return the force of the contact of its pins."""
+        if self.driving_distance is None or self.driven_distance is None:
+            return None
+        one, other = self._slants
+        found = pin_contact(angle, joint_angle, self.driving_distance, self.driven_distance, one, other)
+        way = np.asarray(found.first)
+        slopes = [np.asarray([-math.cos(slant), math.sin(slant)]) + 0.0 * way[..., None] for slant in (one, other)]
+        height, out = self.driving_distance - way * math.cos(one), way * math.sin(one)
+        return contact_push(height, out, angle, joint_angle, (slopes[0], slopes[1]))
 
     def solid(self, site: Site) -> None:
         """Add its hubs, and the pins that lean toward each other and touch."""

@@ -16,9 +16,10 @@ from cardan.units import plain, quantity
 from .common import laws as shared_turn
 from .common import laws as tilted_plane
 from .common import site as drawn
+from .common.inner import InnerPair, Stance
 from .common.site import Site
 from .joint import Inside, Joint, both_or_none
-from .weiss import ball_places, balls_inside, groove_course, groove_inside
+from .weiss import ball_places, balls_inside, groove_course, groove_inside, groove_mechanism
 
 LEVER = ("lever_b", "lever_c")
 GROOVES = ("driving_offset", "driven_offset", "groove_radius")
@@ -67,6 +68,12 @@ class Rzeppa(Joint):
         return groove_course(
             angle, joint_angle, self.driving_offset, self.driven_offset, self.groove_radius, self.balls
         )
+
+    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield its grooves with the balls; what holds as much where the grooves are not given."""
+        if self.driving_offset is None or self.driven_offset is None or self.groove_radius is None:
+            return self.inner(stance)
+        return groove_mechanism(stance, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield what its balls do beside turning."""

@@ -10,13 +10,14 @@ from typing import ClassVar
 from cardan.drive.shapes import ACROSS
 from cardan.errors import Problem
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
-from cardan.maths.kernel import mobius
+from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import ball, circle, placed, plate
 from cardan.texts import _, mark
 from cardan.units import quantity
 
 from .common import laws as tilted_plane
 from .common import site as drawn
+from .common.inner import DRIVEN, DRIVING, InnerPair, Stance, carried
 from .common.site import Site
 from .joint import Inside, Joint, both_or_none, missed
 
@@ -47,6 +48,40 @@ class Tracta(Joint):
         if self.driving_distance is None or self.driven_distance is None:
             return mobius.turn(0.0 * joint_angle)
         return pair(joint_angle, self.driving_distance, self.driven_distance)
+
+    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield its two halves, each swivelling in its fork, and the face on which they slide on each other."""
+        if self.driving_distance is None or self.driven_distance is None:
+            yield from self.inner(stance)
+            return
+        one, two = mark("driving half of joint {number}"), mark("driven half of joint {number}")
+        first = stance.centre - self.driving_distance * stance.before
+        last = stance.centre + self.driven_distance * stance.after
+        u, v = stance.driving, stance.driven
+        face = frames.unit(frames.cross(u, last - first + 0.0 * u))
+        yield InnerPair(
+            name=mark("driving swivel of joint {number}"),
+            type="R",
+            links=(DRIVING, one),
+            point=first,
+            axis=u,
+            rubs=True,
+        )
+        yield InnerPair(
+            name=mark("tongue of joint {number}"),
+            type="E",
+            links=(one, two),
+            point=stance.centre,
+            axis=face,
+            rubs=True,
+        )
+        yield InnerPair(
+            name=mark("driven swivel of joint {number}"), type="R", links=(two, DRIVEN), point=last, axis=v, rubs=True
+        )
+
+    def carried(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield bearings of both shafts: it does not hold its centre by itself."""
+        return carried(stance, loose=True)
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield how far its tongue misses the plane that halves the bend."""

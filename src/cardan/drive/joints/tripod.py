@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -16,8 +16,9 @@ from cardan.maths.kernel.meshes import Surface, ball, joined, placed, plate, rev
 from cardan.texts import _, mark
 from cardan.units import quantity
 
+from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
 from .common.site import Side, Site, about
-from .joint import REFUSALS, Inside, Joint
+from .joint import Inside, Joint
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -27,11 +28,8 @@ class Tripod(Joint):
     kind: ClassVar[str] = "tripod"
     title: ClassVar[str] = mark("tripod")
     types: ClassVar[tuple[str, ...]] = ("tripod_plunging",)
+    fixed: ClassVar[bool] = True
     slides: ClassVar[bool] = True
-    refusals: ClassVar[Mapping[str, str]] = {
-        **REFUSALS,
-        "forces": mark("its spider runs round a circle, so that its shafts take forces besides the couple"),
-    }
     steepest: ClassVar[float] = math.radians(26.0)
 
     track_radius: float | None = quantity(
@@ -59,6 +57,29 @@ class Tripod(Joint):
                 text = _("angle error of 3rd order, ±, because its shaft pivots there")
                 yield Inside(key="pivot_error", meaning=text, value=float(pivot_error(*own)))
 
+    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield its three tracks and the arms on which its rollers slide; nothing but a slide without its size."""
+        if self.track_radius is None:
+            yield from self.inner(stance)
+            return
+        for k, (way, at) in enumerate(self._rollers(stance), 1):
+            link, track = mark("roller {count} of joint {number}"), mark("track {count} of joint {number}")
+            arm, ahead = mark("arm {count} of joint {number}"), stance.before + 0.0 * way
+            yield InnerPair(name=track, type="P", links=(DRIVING, link), point=at, axis=ahead, count=k, rubs=True)
+            yield InnerPair(name=arm, type="SG", links=(DRIVEN, link), point=at, axis=way, count=k, rubs=True)
+
+    def _rollers(self, stance: Stance, track: float | None = None) -> Iterator[tuple[Array, Array]]:
+        """Yield the direction of each arm and the middle of its roller, arrays (..., 3)."""
+        track = self.track_radius if track is None else track
+        b, arm, theta = stance.after, stance.driven, stance.theta
+        x, y = (np.asarray(part) for part in spider_centre(theta, stance.joint_angle, track or 0.0))
+        centre = stance.centre + x[..., None] * frames.cross(stance.normal, b) + y[..., None] * stance.normal
+        for j in range(3):
+            angle = j * 2.0 * np.pi / 3.0
+            way = frames.rotate(arm, np.broadcast_to(b, arm.shape), np.full(arm.shape[:-1], angle))
+            far = np.asarray(roller_reach(theta + angle, stance.joint_angle, track or 0.0))
+            yield way, centre + far[..., None] * way
+
     @property
     def own_span(self) -> float | None:
         """Distance of opposite tracks, with their rollers [m]."""
@@ -80,11 +101,8 @@ class Tripod(Joint):
         stub = revolved([(0.1 * track, 0.0), (0.1 * track, thin), (two.reach, thin), (two.reach, 0.0)], 20)
         site.add_to(two, "driven yoke", text, stub)
         roller = placed(ball(0.36 * track, 18, -0.62, 0.62))
-        for j in range(3):
-            angle = j * 2.0 * np.pi / 3.0
-            way = frames.rotate(arm, np.broadcast_to(b, arm.shape), np.full(len(arm), angle))
-            far = np.asarray(roller_reach(theta + angle, joint_angle, track))
-            moved = site.along(centre + far[:, None] * way, way, frames.cross(np.broadcast_to(b, way.shape), way))
+        for way, at in self._rollers(stance, track):
+            moved = site.along(at, way, frames.cross(np.broadcast_to(b, way.shape), way))
             site.add("roller", site.said(_("roller of {joint}")), moved, roller, shade=0.5)
 
 

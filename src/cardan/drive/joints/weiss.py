@@ -11,12 +11,13 @@ import numpy as np
 
 from cardan.errors import Problem
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
-from cardan.maths.kernel import mobius
+from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import ball, placed
 from cardan.texts import _, mark
 from cardan.units import deg, plain, quantity
 
 from .common import site as drawn
+from .common.inner import DRIVEN, DRIVING, InnerPair, Stance, carried
 from .common.site import Site
 from .joint import Inside, Joint, both_or_none, missed
 
@@ -61,6 +62,39 @@ def groove_inside(
     yield from balls_inside(float(plane_tilt(joint_angle, first, second)), angle_errors)
 
 
+def groove_mechanism(stance: Stance, first: float, second: float, radius: float, balls: int) -> Iterator[InnerPair]:
+    """Yield the balls between circular grooves: each swings about the centres of its two grooves.
+
+    first, second, radius [m]: offsets of the groove centres and radius of the grooves; balls: how many carry.
+    """
+    name = mark("driving groove {count} of joint {number}"), mark("driven groove {count} of joint {number}")
+    ball = mark("ball {count} of joint {number}")
+    back, alpha = -stance.before, stance.joint_angle
+    for k in range(balls):
+        turn = k * 2.0 * np.pi / balls
+        way = frames.rotate(
+            stance.driving, stance.before + 0.0 * stance.driving, np.full(stance.driving.shape[:-1], turn)
+        )
+        along, out = ball_centre(stance.theta + turn, alpha, first, second, radius)
+        at = stance.centre + along[..., None] * back + out[..., None] * way
+        pivots = stance.centre + first * back, stance.centre + second * stance.after
+        aside = at - stance.centre
+        beyond = frames.unit(aside - frames.dot(aside, stance.after + 0.0 * aside)[..., None] * stance.after)
+        axes = frames.cross(stance.before + 0.0 * way, way), frames.cross(stance.after + 0.0 * beyond, beyond)
+        one, two = (
+            mark("driving side of ball {count} of joint {number}"),
+            mark("driven side of ball {count} of joint {number}"),
+        )
+        for groove, links, pivot, axis in (
+            (name[0], (DRIVING, one), pivots[0], axes[0]),
+            (name[1], (two, DRIVEN), pivots[1], axes[1]),
+        ):
+            yield InnerPair(
+                name=groove, type="R", links=links, point=pivot, axis=axis, count=k + 1, rubs=True, lever=radius
+            )
+        yield InnerPair(name=ball, type="S", links=(one, two), point=at, axis=way, count=k + 1)
+
+
 def ball_places(balls: int) -> Array:
     """Return the angles of balls over a turn, array (360, k) [rad]."""
     return np.arange(360)[:, None] * deg + np.arange(balls) * (2.0 * np.pi / balls)
@@ -98,6 +132,16 @@ class Weiss(Joint):
         return groove_course(
             angle, joint_angle, self.driving_offset, self.driven_offset, self.groove_radius, self.balls
         )
+
+    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield its grooves with the balls that carry; what holds as much where the grooves are not given."""
+        if self.driving_offset is None or self.driven_offset is None or self.groove_radius is None:
+            return self.inner(stance)
+        return groove_mechanism(stance, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
+
+    def carried(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield bearings of both shafts: it does not hold its centre by itself."""
+        return carried(stance, loose=True)
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield what its balls do beside turning."""

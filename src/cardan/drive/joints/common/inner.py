@@ -5,6 +5,7 @@ A kind yields its `InnerPair`s for a `Stance`; whoever builds a mechanism puts t
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -53,19 +54,26 @@ class Stance:
 
 
 DRIVING, DRIVEN = "driving", "driven"  # links that every joint has: its shafts
+FRAME = "frame"  # what holds the shafts
 ARM = 0.1  # distance of a point of contact from the axis over the length of the shaft behind; any but nought would do
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class InnerPair:
-    """A pair inside a joint."""
+    """A pair inside a joint, where it stands: at one place of a turn or, with leading axes (...), at many."""
 
-    name: str  # what it is called, marked for translation, with the place {number} for the number of its joint
+    # what it is called, marked for translation, with the place {number} for the number of its joint, and {count} for
+    # which of several alike it is
+    name: str
     type: str  # kind of pair, a name of `cardan.mechanism.mechanism.PAIRS`
     links: tuple[str, str]  # `DRIVING`, `DRIVEN` or the name of an inner link, like ``name``
     point: Array  # (3,) [m]
     axis: Array  # (3,)
     second: Array | None = None  # (3,): second axis, of kinds that have two
+    count: int = 1  # which of several pairs and links alike, from 1
+    rubs: bool = False  # whether it rubs where the joint has a coefficient of friction
+    lever: float = 0.0  # [m]: at which what turns in it rubs
+    spread: float = math.inf  # [m]: between its two bearings, where it has two
 
 
 def bending(stance: Stance) -> Iterator[InnerPair]:
@@ -94,11 +102,30 @@ def touching(stance: Stance) -> Iterator[InnerPair]:
     yield InnerPair(name=mark("contact of joint {number}"), type="PT", links=(DRIVING, DRIVEN), point=point, axis=axis)
 
 
-def crossed(stance: Stance, *, slides: bool | str = False, offset: float = 0.0) -> Iterator[InnerPair]:
+def carried(stance: Stance, *, loose: bool = False, slides: bool = False) -> Iterator[InnerPair]:
+    """Yield what holds both shafts of a joint as a drive does.
+
+    loose: the driven shaft in a fixed bearing; else it keeps its direction only, as the joint holds its centre.
+    slides: it is held along its axis too.
+    """
+    yield InnerPair(name="driving bearing", type="R", links=(FRAME, DRIVING), point=stance.centre, axis=stance.before)
+    if loose:
+        yield InnerPair(name="driven bearing", type="R", links=(FRAME, DRIVEN), point=stance.centre, axis=stance.after)
+        return
+    at, axis, guide = stance.centre, stance.after, FRAME if slides else "guide"
+    if not slides:
+        yield InnerPair(name="driven guide", type="P", links=(FRAME, guide), point=at, axis=axis)
+    yield InnerPair(name="driven face", type="E", links=(guide, DRIVEN), point=at, axis=axis)
+
+
+def crossed(
+    stance: Stance, *, slides: bool | str = False, offset: float = 0.0, journal: float = 0.0, span: float = math.inf
+) -> Iterator[InnerPair]:
     """Yield both pins of a cross.
 
     slides: which of its journals slide in their bearings: all, none, or "driving" or "driven".
     offset [m]: distance of both pins, along their common perpendicular.
+    journal, span [m]: diameter of the journals, and between the middles of opposite bearings, for their friction.
     """
     link = mark("cross {number}")
     aside = frames.cross(stance.driving, stance.driven)
@@ -108,4 +135,8 @@ def crossed(stance: Stance, *, slides: bool | str = False, offset: float = 0.0) 
     )
     for k, (name, links, side, axis) in enumerate(rows):
         kind = "C" if slides is True or slides == side else "R"
-        yield InnerPair(name=name, type=kind, links=links, point=stance.centre + k * offset * aside, axis=axis)
+        at = stance.centre + k * offset * aside
+        sizes = 0.5 * journal, span
+        yield InnerPair(
+            name=name, type=kind, links=links, point=at, axis=axis, rubs=True, lever=sizes[0], spread=sizes[1]
+        )

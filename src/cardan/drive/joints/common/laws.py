@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from cardan.maths.arrays import Array, ArrayLike, complex_of, floats, namespace, unit_complex
-from cardan.maths.kernel import mobius
+from cardan.maths.kernel import frames, mobius
 
 # Joints whose balls or tongue lie in one plane: exactly even where it halves the angle of the shafts, else nearly.
 #
@@ -111,6 +113,33 @@ def ball_demands(angle: ArrayLike, joint_angle: ArrayLike, tilt: ArrayLike, coun
     return BallDemands(
         mean=mean + 0.0, spread=xp.max(each, axis=-1) - xp.min(each, axis=-1), largest=xp.max(xp.abs(each), axis=-1)
     )
+
+
+# Joints of two profiles that touch: the contact pushes along their common normal.
+
+
+def contact_push(height: Array, out: Array, angle: Array, joint_angle: Array, slopes: tuple[Array, Array]) -> Array:
+    """Return the force of a contact on the driven shaft over the torque of this, without friction.
+
+    height, out (...) [m]: where it stands, along the driving shaft away from the joint and off its axis.
+    angle, joint_angle (...) [rad]: θ of its meridian plane from that of the shafts, and α.
+    slopes: directions of the driving and of the driven profile there, (..., 2): along their own shaft away from the
+    joint, and off its axis.
+    Returns (..., 3) [1/m]: F along the driving shaft e, N × e and N: along the normal n of both profiles, and
+    (r × F)·e' = 1: F = n/((r × n)·e').
+    """
+    c, s, ca, sa = np.cos(angle), np.sin(angle), np.cos(joint_angle), np.sin(joint_angle)
+    none = 0.0 * (c + ca + height)
+    back, way = np.stack((none - 1.0, none, none), -1), np.stack((none, none + c, none + s), -1)
+    after = np.stack((none + ca, none + sa, none), -1)
+    place = height[..., None] * back + out[..., None] * way
+    beyond = frames.unit(place - frames.dot(place, after)[..., None] * after)
+    one, other = slopes
+    first = one[..., :1] * back + one[..., 1:] * way
+    second = other[..., :1] * after + other[..., 1:] * beyond
+    normal = frames.cross(first, second)
+    found: Array = normal / frames.dot(frames.cross(place, normal), after)[..., None]
+    return found
 
 
 # Joints whose links share the torque: each link would turn as a Hooke joint, all together turn by the mean of them.

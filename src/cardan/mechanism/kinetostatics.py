@@ -1,0 +1,224 @@
+"""How links and pairs move and what they carry where they stand: rates, reactions, friction, influence of errors.
+
+One position or many at once: the leading axes (...) of all arrays are the positions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames
+
+from .constraints import FRAME
+from .mechanism import Kind
+
+REACH = 1e-10
+"""Singular values below this share of the largest count as nought: what is held twice shares alike."""
+
+ROUNDS = 200
+"""Rounds between reactions and the friction that they make, at most."""
+
+RESTS = 1e-14
+"""Change of the friction in a round over the largest reaction at which the rounds end."""
+
+SLOW = 1e-12
+"""Speeds below this share of the largest are rounding, and rub nowhere."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Placed:
+    """Links and pairs where they stand."""
+
+    links: int  # number of moving links n
+    ends: tuple[tuple[int, int], ...]  # the two links of each pair, counted from 0; `FRAME` is the frame
+    kinds: tuple[Kind, ...]  # of each pair
+    point: Array  # (..., m, 3) [m]
+    axis: Array  # axis, second (..., m, 3): unit vectors; any where a kind has none
+    second: Array
+    # of each pair: coefficient of friction, lever [m] at which what turns in it rubs, distance [m] of its two bearings
+    friction: tuple[float, ...] = ()
+    lever: tuple[float, ...] = ()
+    spread: tuple[float, ...] = ()
+
+    @property
+    def size(self) -> float:
+        """Length that counts as one [m]."""
+        flat = np.reshape(self.point, (-1, 3))
+        return float(np.max(frames.norm(flat - np.mean(flat, axis=0)))) or 1.0
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Carried:
+    """How the links move and what the pairs carry."""
+
+    speed: Array  # (..., n, 6): twist (ω; v) of each link about the origin [rad/s, m/s], for the twist of the input
+    rate: Array  # (..., m, 6): of the second link of each pair against the first, v at the pair's point
+    reaction: Array  # (..., m, 6): wrench (couple; force) of the first link on the second, about the point [N·m, N]
+    input_torque: Array  # (...) [N·m]: what drives the input about its axis
+    loss: Array  # (..., m) [W]: rubbed away in each pair
+    open: Array  # (...): what keeps the rates of the pairs from closing, over the largest
+    unbalanced: Array  # (...): what keeps the links from balance, over the largest reaction
+
+
+def held(kind: Kind, point: Array, axis: Array, second: Array) -> Array:
+    """Return what a pair holds, wrenches (couple; force) about the origin on its second link, array (..., s, 6).
+
+    point [m], axis, second (..., 3): as `Placed` has them.
+
+    >>> from .mechanism import PAIRS
+    >>> x, y, z = np.eye(3)
+    >>> [held(PAIRS[name], 0.0 * x, z, x).shape[-2] for name in ("R", "P", "C", "U", "S", "E", "SG", "L4", "PT")]
+    [5, 5, 4, 4, 3, 3, 2, 2, 1]
+    """
+    aside = frames.perpendicular(axis)
+    across = aside, frames.cross(axis, aside)
+    every = (axis, *across)
+    forces = {"": every, "axis": across, "across": (axis,)}[kind.slides]
+    couples = {"": every, "axis": across, "both": (), "all": ()}[kind.turns]
+    if kind.turns == "both":
+        couples = (frames.unit(frames.cross(axis, second)),)
+    rows = [np.concatenate((frames.cross(point, one), one), axis=-1) for one in forces]
+    rows += [np.concatenate((one, np.zeros_like(one)), axis=-1) for one in couples]
+    return np.stack(np.broadcast_arrays(*rows), axis=-2)
+
+
+def carried(placed: Placed, *, input_link: int, about: Array, load: Array, fed: bool = True) -> Carried:
+    """Return how the links move and what the pairs carry, Coulomb's friction acting on itself.
+
+    placed: no helical pair among its pairs.
+    input_link: link that turns with a twist ``about`` (..., 6), whose turning part is along its axis; a torque about
+    this axis drives it.
+    load (..., n, 6): wrenches (couple; force) about the origin on each link [N·m, N].
+    fed: whether the speeds have the sense of ``about``; False where the load drives.
+
+    Power of what holds is nought on all motions it leaves: with the rows w·(t_b - t_a) of `Constraints.matrix` the
+    speeds are its null vector, and the reactions λ meet wᵀλ + τ + load = 0 for every link. What is held too often
+    shares so that the sum of squares is least. Friction: μ|F| against sliding, μ(r|F| + 2r|M|/l) against turning.
+    """
+    size, n = placed.size, placed.links
+    shape = np.broadcast_shapes(placed.point.shape[:-2], about.shape[:-1], load.shape[:-2])
+    lengths = np.asarray([1.0, 1.0, 1.0, size, size, size])
+    couples = np.asarray([size, size, size, 1.0, 1.0, 1.0])  # lengths over the size, so that couples are forces
+    blocks = []
+    for k, (kind, ends) in enumerate(zip(placed.kinds, placed.ends, strict=True)):
+        own = held(kind, placed.point[..., k, :] / size, placed.axis[..., k, :], placed.second[..., k, :])
+        rows = np.zeros((*shape, own.shape[-2], 6 * n))
+        for link, sign in zip(ends, (-1.0, 1.0), strict=True):
+            if link != FRAME:
+                rows[..., 6 * link : 6 * link + 6] += sign * own
+        blocks.append(rows)
+    matrix = np.concatenate(blocks, axis=-2)
+    speed, open_ = _speeds(matrix, input_link, np.broadcast_to(about / lengths, (*shape, 6)))
+    speed = speed * lengths
+    rate = _rates(placed, speed)
+    drive = np.zeros((*shape, 6 * n, 1))
+    drive[..., 6 * input_link : 6 * input_link + 3, 0] = frames.unit(about[..., :3])
+    columns = np.concatenate((np.swapaxes(matrix, -1, -2), drive), axis=-1)
+    inverse = np.linalg.pinv(columns, rcond=REACH)
+    known = np.broadcast_to(load, (*shape, n, 6)) / couples
+
+    def solved(rubbed: Array) -> tuple[Array, Array]:
+        right = np.reshape(-(known + rubbed), (*shape, 6 * n, 1))
+        found = inverse @ right
+        return found[..., 0], np.max(np.abs(columns @ found - right)[..., 0], axis=-1)
+
+    amounts, rest = solved(np.zeros_like(known))
+    reaction = _reactions(placed, blocks, amounts, couples)
+    rubbed, loss = np.zeros_like(known), np.zeros((*shape, len(placed.ends)))
+    if any(placed.friction):
+        for _round in range(ROUNDS):
+            before = rubbed
+            wrench, loss = _friction(placed, rate, reaction, 1.0 if fed else -1.0)
+            rubbed = np.zeros_like(known)
+            for k, (a, b) in enumerate(placed.ends):
+                for link, sign in ((a, -1.0), (b, 1.0)):
+                    if link != FRAME:
+                        rubbed[..., link, :] += sign * wrench[..., k, :] / couples
+            amounts, rest = solved(rubbed)
+            reaction = _reactions(placed, blocks, amounts, couples)
+            if np.max(np.abs(rubbed - before)) <= RESTS * np.max(np.abs(amounts)):
+                break
+    largest = np.max(np.abs(amounts), axis=-1)
+    return Carried(
+        speed=speed if fed else -speed,
+        rate=rate if fed else -rate,
+        reaction=reaction,
+        input_torque=amounts[..., -1] * size,
+        loss=loss,
+        open=open_,
+        unbalanced=rest / np.where(largest > 0.0, largest, 1.0),
+    )
+
+
+def influence(placed: Placed, found: Carried, output_torque: float) -> Array:
+    """Return how far an error of each pair turns the output on, the input held, array (..., m, 6) [1, rad/m].
+
+    found: without friction, with nothing but a torque ``output_torque`` that resists the output.
+    An error is a small displacement (turn; shift at the pair's point) of the second half of a pair against where it
+    should be. Virtual power: the reactions work on the errors as much as the load on the turn of the output.
+    """
+    return found.reaction / output_torque
+
+
+def _speeds(matrix: Array, input_link: int, twist: Array) -> tuple[Array, Array]:
+    """Return the twists of all links (..., n, 6) for that of the input, and what keeps the pairs from closing."""
+    n = matrix.shape[-1] // 6
+    own = np.arange(6 * input_link, 6 * input_link + 6)
+    rest = np.delete(np.arange(6 * n), own)
+    right = -(matrix[..., own] @ twist[..., None])
+    free = np.linalg.pinv(matrix[..., rest], rcond=REACH) @ right
+    miss = np.max(np.abs(matrix[..., rest] @ free - right)[..., 0], axis=-1)
+    whole = np.zeros((*twist.shape[:-1], 6 * n))
+    whole[..., own], whole[..., rest] = twist, free[..., 0]
+    return np.reshape(whole, (*twist.shape[:-1], n, 6)), miss / np.max(np.abs(whole), axis=-1)
+
+
+def _rates(placed: Placed, speed: Array) -> Array:
+    """Return the twist of the second link of each pair against the first, v at the pair's point, array (..., m, 6)."""
+    rows = []
+    for k, (a, b) in enumerate(placed.ends):
+        zero = np.zeros_like(speed[..., 0, :])
+        one = (zero if b == FRAME else speed[..., b, :]) - (zero if a == FRAME else speed[..., a, :])
+        swept = frames.cross(one[..., :3], placed.point[..., k, :] + 0.0 * one[..., :3])
+        rows.append(np.concatenate((one[..., :3], one[..., 3:] + swept), axis=-1))
+    return np.stack(rows, axis=-2)
+
+
+def _reactions(placed: Placed, blocks: Sequence[Array], amounts: Array, couples: Array) -> Array:
+    """Return the wrench of each pair on its second link, about its point, array (..., m, 6)."""
+    rows, first = [], 0
+    for k, (block, (a, b)) in enumerate(zip(blocks, placed.ends, strict=True)):
+        count = block.shape[-2]
+        link, sign = (b, 1.0) if b != FRAME else (a, -1.0)
+        own = sign * block[..., 6 * link : 6 * link + 6]
+        wrench = (amounts[..., None, first : first + count] @ own)[..., 0, :] * couples
+        first += count
+        point = placed.point[..., k, :] + 0.0 * wrench[..., :3]
+        turn = wrench[..., :3] - frames.cross(point, wrench[..., 3:])
+        rows.append(np.concatenate((turn, wrench[..., 3:]), axis=-1))
+    return np.stack(rows, axis=-2)
+
+
+def _friction(placed: Placed, rate: Array, reaction: Array, sense: float) -> tuple[Array, Array]:
+    """Return the wrench (..., m, 6) of friction on the second link of each pair about the origin, and its power."""
+    wrenches, losses = [], []
+    fastest = np.max(np.abs(rate), axis=(-2, -1))
+    for k, mu in enumerate(placed.friction):
+        turn, slide = sense * rate[..., k, :3], sense * rate[..., k, 3:]
+        force = frames.norm(reaction[..., k, 3:])
+        arm = placed.lever[k] if placed.lever else 0.0
+        tilt = 2.0 * frames.norm(reaction[..., k, :3]) / placed.spread[k] if placed.spread else 0.0 * force
+        spin, way = frames.norm(turn), frames.norm(slide)
+        turns, moves = spin > SLOW * fastest, way > SLOW * fastest * placed.size
+        couple = np.where(turns, mu * arm * (force + tilt), 0.0)
+        push = np.where(moves, mu * force, 0.0)
+        about = -couple[..., None] * turn / np.where(turns, spin, 1.0)[..., None]
+        along = -push[..., None] * slide / np.where(moves, way, 1.0)[..., None]
+        point = placed.point[..., k, :] + 0.0 * along
+        wrenches.append(np.concatenate((about + frames.cross(point, along), along), axis=-1))
+        losses.append(couple * spin + push * way)
+    return np.stack(wrenches, axis=-2), np.stack(losses, axis=-1)

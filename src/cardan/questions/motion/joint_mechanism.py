@@ -1,0 +1,135 @@
+"""What the inner mechanism of a joint does: how it turns, what its shafts and pairs carry, what it rubs away."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.drive.joints import Joint
+from cardan.drive.joints.common import inner
+from cardan.drive.joints.common.inner import InnerPair, Stance
+from cardan.errors import refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.kernel import frames
+from cardan.mechanism.constraints import FRAME
+from cardan.mechanism.kinetostatics import Carried, Placed, carried
+from cardan.mechanism.mechanism import PAIRS
+from cardan.texts import _
+
+BEFORE, ASIDE, NORMAL = np.eye(3)
+"""Driving shaft, direction in the plane of the shafts across it toward the driven one, and normal of that plane."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JointCarried:
+    """A joint with a torque of 1 N·m on its driven shaft, at places of a turn (p,); its driving shaft along x."""
+
+    pairs: tuple[InnerPair, ...]  # of the joint, then those that hold its shafts
+    inner: int  # how many of them are of the joint
+    placed: Placed
+    found: Carried
+    axis: Array  # (p, 3): direction of the driven shaft, the way it lies
+
+    @property
+    def ratio(self) -> Array:
+        """Speed of the driven shaft about its axis over that of the driving shaft, array (p,)."""
+        speed = self.found.speed[:, 1, :3]
+        return np.asarray(frames.dot(speed, self.axis)) / np.abs(self.found.speed[:, 0, 0])
+
+    @property
+    def input_torque(self) -> Array:
+        """Torque that drives the driving shaft, array (p,) [N·m]."""
+        return self.found.input_torque
+
+    @property
+    def wrench(self) -> Array:
+        """Wrench (couple; force) of the joint on the driven shaft about the joint's centre, array (p, 6) [N·m, N]."""
+        whole = np.concatenate((self.axis, np.zeros_like(self.axis)), axis=-1)
+        for k in range(self.inner, len(self.pairs)):
+            a, b = self.placed.ends[k]
+            if 1 in (a, b):
+                own = self.found.reaction[:, k]
+                turn = own[:, :3] + frames.cross(self.placed.point[:, k], own[:, 3:])
+                whole = whole - (1.0 if b == 1 else -1.0) * np.concatenate((turn, own[:, 3:]), axis=-1)
+        return whole
+
+    @property
+    def loss(self) -> Array:
+        """Power that the joint rubs away over that of its driving shaft, array (p,)."""
+        return np.asarray(np.sum(self.found.loss, axis=-1) / np.abs(self.input_torque * self.found.speed[:, 0, 0]))
+
+
+def stance_of(joint: Joint, joint_angle: float, angle: Array, *, length: float = 1.0) -> Stance:
+    """Return how a joint stands at the origin, its driving shaft along x.
+
+    joint_angle [rad]; angle (p,) [rad]: of its driving mark from the plane of the shafts; length [m]: of the shaft
+    behind it.
+    """
+    cosine, sine = np.cos(joint_angle), np.sin(joint_angle)
+    after, beyond = cosine * BEFORE + sine * ASIDE, cosine * ASIDE - sine * BEFORE
+    with np.errstate(invalid="ignore", divide="ignore"):
+        lead = np.asarray(joint.deviation(angle, np.asarray(joint_angle))[0])
+    turned = angle + lead + (0.5 * np.pi if joint.crossed else 0.0)
+    return Stance(
+        centre=np.zeros(3),
+        before=BEFORE,
+        after=after,
+        normal=NORMAL,
+        joint_angle=joint_angle,
+        driving=np.cos(angle)[:, None] * ASIDE + np.sin(angle)[:, None] * NORMAL,
+        driven=np.cos(turned)[:, None] * beyond + np.sin(turned)[:, None] * NORMAL,
+        length=length,
+    )
+
+
+def joint_carried(
+    joint: Joint, joint_angle: float, angle: ArrayLike, *, friction: float = 0.0, fed: bool = True
+) -> JointCarried:
+    """Return how the inner mechanism of a joint moves and what it carries.
+
+    joint_angle [rad]; angle (p,) [rad]: of its driving mark from the plane of the shafts.
+    friction: coefficient of its pairs that rub; fed: whether the driving shaft drives, else the driven one.
+    """
+    stance = stance_of(joint, joint_angle, np.atleast_1d(np.asarray(angle, dtype=float)))
+    own = tuple(joint.mechanism(stance))
+    pairs = (*own, *joint.carried(stance))
+    every = dict.fromkeys(link_of(one, end) for one in pairs for end in (0, 1))
+    moving = [
+        inner.DRIVING,
+        inner.DRIVEN,
+        *(one for one in every if one not in (inner.DRIVING, inner.DRIVEN, inner.FRAME)),
+    ]
+    number = {link: k for k, link in enumerate(moving)} | {inner.FRAME: FRAME}
+    wide = stance.driving.shape
+
+    def rows(name: str) -> Array:
+        table = [getattr(one, name) if getattr(one, name) is not None else NORMAL for one in pairs]
+        return np.stack([np.broadcast_to(one, wide) for one in table], axis=-2)
+
+    text = _("a joint of kind {kind} with these sizes does not turn at its joint angle of {joint_angle:.6g}°")
+    if not np.all(np.isfinite(rows("point"))) or not np.all(np.isfinite(stance.driven)):
+        said = text.format(kind=joint.kind, joint_angle=np.degrees(joint_angle))
+        raise refuse("joint_angle", said, "out_of_range")
+    placed = Placed(
+        links=len(moving),
+        ends=tuple((number[link_of(one, 0)], number[link_of(one, 1)]) for one in pairs),
+        kinds=tuple(PAIRS[one.type] for one in pairs),
+        point=rows("point"),
+        axis=frames.unit(rows("axis")),
+        second=rows("second"),
+        friction=tuple(friction * one.rubs for one in pairs),
+        lever=tuple(one.lever for one in pairs),
+        spread=tuple(one.spread for one in pairs),
+    )
+    axis = np.broadcast_to(joint.shaft_behind(stance)[1], wide)
+    load = np.zeros((wide[0], len(moving), 6))
+    load[:, 1, :3] = -axis
+    about = np.concatenate((BEFORE, np.zeros(3)))
+    found = carried(placed, input_link=0, about=about, load=load, fed=fed)
+    return JointCarried(pairs=pairs, inner=len(own), placed=placed, found=found, axis=axis)
+
+
+def link_of(pair: InnerPair, end: int) -> str:
+    """Return the name of the first or second link of a pair, of several alike each with its number."""
+    return pair.links[end].replace("{count}", str(pair.count))
