@@ -78,7 +78,7 @@ def test_a_report_tells_of_every_kind(kind: str) -> None:
 
 def test_a_report_names_what_it_leaves_out() -> None:
     text = page(loads(file_of("tripod")))
-    assert "forces: not answered for a joint of kind tripod" in text
+    assert "forces: not answered" not in text
     assert "Not run (judges Hooke joints, not a joint of kind tripod)" in text
 
 
@@ -103,11 +103,6 @@ def test_the_command_line_tells_of_mixed_chains(kind: str, tmp_path, capsys) -> 
 @pytest.mark.parametrize(
     ("command", "question"),
     [
-        (["losses"], "losses"),
-        (["tolerance"], "errors and tolerances"),
-        (["life"], "bearing life"),
-        (["assembly"], "forces from misalignment"),
-        (["forces"], "forces"),
         (["phasing"], "yoke angles"),
         (["torsion", "modes"], "torsional vibration"),
     ],

@@ -7,16 +7,30 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cardan import Drive, example, forces
+from cardan import Drive, example, forces, motion
 from cardan.drive.described import Input, Output
 from cardan.drive.duty import Duty
-from cardan.drive.joints import JOINTS, ConstantVelocity, DoubleCardan, Hooke, Rzeppa, Tracta, Tripod
+from cardan.drive.joints import (
+    JOINTS,
+    Clemens,
+    ConstantVelocity,
+    DoubleCardan,
+    HalfCardan,
+    Hooke,
+    PinCoupling,
+    Rzeppa,
+    Tracta,
+    Tripod,
+)
+from cardan.drive.joints.clemens import Profile
 from cardan.drive.models.geometry import geometry
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 from cardan.errors import InputError
 
 DUTY = Duty(torque=400.0, speed=120.0, acceleration=30.0)
+
+PROFILE, OTHER = (Profile(axial=0.05, radial=radial, radius=0.06) for radial in (0.02, 0.021))
 
 ROUNDING = 1e-12
 """Share of the largest term that a dozen sums of double precision leave."""
@@ -151,6 +165,33 @@ def test_drives_of_hooke_joints_carry_what_they_did():
     assert np.max(one.moment_left) < 1e-9
 
 
-def test_a_tripod_is_named():
-    with pytest.raises(InputError, match="tripod"):
-        forces(held(Tripod(), Hooke()))
+@pytest.mark.parametrize("joint", [Tripod(), HalfCardan()])
+def test_a_joint_that_slides_takes_no_force_along_its_driving_shaft(joint):
+    drive = held(joint, Hooke())
+    stop = Support(shaft=3, position=0.4, radial=False, axial=True)
+    found = forces(replace(drive, supports=(*drive.supports, stop)))
+    for left in (found.power_left, found.force_left, found.moment_left):
+        assert np.max(left) < ROUNDING
+    along = np.sum(found.joint_force[0] * found.axis[0], axis=-1)
+    assert np.abs(along).max() < 1e-9 * np.abs(found.joint_force[0]).max()
+
+
+@pytest.mark.parametrize(
+    "joint", [PinCoupling(driving_distance=0.05, driven_distance=0.06), Clemens(driving=PROFILE, driven=OTHER)]
+)
+def test_a_contact_pushes_its_shafts_apart(joint):
+    """Two shafts, each in two bearings: their forces balance force and couple of the contact, summed here by hand."""
+    drive = held(joint)
+    stop = Support(shaft=2, position=0.3, radial=True, axial=True)
+    drive = replace(drive, supports=(*drive.supports[:2], drive.supports[2], stop), duty=Duty(torque=100.0))
+    drive = replace(drive, settings=replace(drive.settings, gravity=(0.0, 0.0, 0.0)))
+    found = forces(drive)
+    assert np.abs(found.joint_force).max() < 1e-8
+    for left in (found.power_left, found.force_left, found.moment_left):
+        assert np.max(left) < ROUNDING
+    behind = np.sum(found.reaction[2:], axis=0)
+    place = geometry(drive)
+    theta = np.asarray(motion(drive).yoke_rotation)[0]
+    push = np.asarray(joint.push(theta, np.asarray(place.joint_angle[0]))) * found.output_torque[:, None]
+    basis = np.stack((place.axis[0], np.cross(place.normal[0], place.axis[0]), place.normal[0]))
+    assert np.abs(behind + push @ basis).max() < 1e-9 * np.abs(behind).max()

@@ -318,7 +318,7 @@ def _dynamic(subject: Design) -> float:
     """Return by which factor masses and friction raise the largest couple of a cross; 1 where it cannot be told."""
     try:
         parts, asked, _history, _cycles = duty_parts(subject.duty)
-        whole = train(subject.drive)
+        whole = train(subject.drive, kinds=True)
         light = replace(whole, inertia=None, cross_inertia=None, drag=None, resisting_torque=None)
         real, plain = (bearing_loads(subject.drive, one, asked, parts).couple for one in (whole, light))
     except InputError:

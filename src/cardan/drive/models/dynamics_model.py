@@ -62,8 +62,11 @@ class Train:
     bearings: tuple[tuple[int, tuple[Hold, ...]], ...] = ()
     # (..., k) [m]: places of the supports from the beginning of their shafts; they may lie beyond the ends
     position: Array | None = None
-    # per joint, whether the cross slides along the driving and the driven journals
-    slides: tuple[tuple[bool, bool], ...] = ()
+    # per joint, whether no force acts along each of three directions: of a cross its driving and driven journals and
+    # its normal, of any other joint its driving shaft and two directions across it
+    slides: tuple[tuple[bool, ...], ...] = ()
+    kinds: tuple[Joint, ...] = ()  # the joints, where one of them pushes its shafts
+    crossed: tuple[bool, ...] = ()  # which joints are crosses of Hooke joints; all of them when empty
     splines: tuple[int, ...] = ()  # shafts with a spline, counted from 0
     cut: Array | None = None  # (..., number of splines) [m]: places of the splines from the beginning of their shafts
     grip: Array | None = None  # (..., number of splines) [1/m]: thrust over torque, 2 μ/d
@@ -173,7 +176,9 @@ def train(drive: Drive, *, kinds: bool = False) -> Train:
         gravity=np.asarray(drive.settings.gravity),
         bearings=tuple((s.shaft - 1, tuple(hold for hold in HOLDS if getattr(s, hold))) for s in drive.supports),
         position=np.asarray([s.position + offset[s.shaft - 1] for s in drive.supports]),
-        slides=tuple(_slides(cross.slides if cross else False) for cross in crosses),
+        slides=tuple(_slides(joint) for joint in drive.joints),
+        crossed=tuple(joint.single_cross for joint in drive.joints),
+        kinds=tuple(drive.joints),
         splines=tuple(shaft.number - 1 for shaft in splined),
         cut=np.asarray([_cut(shaft, length[shaft.number - 1]) for shaft in splined]),
         grip=np.asarray([_grip(shaft) for shaft in splined]),
@@ -221,8 +226,11 @@ def _unless_zero(values: Array) -> Array | None:
     return values if bool(np.any(values)) else None
 
 
-def _slides(along: bool | str) -> tuple[bool, bool]:
-    return along is True or along == "driving", along is True or along == "driven"
+def _slides(joint: Joint) -> tuple[bool, bool, bool]:
+    if not joint.single_cross:
+        return joint.loose or joint.slides, joint.loose, joint.loose
+    along = joint.cross.slides if joint.cross else False
+    return along is True or along == "driving", along is True or along == "driven", False
 
 
 def _cut(shaft: Shaft, length: float) -> float:

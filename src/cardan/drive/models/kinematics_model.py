@@ -225,6 +225,21 @@ def alike(
     return equal, twist, aheads[..., 0], laws
 
 
+def as_given(chain: Chain, joints: Sequence[Joint]) -> Chain:
+    """Return bends, planes and yokes of the joints themselves, from the chain of Hooke joints that turn alike."""
+    laws = chain.laws
+    if laws is None:
+        return chain
+    xp = namespace(chain.joint_angle)
+    quarter = xp.asarray([0.0 if joint.crossed else 0.5 * np.pi for joint in joints[:-1]], dtype=xp.float64)
+    return Chain(
+        joint_angle=laws.joint_angle,
+        plane_twist=chain.plane_twist - quarter - laws.ahead[..., :-1] + laws.ahead[..., 1:],
+        yoke_angle=chain.yoke_angle,
+        start_phase=chain.start_phase - laws.ahead[..., 0],
+    )
+
+
 def _steepness(joint: Joint, joint_angle: Array, i: int, near: bool) -> Array:
     """Return κ = (1 + τ)/(1 - τ), τ = -b/a, of a joint with a Möbius map."""
     xp = namespace(joint_angle)

@@ -28,7 +28,7 @@ def machine_held(drive: Drive) -> Drive:
     """Return a drive with supports whose end shafts without any are held by their machines, at the joint.
 
     Returns Drive: a machine holds its shaft sideways and against tilting; lengthwise too where no other axial support
-    holds the part of the drive up to the next sliding spline.
+    holds the part of the drive up to the next spline or joint that slides.
     """
     made = list(drive.supports)
     for number in machines_of(drive):
@@ -39,13 +39,30 @@ def machine_held(drive: Drive) -> Drive:
 
 
 def _segment_of(drive: Drive, shaft: int) -> int:
-    """Return in which part of the drive, cut at its splines, an end shaft is."""
-    return 0 if shaft == 1 else sum(one.spline is not None for one in drive.shafts)
+    """Return in which part of the drive, cut where it slides, an end shaft is."""
+    return 0 if shaft == 1 else _cuts(drive, len(drive.shafts)) + (drive.shafts[-1].spline is not None)
+
+
+def _cuts(drive: Drive, shaft: int) -> int:
+    """Return how many splines and joints that slide lie before a shaft."""
+    splines = sum(one.spline is not None for one in drive.shafts[: shaft - 1])
+    return splines + sum(one.slides or one.loose for one in drive.joints[: shaft - 1])
+
+
+def _beginnings(drive: Drive) -> list[tuple[int, float]]:
+    """Return behind every spline and joint that slides a shaft of the part that begins there, and a share of it."""
+    found = []
+    for shaft in drive.shafts:
+        before = drive.joints[shaft.number - 2] if shaft.number > 1 else None
+        splined = shaft.spline is not None
+        found += [(shaft.number, REACH if splined else NEAR)] if before and (before.slides or before.loose) else []
+        found += [(shaft.number, NEAR)] if splined else []
+    return found
 
 
 def _segment(drive: Drive, support: Support) -> int:
-    """Return in which part of the drive, cut at its splines, a support stands."""
-    before = sum(one.spline is not None for one in drive.shafts[: support.shaft - 1])
+    """Return in which part of the drive, cut where it slides, a support stands."""
+    before = _cuts(drive, support.shaft)
     spline = drive.shafts[support.shaft - 1].spline
     if spline is None:
         return before
@@ -82,15 +99,14 @@ def proposed(drive: Drive) -> tuple[Support, ...]:
             place = round(NEAR * known.get(number, 1.0), 3)
             found.append(Support(name=_("centre bearing"), shaft=number, position=place))
             spare, need = spare - 1, need - 1
-    splined = [shaft.number for shaft in drive.shafts if shaft.spline is not None]
-    for segment, number in enumerate(splined[:-1], 1):
+    for segment, (number, share) in enumerate(_beginnings(drive)[:-1], 1):
         if any(one.axial and _segment(drive, one) == segment for one in drive.supports):
             continue
         inside = [k for k, one in enumerate(found) if _segment(drive, one) == segment]
         if inside:
             found[inside[0]] = replace(found[inside[0]], axial=True)
         else:
-            place = round(NEAR * known.get(number, 1.0), 3)
+            place = round(share * known.get(number, 1.0), 3)
             found.append(Support(shaft=number, position=place, radial=False, axial=True))
     for number, way in ((1, -1.0), (count, 1.0)):
         own = [one for one in drive.supports if one.shaft == number]

@@ -10,12 +10,12 @@ import numpy as np
 
 from cardan.drive.accuracy import Error
 from cardan.drive.drive import Drive
-from cardan.drive.drives import Drives, crosses
-from cardan.drive.models.kinematics_model import Chain
+from cardan.drive.drives import Drives, kinematics
+from cardan.drive.models.kinematics_model import Chain, given_chain, turning
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.kernel import loops
-from cardan.questions.motion.motion import motion
+from cardan.questions.motion.motion import Motion, motion
 from cardan.texts import _
 
 TURNS = ("phase", "alpha1", "alpha2", "alpha3", "alpha4")
@@ -120,13 +120,34 @@ def sensitivity(drive: Drive | Drives | Chain, angle: ArrayLike, *, located: Seq
     """
     moved = motion(drive, angle)
     xp = namespace(moved.joint_angle)
-    own = -loops.influence(moved.joint_angle[..., None], moved.yoke_rotation)[..., 2, :]
+    own = -coefficients(moved)[..., 2, :]
     weight, rows = None, []
     for j in reversed(range(own.shape[-3])):
         row = own[..., j, :, :] if weight is None else weight[..., None] * own[..., j, :, :]
         rows.append(row)
         weight = row[..., 0] * (0.0 if j + 1 in located else 1.0)
     return xp.stack(rows[::-1], axis=-2)
+
+
+def coefficients(moved: Motion) -> Array:
+    """Return the influence coefficients of every joint, array (..., n, p, 3, 5), see `loops.influence`.
+
+    A joint of another kind has no such errors of its own: it passes on angle and shift as it passes on the turn.
+    """
+    xp = namespace(moved.joint_angle)
+    table = loops.influence(moved.joint_angle[..., None], moved.yoke_rotation)
+    if all(moved.crossed):
+        return table
+    step = moved.shaft_ratio[..., 1:, :] / moved.shaft_ratio[..., :-1, :]
+    place = np.zeros((3, 5))
+    place[2, 0] = -1.0
+    passing = step[..., None, None] * xp.asarray(place)
+    return xp.where(xp.asarray(moved.crossed)[:, None, None, None], table, passing)
+
+
+def walked(drive: Drive | Drives | Chain) -> Chain:
+    """Return the loops of a drive to be walked along; joints of other kinds as those that turn alike, or nearly so."""
+    return turning(given_chain(drive), drive.joints, near=True) if isinstance(drive, Drive) else kinematics(drive)
 
 
 def transmission_error(
@@ -151,7 +172,7 @@ def transmission_error(
     ways : array (..., n, 5) [m], optional
         Errors of each joint in the order of `WAYS`.
     errors : Error, or n of them, optional
-        Errors by name instead; those of the drive where nothing is given.
+        Errors by name instead; those of the drive where nothing is given. Those of joints of other kinds count as 0.
     located : sequence of int, optional
         Numbers of the shafts that a bearing holds along their axis, where shifts end; those with axial supports by
         default.
@@ -168,7 +189,8 @@ def transmission_error(
     -----
     Each joint is the closed loop of `cardan.maths.kernel.loops` with α = (90°, 90°, 90°, bend) and no lengths, plus its
     errors. The phase turns its driving yoke on; θ' = π/2 - φ_4. A shaft that floats passes the shift on,
-    u_j = -s_4 with s_1 = u_{j-1} + its own. To first order Book (171), (180), chained.
+    u_j = -s_4 with s_1 = u_{j-1} + its own. To first order Book (171), (180), chained. Joints of other kinds count as
+    made true: they pass on angle and shift as they pass on the turn, one that slides no shift.
 
     Examples
     --------
@@ -178,7 +200,7 @@ def transmission_error(
     >>> (found.error / deg).round(6), (found.error_linear / deg).round(6)
     (array([0.05]), array([0.05]))
     """
-    chain = crosses(drive, _("errors and tolerances"))
+    chain = walked(drive)
     xp = namespace(chain.joint_angle, turns, ways)
     phi = xp.asarray(one_turn()) if angle is None else real(angle, xp)
     phi = phi if phi.ndim else phi[None]
@@ -264,9 +286,11 @@ def links(joint_angle: Array, turned: Array | None) -> tuple[Array, Array]:
 
 
 def located_shafts(drive: Drive | Drives | Chain) -> tuple[int, ...]:
-    """Return the numbers of the shafts that a support of the drive holds along their axis."""
-    supports = drive.supports if isinstance(drive, Drive) else ()
-    return tuple(sorted({support.shaft for support in supports if support.axial}))
+    """Return the numbers of the shafts at whose end a shift ends: held along their axis, or before what slides."""
+    if not isinstance(drive, Drive):
+        return ()
+    sliding = {k for k, joint in enumerate(drive.joints, 1) if joint.slides}
+    return tuple(sorted(sliding | {support.shaft for support in drive.supports if support.axial}))
 
 
 def error_arrays(errors: Sequence[object | None]) -> tuple[Array, Array]:
@@ -311,6 +335,8 @@ def _given(
         )
         return arrays[0], arrays[1]
     turned, shifted = given_errors(drive, joints, errors)
+    own = np.asarray([[one.single_cross] for one in drive.joints]) if isinstance(drive, Drive) else True
+    turned, shifted = np.where(own, turned, 0.0), np.where(own, shifted, 0.0)
     return real(turned, xp), real(shifted, xp)
 
 

@@ -12,15 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.drive.drives import Drives, crosses
+from cardan.drive.drives import Drives
 from cardan.drive.models.kinematics_model import Chain
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import peak
 from cardan.maths.kernel import loops
 from cardan.questions.motion.motion import motion
-from cardan.texts import _
 
-from .accuracy import Errors, error_arrays, given_errors, located_shafts, one_turn
+from .accuracy import Errors, coefficients, error_arrays, given_errors, located_shafts, one_turn, walked
 from .tolerance import ToleranceBand, WorstCase, change, spreads, stacked
 
 YOKES = ("driving", "driven")
@@ -53,9 +52,9 @@ def cross_slides(
 ) -> Array:
     """Return how the crosses move along their driving and driven journals, array (n, 2, p) [m], exactly.
 
-    drive: of Hooke joints; angle (p,) [rad]: input angle φ_1 from the start position, one turn of 360 positions by
-    default; errors: of the joints by name, those of the drive where nothing is given; located: numbers of the shafts
-    that a bearing holds along their axis, those with axial supports by default.
+    drive: its joints of other kinds as those that turn alike; angle (p,) [rad]: input angle φ_1 from the start
+    position, one turn of 360 positions by default; errors: of the joints by name, those of the drive where nothing is
+    given; located: numbers of the shafts that a bearing holds along their axis, those with axial supports by default.
     s_2 and s_3 of `loop_slides`.
     """
     return loop_slides(drive, angle, errors=errors, located=located)[:, :2]
@@ -73,7 +72,7 @@ def loop_slides(
     Each at the angle and with the shift that the joint before it really gives; nan where it does not close.
     Kozhevnikov & Perfil'ev (1978), eq. 171.
     """
-    chain = crosses(drive, _("errors and tolerances"))
+    chain = walked(drive)
     held = located_shafts(drive) if located is None else located
     turned, shifted = given_errors(drive, chain.joints, errors)
     mu = chain.turn_before
@@ -94,7 +93,7 @@ def cross_sensitivity(drive: Drive | Drives | Chain, angle: Array, *, located: t
     drive: one; angle (p,) [rad]; located: numbers of the shafts that a bearing holds along their axis.
     """
     moved = motion(drive, angle)
-    table = loops.influence(moved.joint_angle[..., None], moved.yoke_rotation)  # (n, p, 3, 5)
+    table = coefficients(moved)  # (n, p, 3, 5)
     count = len(table)
     before, rows = np.zeros((len(angle), count, 5)), []
     for j, own in enumerate(table):
@@ -122,6 +121,8 @@ def cross_play(drive: Drive, band: ToleranceBand | None) -> tuple[CrossPlay, ...
 
 def _plays(drive: Drive, known: Array, parts: Array, power: int) -> Iterator[CrossPlay]:
     for j, joint in enumerate(drive.joints):
+        if not joint.single_cross:
+            continue
         slides = joint.cross.slides if joint.cross else False
         for k, yoke in enumerate(YOKES):
             flat = parts[j, k].reshape(parts.shape[2], -1)

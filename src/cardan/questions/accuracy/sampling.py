@@ -11,7 +11,6 @@ import scipy
 
 from cardan.drive.accuracy import Tolerance
 from cardan.drive.drive import Drive
-from cardan.drive.models.kinematics_model import chain
 from cardan.errors import Problem, check
 from cardan.later import later
 from cardan.maths.arrays import Array
@@ -29,6 +28,7 @@ from .accuracy import (
     sensitivity,
     transmission_error,
     walk,
+    walked,
 )
 
 SIGMA = {"normal": 1.0 / 3.0, "uniform": 1.0 / math.sqrt(3.0), "triangular": 1.0 / math.sqrt(6.0)}
@@ -326,7 +326,7 @@ class Exact:
         samples: int,
         method: Method | None = None,
     ) -> None:
-        whole = chain(drive)
+        whole = walked(drive)
         self.joint_angle, self.mu, self.held = whole.joint_angle, whole.turn_before, located_shafts(drive)
         self.known, self.seats = known, np.flatnonzero(limits)
         self.shifts = bool(np.any(limits[:, 5:]) or np.any(known[:, 5:]))

@@ -10,7 +10,6 @@ import numpy as np
 
 from cardan.drive.accuracy import Tolerance
 from cardan.drive.drive import Drive
-from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
@@ -165,7 +164,6 @@ def tolerance(
     >>> [(one.field, round(one.share, 2)) for one in band.output.contributions]
     [('joints[0].tolerance.alpha2', 0.67), ('joints[0].tolerance.alpha1', 0.33)]
     """
-    refuse_kinds(drive, _("errors and tolerances"), "accuracy")
     rows = spreads(drive, spread)
     turns, ways = error_arrays(rows)
     if not np.any(turns) and not np.any(ways):

@@ -132,9 +132,9 @@ def _loads(drive: Drive) -> Results:
 def over_movement(drive: Drive) -> Callable[[Array], Array] | None:
     """Return that no instant is left to be asked for where the forces are followed through the movement itself.
 
-    Without a speed, or for kinds of joints that are not followed so, it stands still at the instants asked for.
+    Without a speed it stands still at the instants asked for.
     """
-    if not drive.duty.speed or any("moving forces" in joint.refusals for joint in drive.joints):
+    if not drive.duty.speed:
         return None
     return lambda times: np.zeros((0, times.size))
 

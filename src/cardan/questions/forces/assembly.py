@@ -12,7 +12,6 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.validity import wrong_count
 from cardan.drive.models.dynamics_model import Train, lengths_off, train
 from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.drive.models.machine_held import machine_held, tables_proposed
 from cardan.errors import check, refuse
 from cardan.maths.arrays import Array, ArrayLike
@@ -23,8 +22,8 @@ from cardan.texts import _
 
 from .elastic import Redundancy, compliance, gaps, housing_gap, redundancy, refuse_soft
 from .kinetostatics import standing
-from .reactions import Frame, forces_of, frame
-from .support_statics import WIDTH, Hold, Misalignment, crosses, misalignment
+from .reactions import Frame, arms_of, forces_of, frame
+from .support_statics import WIDTH, Hold, Misalignment, misalignment
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -214,7 +213,7 @@ class _Question:
         """Return forces and gaps at the angles (p,), and the frame they belong to."""
         stand = standing(self.whole.chain, self.place.axis, self.place.normal, angle, speed=1.0)
         held = frame(self.whole, stand, self.whole.points[None])
-        arms = crosses(stand.axis, stand.driving_arm, stand.driven_arm)
+        arms = arms_of(self.whole, stand)
         gap = gaps(self.whole, held, arms)
         if not self.strained:
             none = np.zeros(angle.shape)
@@ -258,13 +257,12 @@ def _keys(holds: tuple[tuple[int, Hold], ...]) -> tuple[str, ...]:
 
 
 def _question(drive: Drive, errors: Sequence[Error | None] | None) -> _Question:
-    refuse_kinds(drive, _("forces from misalignment"), "assembly")
     if not drive.supports:
         raise refuse("supports", _("missing; assembly forces come from how the shafts are held"))
     drive = machine_held(drive)
     given = [joint.error for joint in drive.joints] if errors is None else list(errors)
     check(wrong_count("errors", given, len(drive.joints)))
-    whole = replace(train(drive), error=lengths_off(given))
+    whole = replace(train(drive, kinds=True), error=lengths_off(given))
     place = geometry(drive)
     slides = any(map(any, whole.slides))
     stand = standing(

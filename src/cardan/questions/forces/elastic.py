@@ -17,8 +17,8 @@ from cardan.maths.linear.systems import RANK, least_energy, surplus
 from cardan.texts import _, plural
 
 from .kinetostatics import Couples, KinematicState
-from .reactions import Frame, Load
-from .support_statics import HOLDS, WIDTH, Crosses, Hold, Layout, crosses, joint_gap, shaft_flexibility, stretches
+from .reactions import Frame, Load, arms_of
+from .support_statics import HOLDS, WIDTH, Crosses, Hold, Layout, joint_gap, shaft_flexibility, stretches
 
 KEYS: dict[Hold, str] = {"radial": "stiffness", "axial": "axial_stiffness", "tilt": "tilt_stiffness"}
 """Key of a support that says how stiff it holds."""
@@ -132,7 +132,7 @@ def elastic(
     housings, the gaps in the joints, and what the loads bend the shafts by.
     """
     xp = namespace(known)
-    off, _rate = gaps(whole, held, crosses(stand.axis, stand.driving_arm, stand.driven_arm))
+    off, _rate = gaps(whole, held, arms_of(whole, stand))
     joints = xp.reshape(off, (*off.shape[:-2], 3 * held.layout.joints))
     rest = xp.zeros((*off.shape[:-2], held.matrix.shape[-1] - joints.shape[-1]), dtype=xp.float64)
     gap = xp.concat((joints, rest), axis=-1) + housing_gap(whole, held)

@@ -26,7 +26,19 @@ from cardan.texts import _
 
 from .elastic import elastic, redundancy, refuse_soft
 from .kinetostatics import Couples, KinematicState, couples, resisted, standing, swinging
-from .reactions import Determinacy, Frame, Load, forces_of, frame, right_side, solved, thrusts, weights, whole_balance
+from .reactions import (
+    Determinacy,
+    Frame,
+    Load,
+    forces_of,
+    frame,
+    pushes,
+    right_side,
+    solved,
+    thrusts,
+    weights,
+    whole_balance,
+)
 from .turn_loads import turns
 
 __all__ = ["Forces", "forces", "kinetostatics"]
@@ -220,7 +232,6 @@ def _moving(
     drive: Drive, whole: Train, duty: Duty, angle: Array, movement: Movement | Sequence[Movement] | Path
 ) -> Forces:
     """Return the forces while the points move: the input turns evenly meanwhile."""
-    refuse_kinds(drive, _("forces while the points move"), "moving forces")
     if duty.speed is None or duty.speed == 0.0:
         raise refuse(
             "duty.speed", _("missing; how fast the axes move counts only beside how fast the shafts turn"), "missing"
@@ -241,6 +252,7 @@ def _moving(
         start_phase=drive.input.start_phase,
         start=start,
         normal=place.normal[0],
+        kinds=drive.joints,
     )
     _refuse_locked(whole, np.asarray(found.shafts.joint_angle))
     stand = swinging(found.axes, found.spins)
@@ -453,7 +465,7 @@ def forces_from(
     if whole.bearings:
         held = frame(whole, stand, points)
         equations, unknowns = held.equations, held.unknowns
-        loads = weights(whole, held, stand, acceleration)
+        loads = [*pushes(whole, held, stand, found), *weights(whole, held, stand, acceleration)]
         known = right_side(held, found.secondary, loads, push)
         amounts, status = _amounts(
             whole, held, known, field, lambda: elastic(whole, held, stand, found, loads, push, known)

@@ -144,6 +144,7 @@ def _stand(axis: Array, rate: Array | None, curve: Array | None, spins: Spins) -
         acceleration=spins.spin_acceleration,
         driving_arm=spins.driving_arm,
         driven_arm=spins.driven_arm,
+        way=spins.way,
     )
 
 

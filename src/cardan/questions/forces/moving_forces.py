@@ -11,7 +11,6 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
@@ -194,7 +193,6 @@ def moving_forces(
     >>> print(f"{found.extreme(found.forces.bending_couple[1]).high:.1f} N·m")
     22.7 N·m
     """
-    refuse_kinds(drive, _("forces while the points move"), "moving forces")
     used = drive.duty if duty is None else duty
     moves = drive.movements if movements is None else tuple(movements)
     if not moves:

@@ -18,9 +18,10 @@ from cardan.drive.models.machine_held import machine_held
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import frames
 from cardan.maths.linear.systems import RANK, broadcast_shapes, solve_regular, surplus
+from cardan.questions.motion.moving_chain import seen
 
 from .kinetostatics import Couples, KinematicState, standing, swing_need
-from .support_statics import Actions, Layout, actions, balance, crosses, sliding
+from .support_statics import Actions, Crosses, Layout, actions, balance, crosses, sliding
 
 
 class Determinacy(IntEnum):
@@ -84,11 +85,7 @@ def frame(train: Train, stand: KinematicState, points: Array) -> Frame:
     place = xp.broadcast_to(position[..., None, :], (*outer, position.shape[-1]))
     acting = actions(stand.axis, length, layout, place, _cut(train))
     rows = balance(acting)
-    free = (
-        sliding(layout, crosses(stand.axis, stand.driving_arm, stand.driven_arm))
-        if any(map(any, layout.slides))
-        else None
-    )
+    free = sliding(layout, arms_of(train, stand)) if any(map(any, layout.slides)) else None
     if free is not None:
         outer = broadcast_shapes(rows.shape[:-2], free.shape[:-2])
         rows = xp.concat(
@@ -96,6 +93,17 @@ def frame(train: Train, stand: KinematicState, points: Array) -> Frame:
             axis=-2,
         )
     return Frame(layout=layout, acting=acting, matrix=rows, points=points)
+
+
+def arms_of(train: Train, stand: KinematicState) -> Crosses:
+    """Return the arms of the crosses of a train, of other joints the directions in which they may slide."""
+    return crosses(
+        stand.axis,
+        stand.driving_arm,
+        stand.driven_arm,
+        crossed=train.crossed,
+        speed=stand.speed / stand.speed[..., :1],
+    )
 
 
 def _cut(train: Train) -> Array | None:
@@ -143,6 +151,33 @@ def weights(train: Train, frame: Frame, stand: KinematicState, acceleration: Arr
             force = train.cross_mass[..., None, i, None] * pull
             loads.append(Load(shaft=i, force=force, place=frame.acting.length[..., i]))
     return loads
+
+
+def pushes(train: Train, frame: Frame, stand: KinematicState, couples: Couples) -> list[Load]:
+    """Return the forces that loose joints put on their shafts with their couples, at the joints."""
+    return [load for i in range(train.joints) for load in push_of(train, frame, stand, i, couples.driven[..., i, :])]
+
+
+def push_of(train: Train, frame: Frame, stand: KinematicState, i: int, couple: Array) -> list[Load]:
+    """Return the forces that joint i puts on its shafts with a couple (..., p, 3) [N·m]; none where it is not loose."""
+    if not train.kinds or not train.kinds[i].loose:
+        return []
+    before, after = stand.axis[..., i, :], stand.axis[..., i + 1, :]
+    normal, aside, theta, alpha = seen(stand.driving_arm[..., i, :], before, after, _plane(train, i))
+    size = train.kinds[i].push(theta, alpha)
+    if size is None:
+        return []
+    torque = frames.dot(couple, after + 0.0 * couple)
+    force = torque[..., None] * sum(size[..., k, None] * way for k, way in enumerate((before, aside, normal)))
+    length = frame.acting.length[..., i]
+    return [
+        Load(shaft=i, force=-force, place=length, behind=True),
+        Load(shaft=i + 1, force=force, place=0.0 * length, behind=False),
+    ]
+
+
+def _plane(train: Train, i: int) -> Array | None:
+    return None if train.normal is None else train.normal[..., None, i, :]
 
 
 def thrusts(train: Train, stand: KinematicState, couples: Couples, sense: Array | None = None) -> Array:

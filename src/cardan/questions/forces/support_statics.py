@@ -6,7 +6,7 @@ couples across. Each is an action: a force and a couple on one shaft or, in a jo
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -30,8 +30,8 @@ class Layout:
     joints: int  # number of joints n
     # tuple of (int, tuple of Hold): shaft of each bearing, counted from 0, and what it holds
     bearings: tuple[tuple[int, tuple[Hold, ...]], ...]
-    # per joint, whether the cross slides along the driving and the driven journals; empty when none does
-    slides: tuple[tuple[bool, bool], ...] = ()
+    # per joint, along which of the directions of `Crosses` no force acts; empty when along none
+    slides: tuple[tuple[bool, ...], ...] = ()
     splines: tuple[int, ...] = ()  # shafts with a spline that slides, counted from 0
 
     @property
@@ -179,6 +179,9 @@ class Crosses:
     driven: Array  # (..., n, 3)
     driving_rate: Array  # driving_rate, driven_rate (..., n, 3) [1/rad]: their derivatives by φ_1
     driven_rate: Array  # (..., n, 3) [1/rad]
+    # (..., n, 3): a direction across both, and its derivative [1/rad], where a joint is loose there
+    across: Array | None = None
+    across_rate: Array | None = None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -190,10 +193,19 @@ class Misalignment:
     torque: Array  # (...) [N·m]: torque the input needs beside all others to turn against that energy, without friction
 
 
-def crosses(axis: Array, driving: Array, driven: Array) -> Crosses:
+def crosses(
+    axis: Array,
+    driving: Array,
+    driven: Array,
+    *,
+    crossed: Sequence[bool] = (),
+    speed: Array | None = None,
+) -> Crosses:
     """Return the arms of the crosses with their rates.
 
     axis (..., n+1, 3): directions e_i of the shafts; driving, driven (..., n, 3): arms u_i and v_{i+1}.
+    crossed (n): which joints are crosses; all of them when empty. Others slide along e_i, u_i and e_i×u_i.
+    speed (..., n+1): ω_i/ω_1, where a joint is none.
     An arm turns with its shaft: u_i' = (ω_i/ω_1) e_i×u_i; ω_{i+1}/ω_i = (e_i·e_{i+1})/|e_{i+1}×u_i|².
     """
     xp = namespace(axis, driving)
@@ -204,12 +216,20 @@ def crosses(axis: Array, driving: Array, driven: Array) -> Crosses:
     ratio = [xp.ones_like(step[..., 0])]
     for i in range(step.shape[-1]):
         ratio.append(ratio[-1] * step[..., i])
-    speed = xp.stack(ratio, axis=-1)[..., None]
+    turned = xp.stack(ratio, axis=-1)[..., None] if all(crossed) or speed is None else speed[..., None]
+    swept = turned[..., :-1, :] * frames.cross(before, driving)
+    behind = turned[..., 1:, :] * frames.cross(after, driven)
+    if all(crossed):
+        return Crosses(driving=driving, driven=driven, driving_rate=swept, driven_rate=behind)
+    cross = xp.asarray(crossed)[:, None]
+    third, turning = frames.cross(before, driving), frames.cross(before, swept)
     return Crosses(
-        driving=driving,
-        driven=driven,
-        driving_rate=speed[..., :-1, :] * frames.cross(before, driving),
-        driven_rate=speed[..., 1:, :] * frames.cross(after, driven),
+        driving=xp.where(cross, driving, before),
+        driven=xp.where(cross, driven, driving),
+        driving_rate=xp.where(cross, swept, 0.0),
+        driven_rate=xp.where(cross, behind, swept),
+        across=third,
+        across_rate=turning,
     )
 
 
@@ -242,11 +262,12 @@ def sliding(layout: Layout, arms: Crosses, *, rate: bool = False) -> Array | Non
     """
     xp = namespace(arms.driving)
     count = len(layout.unknowns)
-    pairs = (arms.driving_rate, arms.driven_rate) if rate else (arms.driving, arms.driven)
+    rates = arms.driving_rate, arms.driven_rate, arms.across_rate
+    pairs = rates if rate else (arms.driving, arms.driven, arms.across)
     rows = []
     for i, free in enumerate(layout.slides):
-        for slides, arm in zip(free, pairs, strict=True):
-            if slides:
+        for slides, arm in zip(free, pairs, strict=False):
+            if slides and arm is not None:
                 none = 0.0 * arm[..., 0, :1]
                 before = xp.zeros(3 * i, dtype=xp.float64) + none
                 after = xp.zeros(count - 3 * i - 3, dtype=xp.float64) + none

@@ -260,8 +260,11 @@ def _remarks(drive: Drive, result: Life, loose: tuple[str, ...]) -> Iterator[Rem
     yield from _conditions(result)
     yield _vibration(drive, result)
     yield from _cautions(result)
-    if result.uncounted:
-        keys = ", ".join(spelled(one.field) for one in result.uncounted)
+    for one in result.uncounted:
+        if not one.key:
+            yield Remark(text=say(_("Not counted: {message}."), message=one.message))
+    if any(one.key for one in result.uncounted):
+        keys = ", ".join(spelled(one.field) for one in result.uncounted if one.key)
         text = _("Warning: some joints are not rated; the file lacks {keys}.")
         yield Remark(text=say(text, keys=keys), tone="warning")
     if len(result.parts) > 1:

@@ -12,7 +12,7 @@ from cardan.drive.conditions import LoadCase
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.dynamics_model import Train
-from cardan.drive.models.kinematics_model import Chain
+from cardan.drive.models.kinematics_model import Chain, as_given, turning
 from cardan.errors import Problem, check
 from cardan.formulas.joint_rating import POWER
 from cardan.maths.arrays import Array
@@ -72,11 +72,7 @@ def bearing_loads(
     joint_angles = [part.joint_angle for part in parts]
     for joint_angle in dict.fromkeys(joint_angles):
         own = [k for k, one in enumerate(joint_angles) if one == joint_angle]
-        chain = (
-            machine.chain
-            if joint_angle is None
-            else replace(machine.chain, joint_angle=np.full(len(drive.joints), joint_angle))
-        )
+        chain = machine.chain if joint_angle is None else _bent(drive, machine.chain, joint_angle)
         model = _model(drive, machine, duty, chain, [parts[k] for k in own])
         still = model
         if drawn is not None and drawn is not machine:
@@ -88,6 +84,12 @@ def bearing_loads(
     return BearingLoads(
         **{name: np.stack([getattr(one, name) for one in rows]) for name in BearingLoads.__dataclass_fields__}
     )
+
+
+def _bent(drive: Drive, chain: Chain, joint_angle: float) -> Chain:
+    """Return a chain with all its joints at one joint angle [rad], its planes and yokes as they are."""
+    own = as_given(chain, drive.joints)
+    return turning(replace(own, joint_angle=np.full(len(drive.joints), joint_angle)), drive.joints, near=True)
 
 
 def _model(drive: Drive, machine: Train, duty: Duty, chain: Chain, parts: Sequence[LoadCase]) -> Model:
@@ -163,9 +165,10 @@ def _of_chain(flow: _Flow) -> list[BearingLoads]:
         moved, couple, entering, beside = flow.at(angle)
         load, torque = (_mean_power(one / size[..., None], beside / size[..., None]) for one in (couple, entering))
         mean = entering * moved.shaft_ratio[..., :-1, :]
+        # in a joint of another kind no cross swings
         parts = (
-            np.abs(moved.cross_driving_rate) * load,
-            np.abs(moved.cross_driven_rate) * load,
+            np.nan_to_num(np.abs(moved.cross_driving_rate)) * load,
+            np.nan_to_num(np.abs(moved.cross_driven_rate)) * load,
             np.where(swung[..., None], torque, mean),
         )
         return np.concatenate([np.broadcast_to(part, (cases, n, angle.shape[-1])) for part in parts], axis=-2)

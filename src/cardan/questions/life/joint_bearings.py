@@ -20,6 +20,7 @@ class Missing:
 
     field: str
     message: str
+    key: bool = True  # whether a key is missing; else the kind of the joint has no such life
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -59,18 +60,25 @@ def joint_bearings(drive: Drive) -> tuple[JointBearings, tuple[Missing, ...]]:
     assumed: list[str] = []
     missing: list[Missing] = []
     for i, joint in enumerate(drive.joints):
-        row, found = _figures(joint)
+        why = joint.refusal("life")
+        row, found = ([float("nan")] * 5, []) if why else _figures(joint)
         rows.append(row)
         assumed += [f"joints[{i}].needles.{name}" for name in found]
         rating = joint.rating
-        convention.append(rating.convention if rating is not None and rating.torque is not None else "")
-        missing += _lacking(joint, i, row)
+        convention.append(rating.convention if rating is not None and rating.torque is not None and not why else "")
+        missing += [_told_by_none(i, why)] if why else _lacking(joint, i, row)
     table = np.asarray(rows, dtype=float).T
     names = ("span", "capacity", "static_capacity", "rating", "critical_swing")
     bearings = JointBearings(
         **dict(zip(names, table, strict=True)), convention=tuple(convention), assumed=tuple(assumed)
     )
     return bearings, tuple(missing)
+
+
+def _told_by_none(i: int, why: str) -> Missing:
+    """Return why the life of a joint is not told."""
+    text = _("the life of joint {number} is not told: {why}")
+    return Missing(field=f"joints[{i}].kind", message=text.format(number=i + 1, why=why), key=False)
 
 
 def _figures(joint: Joint) -> tuple[list[float], list[str]]:

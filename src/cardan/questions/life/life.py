@@ -13,7 +13,6 @@ from cardan.drive.conditions import Condition, LoadCase, in_poses, load_cases, u
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.dynamics_model import train
-from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.errors import Problem, check, refuse
 from cardan.formulas.joint_rating import POWER, book_life, lasting, nominal_torque
 from cardan.maths.arrays import Array
@@ -79,7 +78,6 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
     simple 1259.9 h
     book 1015.0 h
     """
-    refuse_kinds(drive, _("bearing life"), "life")
     whole = drive if duty is None else replace(drive, duty=duty)
     used = whole.duty
     if method is not None and method not in METHODS:
@@ -110,7 +108,7 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
         history=history,
         cycles=cycles,
         uncounted=missing,
-        assumed=(*bearings.assumed, *train(drive).assumed),
+        assumed=(*bearings.assumed, *train(drive, kinds=True).assumed),
         worst_pose=(rows[0].pose or _("as drawn")) if unknown else "",
         moving=any(one.moving for one in stands),
         vibration=tuple(row.vibration for row in rows),
@@ -149,7 +147,7 @@ def _bound(drive: Drive, pose: str) -> bool:
 
 def _rows(stand: Condition, bearings: JointBearings, factor: float) -> Iterator[_Row]:
     """Yield what every part of the duty does in a pose: as drawn there, or over the movements in which it acts."""
-    drive, machine = stand.drive, train(stand.drive)
+    drive, machine = stand.drive, train(stand.drive, kinds=True)
     every, asked, history, _cycles = duty_parts(drive.duty)
     own = [part for part in every if part.pose == stand.pose or (not part.pose and stand.share != 0.0)]
     for movement in dict.fromkeys(part.movement for part in own):
@@ -261,6 +259,7 @@ def _lives(loads: BearingLoads, bearings: JointBearings, speed: Array, shock: Ar
     """Return the lives of every joint in every part by every method, arrays (b, n) [s]; speeds, shocks (b, 1)."""
     whole = factor * MILLION * 2.0 * math.pi / speed
     strength = (bearings.span * bearings.capacity / shock) ** POWER
+    rated = np.isfinite(strength)
     mean = (np.abs(loads.torque)) ** POWER * 2.0 * loads.joint_angle / math.pi
     maker = np.full(loads.joint_angle.shape, np.nan)
     for i, convention in enumerate(bearings.convention):
@@ -275,9 +274,9 @@ def _lives(loads: BearingLoads, bearings: JointBearings, speed: Array, shock: Ar
     own = np.asarray([convention == "book" for convention in bearings.convention])
     nominal = np.where(own, bearings.rating, nominal_torque(bearings.capacity, 0.5 * bearings.span))
     return {
-        "driving": lasting(whole * strength, loads.driving),
-        "driven": lasting(whole * strength, loads.driven),
-        "simple": lasting(whole * strength, mean),
+        "driving": np.where(rated, lasting(whole * strength, loads.driving), np.nan),
+        "driven": np.where(rated, lasting(whole * strength, loads.driven), np.nan),
+        "simple": np.where(rated, lasting(whole * strength, mean), np.nan),
         "maker": factor * maker,
         "book": factor * book_life(nominal, loads.torque, speed=speed, joint_angle=loads.joint_angle, shock=shock),
     }

@@ -266,6 +266,10 @@ def torque_flow(
         xp.sin(moved.yoke_rotation), xp.cos(moved.yoke_rotation), moved.joint_angle[..., None]
     )
     cos_driving, cos_driven = (1.0 / xp.sqrt(1.0 + lean * lean) for lean in (lean_driving, lean_driven))
+    if moved.crossed and not all(moved.crossed):  # couples of other kinds count by their part about the driving shaft
+        cross = xp.asarray(moved.crossed)[:, None]
+        step = moved.shaft_ratio[..., 1:, :] / moved.shaft_ratio[..., :-1, :]
+        cos_driving, cos_driven = xp.where(cross, cos_driving, 1.0), xp.where(cross, cos_driven, 1.0 / step)
     driving, driven = drag[..., None] * lean_driving, drag[..., None] * lean_driven
     way = sense if isinstance(sense, float | int) else xp.asarray(sense)[..., None]
     own = xp.zeros_like(moved.shaft_ratio) if drawn is None else drawn

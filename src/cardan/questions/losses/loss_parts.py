@@ -11,12 +11,11 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.dynamics_model import Train, place_of, train
-from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.questions.forces.kinetostatics import KinematicState, standing
-from cardan.questions.forces.reactions import Frame, Load, forces_of, frame, right_side, solved, weights
+from cardan.questions.forces.reactions import Frame, Load, forces_of, frame, push_of, right_side, solved, weights
 from cardan.questions.motion.articulation import articulation
 from cardan.texts import _
 
@@ -47,12 +46,11 @@ class Parts:
 
 def counted(drive: Drive, duty: Duty) -> tuple[Parts, tuple[Uncounted, ...]]:
     """Return what can be counted, and what cannot; refuse a drive of which nothing can."""
-    refuse_kinds(drive, _("losses"), "losses")
     try:
-        machine, short = train(drive), []
+        machine, short = train(drive, kinds=True), []
     except InputError as error:
         machine, short = (
-            train(replace(drive, supports=())),
+            train(replace(drive, supports=()), kinds=True),
             [Uncounted(field=p.field, message=p.message, part="supports", missing=False) for p in error.problems],
         )
     rub, supports = _supports(drive, machine, short)
@@ -72,7 +70,10 @@ def counted(drive: Drive, duty: Duty) -> tuple[Parts, tuple[Uncounted, ...]]:
     if duty.torque is None:
         problems.append(Problem("duty.torque", _("missing; friction grows with the torque"), "missing"))
     if len(joints) == len(drive.joints) and not np.any(rub) and not np.any(grip * slide):
-        problems += [Problem(one.field, one.message) for one in uncounted]
+        # what can be added is told; why a kind has none only where nothing can be
+        problems += [Problem(one.field, one.message) for one in uncounted if one.missing or one.part == "supports"] or [
+            Problem(one.field, one.message, "unknown_kind") for one in uncounted
+        ]
     check(problems)
     return Parts(train=machine, rub=rub, grip=grip, slide=slide), uncounted
 
@@ -80,6 +81,12 @@ def counted(drive: Drive, duty: Duty) -> tuple[Parts, tuple[Uncounted, ...]]:
 def _joints(drive: Drive) -> Iterator[Uncounted]:
     """Yield the joints whose friction is not known."""
     for i, joint in enumerate(drive.joints):
+        why = joint.refusal("losses")
+        if why:
+            text = _("the power loss of joint {number} is not counted: {why}")
+            message = text.format(number=i + 1, why=why)
+            yield Uncounted(field=f"joints[{i}].kind", message=message, part="joints", number=i + 1, missing=False)
+            continue
         if joint.friction is None and joint.material_friction is None:
             key = "friction"
         elif joint.cross is None or joint.cross.span is None:
@@ -219,7 +226,13 @@ def response(train: Train, drag: Array, angle: Array) -> Response:
     stand, held = _held(train, np.reshape(angle, -1))
     e, u, v = stand.axis, stand.driving_arm, stand.driven_arm
     slip = np.sign(frames.dot(u, e[..., 1:, :]))[..., None] * u - np.sign(frames.dot(v, e[..., :-1, :]))[..., None] * v
-    couples = frames.cross(u, v), -drag[:, None] * slip
+    normal = np.stack([stand.couple_way(i) for i in range(n)], axis=-2)
+    if (
+        train.chain.laws is not None
+    ):  # those of other kinds count by their part about the driving shaft, see `torque_flow`
+        along = frames.dot(normal, e[..., :-1, :])
+        normal = normal / np.where(train.chain.laws.own, along, 1.0)[..., None]
+    couples = normal, -drag[:, None] * slip
 
     def solved_for(across: Array, loads: list[Load]) -> Array:
         none = np.zeros((*across.shape[:-2], len(train.splines)))
@@ -228,7 +241,11 @@ def response(train: Train, drag: Array, angle: Array) -> Response:
         return found
 
     still = np.zeros((angle.size, n + 1, 3))
-    parts = [np.stack([solved_for(_across(e, one, i), []) for i in range(n)], axis=-3) for one in couples]
+    pushed = [push_of(train, held, stand, i, normal[..., i, :]) for i in range(n)]
+    parts = [
+        np.stack([solved_for(_across(e, one, i), pushed[i] if one is normal else []) for i in range(n)], axis=-3)
+        for one in couples
+    ]
     return Response(weight=solved_for(still, weights(train, held, stand, None)), pull=parts[0], rub=parts[1])
 
 

@@ -13,7 +13,6 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.ranges import range_problems
 from cardan.drive.fields.validity import movement_problems
 from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.kinematics_model import refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.errors import InputError, JointAngleLimitError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
@@ -191,7 +190,6 @@ def articulation(
     >>> round(float(found.joint_angle.max() / deg), 6), bool(found.speed_fluctuation.max() < 1e-14)
     (20.0, True)
     """
-    refuse_kinds(drive, _("motion while the points move"), "articulation")
     path, at, start, chosen, moves = _plan(drive, movement, times, until)
     place = geometry(drive)
     omega = drive.duty.speed if speed is None else speed

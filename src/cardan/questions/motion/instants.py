@@ -9,8 +9,9 @@ from enum import IntEnum
 import numpy as np
 
 from cardan.drive.drive import Drive
+from cardan.drive.joints import Joint
 from cardan.drive.models.geometry import Geometry, geometry_from_points
-from cardan.drive.models.kinematics_model import Chain, turning
+from cardan.drive.models.kinematics_model import Chain, turning, unmapped
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.curves.paths import Jet, Path
@@ -111,7 +112,7 @@ class Question:
             yoke_angle=gamma,
             start_phase=np.asarray(self.drive.input.start_phase),
         )
-        even = tuple(joint.even for joint in self.drive.joints)
+        kinds = self.drive.joints
         with np.errstate(invalid="ignore", divide="ignore"):
             shafts = moving_shafts(jet)
             motion = self._motion(times, gamma, self.speed) if yokes and self.speed is not None else None
@@ -119,9 +120,9 @@ class Question:
             if self.speed is not None:
                 axes = (shafts.axis, shafts.axis_rate, shafts.axis_acceleration)
                 omega = self.speed + self.acceleration * (times - self.start)
-                speeds = speed_range(axes, yoke_angle=gamma, speed=omega, even=even)
+                speeds = speed_range(axes, yoke_angle=gamma, speed=omega, kinds=kinds)
                 gains = acceleration_range(
-                    axes, yoke_angle=gamma, speed=omega, acceleration=self.acceleration, even=even
+                    axes, yoke_angle=gamma, speed=omega, acceleration=self.acceleration, kinds=kinds
                 )
         steep = np.any(frozen.joint_angle > [joint.steepest for joint in self.drive.joints], axis=-1)
         status = np.where(impossible, Position.IMPOSSIBLE, np.where(steep, Position.STEEP, Position.FINE))
@@ -135,13 +136,22 @@ class Question:
             shafts=shafts,
             joint_angle=held(frozen.joint_angle),
             plane_twist=held(np.unwrap(frozen.plane_twist, axis=0)),
-            shaft_speed_fluctuation=held(equivalent_joint(turning(chain, self.drive.joints)).shaft_speed_fluctuation),
+            shaft_speed_fluctuation=held(self._fluctuation(chain, shafts.axis)),
             shaft_speed=None if motion is None else held(motion.spins.spin),
             shaft_acceleration=None if motion is None else held(motion.spins.spin_acceleration),
             speed_range=None if speeds is None else (held(speeds[0]), held(speeds[1])),
             acceleration_range=None if gains is None else (held(gains[0]), held(gains[1])),
             status=status,
         )
+
+    def _fluctuation(self, chain: Chain, axis: Array) -> Array:
+        """Return δ of every shaft behind a joint with the axes at rest where they are, array (t, n)."""
+        joints = self.drive.joints
+        if not unmapped(joints):
+            return np.asarray(equivalent_joint(turning(chain, joints)).shaft_speed_fluctuation)
+        still = np.zeros_like(axis)
+        low, high = speed_range((axis, still, still), yoke_angle=chain.yoke_angle, speed=1.0, kinds=joints)
+        return np.asarray(high - low)[..., 1:]
 
     def _motion(self, times: Array, gamma: Array, speed: float) -> MovingMotion:
         return moving_centres(
@@ -153,7 +163,7 @@ class Question:
             start_phase=self.drive.input.start_phase,
             start=self.start,
             normal=self.place.normal[0],
-            even=tuple(joint.even for joint in self.drive.joints),
+            kinds=self.drive.joints,
         )
 
 
@@ -184,21 +194,28 @@ def _straight(points: Array) -> Array:
 SAMPLES = 64
 """Yoke positions among which the largest acceleration is looked for before Newton's steps."""
 
+PLACES = 60
+"""Positions of a turn looked at where a joint turns by a law without a Möbius map."""
+
 
 def speed_range(
-    axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike, even: Sequence[bool] = ()
+    axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike, kinds: Sequence[Joint] = ()
 ) -> tuple[Array, Array]:
     """Return the lowest and highest spin of every shaft over all yoke positions, at each instant, exactly.
 
     axes (..., n+1, 3): directions of the shafts and their rates [1/s]; accelerations do not matter.
     yoke_angle (n-1,) [rad]: γ_2 … γ_n; speed (...) [rad/s]: ω_1.
-    even: which joints pass on the turn evenly; none of them when empty.
+    kinds: the joints; crosses of Hooke joints when empty.
     Returns low, high (..., n+1) [rad/s].
     Three angles fix N = ω_i Q and Q; the extremes λ of N/Q are where N - λ Q touches zero:
-    λ² - 2⟨N,Q⟩λ + ⟨N,N⟩ = 0 with ⟨x,y⟩ = x_0 y_0 - x_1 y_1 - x_2 y_2 and ⟨Q,Q⟩ = 1.
+    λ² - 2⟨N,Q⟩λ + ⟨N,N⟩ = 0 with ⟨x,y⟩ = x_0 y_0 - x_1 y_1 - x_2 y_2 and ⟨Q,Q⟩ = 1. Where a joint has no Möbius map
+    the extremes are those of `PLACES` positions of a turn.
     """
     xp = namespace(axes[0])
-    found, theta = _around(axes, yoke_angle, speed, 0.0, 3, even)
+    if unmapped(kinds):
+        spin = np.asarray(_around(axes, yoke_angle, speed, 0.0, PLACES, kinds, period=2.0 * np.pi)[0].spin)
+        return np.min(spin, axis=-2), np.max(spin, axis=-2)
+    found, theta = _around(axes, yoke_angle, speed, 0.0, 3, kinds)
     lower = 1.0 / found.frozen_ratio
     upper = found.spin * lower
     parts = xp.stack((xp.full((3,), 1.0 / 3.0), xp.cos(2.0 * theta) / 1.5, xp.sin(2.0 * theta) / 1.5))
@@ -212,18 +229,21 @@ def speed_range(
 
 
 def acceleration_range(
-    axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike, acceleration: ArrayLike = 0.0, even: Sequence[bool] = ()
+    axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike, acceleration: ArrayLike = 0.0, kinds: Sequence[Joint] = ()
 ) -> tuple[Array, Array]:
     """Return the lowest and highest spin acceleration of every shaft over all yoke positions, at each instant.
 
     axes (..., n+1, 3): directions of the shafts, their rates [1/s] and accelerations [1/s²].
     yoke_angle (n-1,) [rad]: γ_2 … γ_n; speed, acceleration (...) [rad/s, rad/s²]: ω_1, ε_1.
-    even: which joints pass on the turn evenly; none of them when empty.
+    kinds: the joints; crosses of Hooke joints when empty.
     Returns low, high (..., n+1) [rad/s²].
     P = ε_i Q² has orders 0, 2 and 4 of θ: five angles fix it. The extremes of P/Q², found among `SAMPLES` yoke
     positions, are sharpened by Newton's steps on P'Q - 2PQ' = 0, down to rounding.
     """
-    found, theta = _around(axes, yoke_angle, speed, acceleration, 5, even)
+    if unmapped(kinds):
+        gain = _around(axes, yoke_angle, speed, acceleration, PLACES, kinds, period=2.0 * np.pi)[0].spin_acceleration
+        return np.min(np.asarray(gain), axis=-2), np.max(np.asarray(gain), axis=-2)
+    found, theta = _around(axes, yoke_angle, speed, acceleration, 5, kinds)
     order = np.asarray([0.0, 2.0, 2.0, 4.0, 4.0])[:, None]
     basis = _waves(theta, 5)
     weights = np.where(order == 0.0, 0.2, 0.4)
@@ -241,12 +261,19 @@ def acceleration_range(
 
 
 def _around(
-    axes: Jet, yoke_angle: ArrayLike, speed: ArrayLike, acceleration: ArrayLike, count: int, even: Sequence[bool]
+    axes: Jet,
+    yoke_angle: ArrayLike,
+    speed: ArrayLike,
+    acceleration: ArrayLike,
+    count: int,
+    kinds: Sequence[Joint],
+    *,
+    period: float = np.pi,
 ) -> tuple[Spins, Array]:
-    """Return the spins (..., count, n+1) at equal steps of half a turn of the input, and its angles (count,)."""
+    """Return the spins (..., count, n+1) at equal steps of a period of the input, and its angles (count,)."""
     a = axes[0]
     xp = namespace(a)
-    theta = xp.arange(count, dtype=xp.float64) * (xp.pi / count)
+    theta = xp.arange(count, dtype=xp.float64) * (period / count)
     arms = frames.rotate(frames.perpendicular(a[..., 0, :])[..., None, :], a[..., 0, None, :], theta)
     one = xp.ones_like(a[..., 0, 0])
     found = moving_axes(
@@ -255,7 +282,7 @@ def _around(
         yoke_angle=yoke_angle,
         speed=(real(speed, xp) * one)[..., None],
         acceleration=(real(acceleration, xp) * one)[..., None],
-        even=even,
+        kinds=kinds,
     )
     return found, theta
 

@@ -1,0 +1,209 @@
+"""Every kind of joint × every question: as first and as second joint of a spatial drive that turns, carries and moves.
+
+What is left is refused with a sentence of mechanics: of the joint itself, never of the whole drive because of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan import Drive, InputError, articulation, example, forces, losses, moving_forces
+from cardan.drive.joints import JOINTS
+from cardan.io.drive_file import loads
+from cardan.questions.accuracy.tolerance import tolerance
+from cardan.questions.forces.assembly import assembly
+from cardan.questions.life.life import life
+from cardan.questions.motion.motion import motion
+
+SIZES = {
+    "tripod": "track_radius_mm = 19",
+    "tracta": "driving_distance_mm = 30\ndriven_distance_mm = 33",
+    "double_cardan": "centring_ratio = 0.55",
+    "rzeppa": "lever_b = 0.35\nlever_c = 0.55",
+    "weiss": "driving_offset_mm = 4\ndriven_offset_mm = 4.4\ngroove_radius_mm = 30",
+    "offset_cross": "offset_mm = 5\nreach_mm = 200",
+    "elastic_half_cardan": "pairs = 3",
+    "pin_coupling": "driving_distance_mm = 50\ndriven_distance_mm = 60",
+    "clemens": "driving = {axial_mm = 50, radial_mm = 20, radius_mm = 60}\n"
+    "driven = {axial_mm = 50, radial_mm = 21, radius_mm = 60}",
+}
+"""Uneven where a kind can be."""
+
+CROSS = """kind = "hooke"
+friction = 0.05
+cross = {span_mm = 80, journal_mm = 20}
+needles = {capacity_kN = 20}
+tolerance = {alpha1_deg = 0.05, alpha2_deg = 0.05}
+error = {s1_mm = 0.1, a2_mm = 0.05}
+"""
+
+SLIDING = "[shafts.spline]\nfriction = 0.1\nmean_diameter_mm = 40\n"
+
+BEARING = "[[supports]]\nshaft = 2\nposition_mm = {}\nstiffness_N_per_um = 20\n"
+
+
+def drive_of(kind: str, first: bool) -> Drive:
+    """Return a drive with a joint of a kind beside a cross joint, held just enough."""
+    made = JOINTS[kind]
+    own = CROSS if kind == "hooke" else f'kind = "{kind}"\n{SIZES.get(kind, "")}\n'
+    one, other = (own, CROSS) if first else (CROSS, own)
+    spline = "" if made.slides or made.loose else SLIDING
+    bearing = BEARING.format(100 if first else 800) if made.loose else ""
+    return loads(f"""format = 1
+[input]
+point_mm = [-500, 0, 0]
+[output]
+point_mm = [1500, 40, -60]
+[[joints]]
+centre_mm = [0, 0, 0]
+{one}
+[[joints]]
+centre_mm = [900, 40, -60]
+{other}
+[[shafts]]
+number = 1
+inertia_kgm2 = 0.02
+[[shafts]]
+number = 2
+outer_mm = 60
+wall_mm = 3
+{spline}
+[[supports]]
+shaft = 1
+position_mm = -100
+stiffness_N_per_um = 20
+[[supports]]
+shaft = 1
+position_mm = -300
+axial = true
+stiffness_N_per_um = 20
+axial_stiffness_N_per_um = 20
+{bearing}
+[[supports]]
+shaft = 3
+position_mm = 100
+friction = 0.02
+bore_mm = 40
+stiffness_N_per_um = 20
+[[supports]]
+shaft = 3
+position_mm = 400
+axial = true
+friction = 0.02
+bore_mm = 40
+stiffness_N_per_um = 20
+axial_stiffness_N_per_um = 20
+[[movements]]
+kind = "harmonic"
+moves = ["joints[1]", "output"]
+amplitude_mm = [0, 0, 40]
+frequency_Hz = 2
+[duty]
+speed_rpm = 1200
+torque_Nm = 300
+""")
+
+
+EACH = [(kind, first) for kind in JOINTS for first in (True, False)]
+
+each = pytest.mark.parametrize(("kind", "first"), EACH, ids=[f"{k}-{'first' if f else 'second'}" for k, f in EACH])
+
+
+@each
+def test_losses_count_the_other_joints_and_balance(kind, first):
+    drive = replace(drive_of(kind, first), movements=())
+    found = losses(drive)
+    cross = 1 if first else 0
+    assert found.joints[cross] > 0.0
+    assert found.residual < 1e-9
+    assert 0.9 < found.efficiency < 1.0
+    told = {one.number: one.message for one in found.uncounted if one.part == "joints"}
+    assert kind == "hooke" or told[2 - cross]
+
+
+@each
+def test_tolerances_of_the_other_joints_are_bounded(kind, first):
+    drive = drive_of(kind, first)
+    found = tolerance(drive)
+    cross = 1 if first else 0
+    assert found.output.largest > 0.0
+    assert {one.joint for one in found.output.contributions} >= {cross + 1}
+
+
+@each
+def test_life_is_that_of_the_other_joints(kind, first):
+    drive = replace(drive_of(kind, first), movements=())
+    found = life(drive)
+    lives = np.asarray(found.joints)
+    cross = 1 if first else 0
+    assert np.isfinite(lives[cross])
+    assert lives[cross] > 0.0
+    assert kind == "hooke" or np.isnan(lives[1 - cross])
+    assert np.isfinite(found.drive)
+
+
+@each
+def test_assembly_forces_follow(kind, first):
+    found = assembly(drive_of(kind, first))
+    assert found.residual < 1e-9
+    assert np.all(np.isfinite(found.joint_force))
+
+
+@each
+def test_forces_balance(kind, first):
+    drive = drive_of(kind, first)
+    joint = drive.joints[0 if first else 1]
+    if joint.refusal("forces"):
+        assert kind == "offset_cross"
+        with pytest.raises(InputError, match="wobbles"):
+            forces(drive)
+        return
+    found = forces(replace(drive, movements=()))
+    for left in (found.power_left, found.force_left, found.moment_left):
+        assert np.max(left) < 1e-12
+
+
+@pytest.mark.slow
+@each
+def test_forces_while_moving_balance(kind, first):
+    drive = drive_of(kind, first)
+    if drive.joints[0 if first else 1].refusal("forces"):
+        return
+    found = moving_forces(drive).forces
+    for left in (found.power_left, found.force_left, found.moment_left):
+        assert np.max(left) < 1e-11
+
+
+@pytest.mark.slow
+@each
+def test_a_movement_is_followed(kind, first):
+    drive = drive_of(kind, first)
+    found = articulation(drive, times=np.linspace(0.0, 0.5, 9))
+    assert np.all(np.isfinite(found.shaft_speed))
+    rest = float(np.ptp(motion(replace(drive, movements=())).ratio))
+    assert found.speed_fluctuation[0] == pytest.approx(rest, abs=0.01 * max(rest, 1e-3))
+
+
+def test_the_tables_of_a_torque_that_passes_a_joint_are_one():
+    """Torques of losses, written for crosses with friction, against those of forces, joint by joint, without it."""
+    for kind in JOINTS:
+        drive = replace(drive_of(kind, True), movements=())
+        if drive.joints[0].refusal("forces"):
+            continue
+        bare = replace(
+            drive, supports=(), joints=(drive.joints[0], replace(drive.joints[1], friction=1e-12)), shafts=()
+        )
+        found, other = losses(bare), forces(bare, angle=losses(bare).angle)
+        assert np.abs(found.input_torque - other.input_torque).max() < 1e-8 * 300.0
+
+
+def test_a_half_shaft_of_a_car_answers():
+    drive = example("front-halfshaft")
+    duty = replace(drive.duty, torque=600.0)
+    found = forces(replace(drive, duty=duty))
+    assert found.input_torque == pytest.approx(600.0)
+    bent = np.tan(0.5 * np.radians([6.0, 30.0])) * 600.0
+    assert np.asarray(found.bending_couple)[[0, 2], 0] == pytest.approx(bent)
