@@ -120,6 +120,40 @@ def answer_of_table(known: Catalogue, name: str) -> Answer:
     )
 
 
+def answer_of_search(known: Catalogue, words: str, found: Mapping[str, Sequence[Row]]) -> Answer:
+    """Return the rows in which words stand: those of one table as it is told, of several by name and source."""
+    if len(found) == 1:
+        ((name, rows),) = found.items()
+        if len(rows) == 1:
+            return answer_of_row(known, name, rows[0])
+        return answer_of_table(replace(known, tables={**known.tables, name: {row.id: row for row in rows}}), name)
+    every = [(name, row) for name, rows in found.items() for row in rows]
+    text = _("{words}: {count} rows in {tables} tables.")
+    return Answer(
+        name="catalogue",
+        title=_("Catalogue"),
+        sentence=text.format(words=words, count=len(every), tables=len(found)),
+        tables=(
+            Table(
+                name="rows",
+                records=True,
+                columns=(
+                    Column(key="table", heading=_("table"), values=[name for name, _row in every]),
+                    Column(key="id", heading=_("row"), values=[row.id for _name, row in every], left=True),
+                    Column(key="source", heading=_("source"), values=[row.source for _name, row in every], wrap=True),
+                ),
+            ),
+        ),
+        remarks=(
+            Remark(
+                text=_("One row with its source:"),
+                command=("cardan", "catalogue", every[0][0], every[0][1].id),
+                tone="next",
+            ),
+        ),
+    )
+
+
 def _looking(name: str) -> Reader:
     """Return who looks at a table, in its units where no others are chosen."""
     who = reader()

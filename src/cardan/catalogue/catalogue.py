@@ -6,7 +6,7 @@ import math
 import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from functools import cache, lru_cache
 from importlib.resources import files
@@ -22,7 +22,8 @@ from cardan.reading.scalar import nearest_of
 from cardan.reading.tree import Form, read_table
 from cardan.texts import _, language
 
-from .rows import TABLES, Grade, JointSize, Row, told
+from .rows import TABLES, Grade, JointSize, Row, row_tree, told
+from .sheets import tree_of
 
 R = TypeVar("R", bound=Row)
 
@@ -159,18 +160,16 @@ def catalogue() -> Catalogue:
 def with_files(base: Catalogue, paths: Iterable[str | Path]) -> Catalogue:
     """Return a catalogue with the rows of a user's files added; a row of theirs replaces a shipped one of its id.
 
-    paths: TOML files with the tables of the catalogue.
+    paths: TOML files with the tables of the catalogue; CSV files and workbooks as `cardan.catalogue.sheets` has them.
     Raises InputError: a file cannot be read, or holds what is no row; every problem at once.
     """
     tables = {name: dict(rows) for name, rows in base.tables.items()}
     problems: list[Problem] = []
     for path in paths:
         try:
-            text = Path(path).read_text(encoding="utf-8")
-            check_text(text, str(path), counts=False)
-            tree = tomllib.loads(text)
+            tree = _tree(Path(path))
         except InputError as error:
-            problems += error.problems
+            problems += [replace(one, field=one.field or str(path)) for one in error.problems]
             continue
         except OSError as error:
             problems.append(Problem(str(path), _("cannot be read: {why}").format(why=refusal(error))))
@@ -184,6 +183,15 @@ def with_files(base: Catalogue, paths: Iterable[str | Path]) -> Catalogue:
             tables.setdefault(name, {}).update(new)
     check(problems)
     return Catalogue(tables=tables)
+
+
+def _tree(path: Path) -> Mapping[str, Any]:
+    """Return the tables of a user's file."""
+    if path.suffix.lower() in (".csv", ".xlsx"):
+        return tree_of(path)
+    text = path.read_text(encoding="utf-8")
+    check_text(text, str(path), counts=False)
+    return tomllib.loads(text)
 
 
 def material(name: str, *, known: Catalogue | None = None) -> Material:
@@ -207,6 +215,28 @@ def material(name: str, *, known: Catalogue | None = None) -> Material:
         ultimate_strength=row.ultimate_strength,
         hardness=None if hardness is None else 0.5 * (hardness[0] + hardness[1]),
     )
+
+
+def found(known: Catalogue, words: str, only: str = "") -> dict[str, list[Row]]:
+    """Return the rows in whose names, uses, source or note all words stand, table by table.
+
+    only: a table that is searched alone.
+
+    >>> [row.id for row in found(catalogue(), "GWB 687.15")["joint_sizes"]]
+    ['gwb-687.15']
+    """
+    wanted = words.casefold().split()
+    hits = {}
+    for name in [only] if only else known.tables:
+        rows = [row for row in known.table(name, TABLES[name]).values() if _stands(wanted, row)]
+        if rows:
+            hits[name] = rows
+    return hits
+
+
+def _stands(wanted: Sequence[str], row: Row) -> bool:
+    text = str(list(row_tree(row).values())).casefold()
+    return all(word in text for word in wanted)
 
 
 # From the tables of a catalogue file to rows, every problem at once.

@@ -6,8 +6,15 @@ from pathlib import Path
 from typing import Annotated
 
 from cardan.answers.answer import Answer
-from cardan.catalogue.answer import answer, answer_of_file, answer_of_keys, answer_of_row, answer_of_table
-from cardan.catalogue.catalogue import Catalogue, with_files
+from cardan.catalogue.answer import (
+    answer,
+    answer_of_file,
+    answer_of_keys,
+    answer_of_row,
+    answer_of_search,
+    answer_of_table,
+)
+from cardan.catalogue.catalogue import Catalogue, found, with_files
 from cardan.catalogue.catalogue import catalogue as shipped
 from cardan.catalogue.rows import TABLES, Grade, Row
 from cardan.cli.shared.failure import about
@@ -21,10 +28,17 @@ from cardan.units import nearest
 
 
 def catalogue(
-    table: Annotated[str | None, argument("[TABLE]", _("A table; all of them are listed without one."))] = None,
-    row: Annotated[str | None, argument("[ID]", _("A row of the table; materials by any of their names."))] = None,
+    table: Annotated[
+        str | None,
+        argument("[TABLE]", _("A table, or a word to look for in all of them.")),
+    ] = None,
+    row: Annotated[
+        str | None,
+        argument("[ID]", _("A row of the table by any of its names, or a word in its rows.")),
+    ] = None,
     checked: Annotated[
-        Path | None, option("--check", "FILE", _("Check a catalogue file of your own, every problem at once."))
+        Path | None,
+        option("--check", "FILE", _("Check your own catalogue file (TOML, CSV, XLSX), every problem at once.")),
     ] = None,
     keys: Annotated[bool, flag("--keys", _("List the keys that a row of the table can have."))] = False,
     more: MoreRows = None,
@@ -43,10 +57,17 @@ def _asked(table: str | None, row: str | None, checked: Path | None, files: tupl
     known = with_files(shipped(), files) if files else shipped()
     if table is None:
         return answer(known)
+    if table not in TABLES and not keys:
+        hits = found(known, f"{table} {row or ''}")
+        if hits:
+            return answer_of_search(known, f"{table} {row or ''}".strip(), hits)
     name = _named(table)
     if keys:
         return answer_of_keys(name)
-    return answer_of_table(known, name) if row is None else answer_of_row(known, name, _row(known, name, row))
+    if row is None:
+        return answer_of_table(known, name)
+    hits = {} if row in known.table(name, TABLES[name]) or TABLES[name] is Grade else found(known, row, name)
+    return answer_of_search(known, row, hits) if hits else answer_of_row(known, name, _row(known, name, row))
 
 
 def _named(table: str) -> str:
