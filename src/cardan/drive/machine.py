@@ -65,7 +65,7 @@ class SpeedTorque(MachineTorque):
 
     def problems(self) -> Iterator[Problem]:
         """Yield what keeps the table from being one."""
-        yield from _table_problems("speeds", self.speeds, "torques", self.torques)
+        yield from table_problems("speeds", self.speeds, "torques", self.torques)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -82,9 +82,9 @@ class TorqueHistory(MachineTorque):
     def problems(self) -> Iterator[Problem]:
         """Yield what is wrong with the rows of the file, once they are read."""
         if self.times or self.torques:
-            for problem in _table_problems("times", self.times, "torques", self.torques):
+            for problem in table_problems("times", self.times, "torques", self.torques):
                 yield Problem("file", problem.message)
-            for problem in _table_problems("times", self.times, "speeds", self.speeds) if self.speeds else ():
+            for problem in table_problems("times", self.times, "speeds", self.speeds) if self.speeds else ():
                 yield Problem("file", problem.message)
 
 
@@ -122,7 +122,8 @@ LAWS: dict[str, type[MachineTorque]] = {
 """Value of the file key ``kind`` -> class."""
 
 
-def _table_problems(place: str, places: tuple[float, ...], name: str, values: tuple[float, ...]) -> Iterator[Problem]:
+def table_problems(place: str, places: tuple[float, ...], name: str, values: tuple[float, ...]) -> Iterator[Problem]:
+    """Yield what keeps two lists from being a table."""
     if not places:
         yield Problem(place, _("empty; a table has at least one row"))
     elif len(places) != len(values):

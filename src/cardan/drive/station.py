@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
+from cardan.errors import Problem
+from cardan.texts import _
 from cardan.units import plain, quantity
+
+from .machine import table_problems
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -15,6 +22,32 @@ class ToNext:
     damping: float | None = quantity("turning_damping", None, doc="torsional damping", low=0.0)
     loss_factor: float | None = plain(None, doc="structural damping η, in place of that of the shaft", low=0.0)
     backlash: float = quantity("angle", 0.0, doc="whole angular play", low=0.0)
+    twists: tuple[float, ...] = quantity(
+        "angle", (), doc="twists of a spring whose stiffness changes, rising; straight on beyond the ends"
+    )
+    torques: tuple[float, ...] = quantity("torque", (), doc="torques at these twists, rising")
+    friction: float = quantity(
+        "torque", 0.0, doc="dry friction beside the spring, half the width of its hysteresis", low=0.0
+    )
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield what contradicts itself in it, each with its field."""
+        if not self.twists and not self.torques:
+            return
+        if self.stiffness is not None:
+            yield Problem("stiffness", _("twists and torques give it already"))
+        if self.backlash:
+            yield Problem("backlash", _("twists and torques hold it: write a part with next to no torque"))
+        yield from table_problems("twists", self.twists, "torques", self.torques)
+        if len(self.twists) < 2:
+            yield Problem("twists", _("at least two are needed"))
+        elif any(two <= one for one, two in pairwise(self.torques)):
+            yield Problem("torques", _("do not rise; a spring that gives way holds nothing"))
+
+    def tangent(self, torque: float) -> float:
+        """Return the stiffness of the table at a torque [N·m/rad]."""
+        k = min(max(bisect_right(self.torques, torque) - 1, 0), len(self.torques) - 2)
+        return (self.torques[k + 1] - self.torques[k]) / (self.twists[k + 1] - self.twists[k])
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -409,6 +409,10 @@ def _order_problems(drive: Described, number: int, length: float | None) -> Iter
             other = _("the element to the next station is given at another station of this place")
             message = text.format(number=number) if place is places[-1] else other
             yield Problem(f"stations[{k}].to_next", message)
+    for k, one in enumerate(drive.stations):
+        if one.shaft == number and one.to_next is not None:
+            for problem in one.to_next.problems():
+                yield Problem(f"stations[{k}].to_next.{problem.field}", problem.message)
 
 
 def _twist_problems(drive: Described, shaft: Shaft, lengths: dict[int, float]) -> Iterator[Problem]:

@@ -476,6 +476,15 @@ def assumptions(train: TorsionalTrain, *, wide: bool = False) -> Iterator[Remark
                 "Pendulums count with small oscillations, without their stops; torsion simulate follows wide ones."
             )
         yield Remark(text=text)
+    for e, one in train.springs if not wide else ():
+        text = _("Dry friction in {name} does not count here; torsion simulate follows it.")
+        if one.twists:
+            text = _(
+                "The spring in {name} counts with its stiffness at the torque of the duty, {stiffness}, without dry "
+                "friction; torsion simulate follows its table."
+            )
+        stiffness = Quantity(float(np.ravel(train.model.stiffness[..., e])[0]), "turning_stiffness", 4)
+        yield Remark(text=say(text, name=train.elements[e], stiffness=stiffness))
     kinds = {
         "stiffness": _("rigid, for want of a stiffness or a body of known length: {shafts}"),
         "inertia": _("without inertia: {shafts}"),

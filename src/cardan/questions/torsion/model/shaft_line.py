@@ -32,6 +32,7 @@ class ShaftLine:
     damping: list[float]
     backlash: list[float]
     loss_factor: list[float]
+    springs: list[ToNext | None]  # of the elements that have a table or dry friction
     share: list[float]  # where the stations are, over the length of the shaft
     names: list[str]
     # list of N (float) [m]: where on the shaft the stations are that only part its body, as a file counts there; None
@@ -79,6 +80,7 @@ def _rigid(drive: Drive, shaft: Shaft, place: Place, length: float | None) -> Sh
         damping=[],
         backlash=[],
         loss_factor=[],
+        springs=[],
         share=[at_joint],
         names=[name],
         cuts=[None],
@@ -138,6 +140,7 @@ class _Elastic:
         damping: list[float] = []
         backlash: list[float] = []
         loss: list[float] = []
+        bent: list[ToNext | None] = []
         for k, spring in enumerate(springs):
             leading = self._leading(k)
             damper = (self.shaft.damping or 0.0) * spring / whole if whole else 0.0
@@ -147,6 +150,12 @@ class _Elastic:
             stiffness += [spring / share for share in shares]
             damping += [damper / share for share in shares]
             loss += [eta or 0.0] * len(shares)
+            own = leading if leading is not None and (leading.twists or leading.friction) else None
+            if own is not None and len(shares) > 1:
+                field = f"stations[{self.places[k].stations[0]}].to_next"
+                text = _("masses part it; a spring with a table or friction is one element")
+                self.problems.append(Problem(field, text))
+            bent += [own, *[None] * (len(shares) - 1)]
             play = [0.0 if leading is None else leading.backlash, *[0.0] * (len(shares) - 1)]
             if self.shaft.spline is not None and self.spline[0] == k:
                 play[self.spline[1]] += self.shaft.spline.backlash
@@ -160,6 +169,7 @@ class _Elastic:
             damping=damping,
             backlash=backlash,
             loss_factor=loss,
+            springs=bent,
             share=share,
             names=names,
             cuts=cuts,
@@ -203,6 +213,8 @@ class _Elastic:
         leading = self._leading(k)
         if leading is not None and leading.stiffness is not None:
             return leading.stiffness
+        if leading is not None and leading.twists:
+            return leading.tangent(self.drive.duty.torque or 0.0)
         begin, end = self.at[k], self.at[k + 1]
         known = begin is not None and end is not None
         if self.shaft.stiffness is not None:

@@ -12,7 +12,10 @@ coordinates are those of the drives, then any of positions or times; an array of
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from dataclasses import dataclass
+
+import numpy as np
 
 from cardan.maths.arrays import Array, namespace
 
@@ -193,7 +196,49 @@ def element_torques(model: TorsionalModel, q: Array, rate: Array, time: Array = 
 
 def _torques(model: TorsionalModel, place: Places, speed: Array, like: Array) -> Array:
     over, touching = _contact(model, _twist(model, place.angle), like)
-    return _each(model.stiffness, like) * over + _each(model.damping, like) * touching * _twist(model, speed)
+    found = _each(model.stiffness, like) * over + _each(model.damping, like) * touching * _twist(model, speed)
+    if model.special:
+        found = found + _springs(model, _twist(model, place.angle))[0] + _rubbing(model, _twist(model, speed), like)[0]
+    return found
+
+
+def spring_torque(table: tuple[tuple[float, ...], tuple[float, ...]], twist: float) -> tuple[float, float]:
+    """Return torque [N·m] and stiffness [N·m/rad] of a spring by its table at a twist [rad]."""
+    twists, torques = table
+    k = min(max(bisect_right(twists, twist) - 1, 0), len(twists) - 2)
+    slope = (torques[k + 1] - torques[k]) / (twists[k + 1] - twists[k])
+    return torques[k] + slope * (twist - twists[k]), slope
+
+
+def _stored(table: tuple[tuple[float, ...], tuple[float, ...]], twist: float) -> float:
+    """Return the work that twists a spring by its table from 0 [J]: trapezia between its points."""
+    inside = sorted(x for x in table[0] if min(0.0, twist) < x < max(0.0, twist))
+    places = [0.0, *(inside if twist > 0.0 else inside[::-1]), twist]
+    torque = [spring_torque(table, x)[0] for x in places]
+    return sum(0.5 * (torque[k] + torque[k + 1]) * (places[k + 1] - places[k]) for k in range(len(places) - 1))
+
+
+def _springs(model: TorsionalModel, twist: Array) -> tuple[Array, Array, Array]:
+    """Return torque, stiffness and energy of springs by their tables, arrays (..., E); 0 for all others."""
+    xp = namespace(twist)
+    found = np.zeros((3, *twist.shape))
+    for e, table in enumerate(model.tables):
+        if table is not None:
+            at = np.ravel(twist[..., e]).tolist()
+            rows = np.asarray([(*spring_torque(table, x), _stored(table, x)) for x in at])
+            found[..., e] = np.reshape(rows.T, (3, *twist.shape[:-1]))
+    return xp.asarray(found[0]), xp.asarray(found[1]), xp.asarray(found[2])
+
+
+def _rubbing(model: TorsionalModel, turning: Array, like: Array) -> tuple[Array, Array]:
+    """Return torque of dry friction and its slope by the speed of the twist, arrays (..., E)."""
+    if model.friction is None or model.creep is None:
+        return 0.0 * turning, 0.0 * turning
+    xp = namespace(turning)
+    size, band = _each(model.friction, like), _each(model.creep, like)
+    share = turning / band
+    inside = xp.where(xp.abs(share) < 1.0, 1.0, 0.0)
+    return size * xp.clip(share, -1.0, 1.0), size / band * inside
 
 
 def _acting(model: TorsionalModel, place: Places, speed: Array, time: Array) -> tuple[Array, Array, Array]:
@@ -328,6 +373,9 @@ def linearised(
     _over, touching = _contact(model, _twist(model, place.angle), like)
     spring = _each(model.stiffness, like) * touching
     damper = _each(model.damping, like) * touching
+    if model.special:
+        spring = spring + _springs(model, _twist(model, place.angle))[1]
+        damper = damper + _rubbing(model, _twist(model, speed), like)[1]
     for e, (a, b) in enumerate(model.elements):
         ends = (
             (model.coordinate[a], f1[..., a], (f2 * own)[..., a]),
@@ -414,7 +462,10 @@ def energy(model: TorsionalModel, q: Array, rate: Array) -> Array:
     kinetic = xp.sum(_each(model.inertia, like) * speed**2, axis=-1)
     for one in _hinges(model, place, speed):
         kinetic = kinetic + 2.0 * one.coupling * one.cosine * one.fast * one.swift
-    return 0.5 * kinetic + 0.5 * xp.sum(_each(model.stiffness, like) * over**2, axis=-1)
+    stored = 0.5 * xp.sum(_each(model.stiffness, like) * over**2, axis=-1)
+    if model.special:
+        stored = stored + xp.sum(_springs(model, _twist(model, place.angle))[2], axis=-1)
+    return 0.5 * kinetic + stored
 
 
 def power(model: TorsionalModel, q: Array, rate: Array, time: Array = 0.0) -> tuple[Array, Array]:
@@ -430,6 +481,9 @@ def power(model: TorsionalModel, q: Array, rate: Array, time: Array = 0.0) -> tu
     lost = xp.sum(_each(model.ground_damping, like) * speed**2, axis=-1) + xp.sum(
         _each(model.damping, like) * touching * _twist(model, speed) ** 2, axis=-1
     )
+    if model.special:
+        turning = _twist(model, speed)
+        lost = lost + xp.sum(_rubbing(model, turning, like)[0] * turning, axis=-1)
     given = xp.zeros_like(like)
     for torque in model.torques:
         given = (

@@ -28,7 +28,7 @@ from .inputs import (
     Uniform,
     base_period,
 )
-from .torsional_balance import linearised, places
+from .torsional_balance import linearised, places, spring_torque
 from .torsional_model import Torque, TorsionalModel
 
 ARRAYS = (
@@ -42,6 +42,8 @@ ARRAYS = (
     "loss_factor",
     "rest",
     "coupling",
+    "friction",
+    "creep",
 )
 """Fields of a model whose last axis is stations, elements or joints."""
 
@@ -269,11 +271,23 @@ def forces_of(model: TorsionalModel) -> Callable[..., Forces]:
         (a, b, float(model.stiffness[e]), float(model.damping[e]), float(rest[e]))
         for e, (a, b) in enumerate(model.elements)
     ]
+    special = [
+        (
+            a,
+            b,
+            e,
+            0.0 if model.friction is None else float(model.friction[e]),
+            model.tables[e] if model.tables else None,
+        )
+        for e, (a, b) in enumerate(model.elements)
+        if model.special
+    ]
     torques = [(torque.station, torque.law.at) for torque in model.torques]
     bonds = [
         (h, p, coordinate[h], coordinate[p], float(g), float(model.inertia[p]))
         for (h, p), g in zip(model.hinges, () if model.coupling is None else model.coupling, strict=True)
     ]
+    creep = [] if model.creep is None else [float(one) for one in model.creep]
     cosine, sine, atan2 = math.cos, math.sin, math.atan2
 
     def forces(time: float, q: Sequence[float], rate: Sequence[float], forced: float | None = None) -> Forces:
@@ -307,6 +321,13 @@ def forces_of(model: TorsionalModel) -> Callable[..., Forces]:
                 drag = damping * twisting
                 carried += drag
                 power -= drag * twisting
+            acting[a] -= carried
+            acting[b] += carried
+        for a, b, e, friction, table in special:
+            twisting = speed[a] - speed[b]
+            drag = friction * min(max(twisting / creep[e], -1.0), 1.0) if friction else 0.0
+            carried = drag if table is None else drag + spring_torque(table, angle[a] - angle[b])[0]
+            power -= drag * twisting
             acting[a] -= carried
             acting[b] += carried
         for k, law in torques:
@@ -390,6 +411,10 @@ def line_of(model: TorsionalModel, drives: int, start: float = 0.0) -> lines.Lin
 
 def _problems(model: TorsionalModel, inertia: Array) -> list[Problem]:
     problems = []
+    if model.special:
+        problems.append(
+            Problem("elements", _("springs with tables and dry friction have no fixed steps; use Adaptive"))
+        )
     if model.hinges:
         problems.append(Problem("hinges", _("pendulums with their own angle have no fixed steps; use Adaptive")))
     for r, k in enumerate(model.owner):

@@ -58,6 +58,10 @@ class TorsionalModel:
     # holds its mass at the pivot, m R², that of the second is m l²
     hinges: tuple[tuple[int, int], ...] = ()
     coupling: Array | None = None  # (..., P) [kg m²]: m R l of every hinge
+    # of every element, in time: twists [rad] and torques [N·m] of a spring whose stiffness changes, beside the others
+    tables: tuple[tuple[tuple[float, ...], tuple[float, ...]] | None, ...] = ()
+    friction: Array | None = None  # friction, creep (..., E) [N·m, rad/s]: dry friction, and the band about rest
+    creep: Array | None = None
     shaft: tuple[int, ...] = ()  # shaft of every station from 0
     names: tuple[str, ...] = ()  # of the stations, for tables and pictures
 
@@ -75,6 +79,11 @@ class TorsionalModel:
     def owner(self) -> tuple[int, ...]:
         """Station whose angle is each coordinate."""
         return tuple(k for k, source in enumerate(self.driven) if source is None)
+
+    @property
+    def special(self) -> bool:
+        """Whether elements have tables or dry friction."""
+        return bool(self.tables) or self.friction is not None
 
     @property
     def coordinates(self) -> int:

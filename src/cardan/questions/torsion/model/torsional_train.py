@@ -20,7 +20,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.joints import Joint
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.kinematics_model import Chain, nearly_turning_chain
-from cardan.drive.station import Pendulum
+from cardan.drive.station import Pendulum, ToNext
 from cardan.drive.yokes import with_yokes
 from cardan.errors import Problem, check, refuse
 from cardan.formulas.damping import LOSS
@@ -49,6 +49,7 @@ class TorsionalTrain:
     hangs: tuple[int | None, ...]  # station that an absorber or pendulum hangs on; None for one of the line itself
     pendulums: tuple[int, ...]  # elements that hold pendulums: their stiffness goes with the square of the speed
     hung: tuple[Pendulum, ...]  # what hangs at each of these elements
+    springs: tuple[tuple[int, ToNext], ...]  # elements that have a table of torques over twists, or dry friction
     assumed: tuple[str, ...]  # paths of what the drive does not say and the model assumes
     # tuple of N (float) [m]: where on their shafts the stations are that only part its body; None for all others
     cuts: tuple[float | None, ...]
@@ -207,6 +208,7 @@ def _softened(line: ShaftLine, joint: Joint) -> ShaftLine:
         damping=[damping, *line.damping],
         backlash=[0.0, *line.backlash],
         loss_factor=[0.0, *line.loss_factor],
+        springs=[None, *line.springs],
         share=[line.share[0], *line.share],
         names=[_("{name}, before the elastic joint").format(name=line.names[0]), *line.names],
         cuts=[None, *line.cuts],
@@ -269,6 +271,9 @@ def _joined(drive: Drive, lines: Sequence[ShaftLine], joint_angles: Chain) -> To
         hangs=(None,) * len(driven),
         pendulums=(),
         hung=(),
+        springs=tuple(
+            (e, one) for e, one in enumerate(one for line in lines for one in line.springs) if one is not None
+        ),
         assumed=tuple(path for line in lines for path in line.assumed),
         cuts=tuple(cut for line in lines for cut in line.cuts),
         to_scale=not any(f"shafts[{i}].length" in place.assumed for i in drawn),
@@ -389,6 +394,28 @@ def swinging(train: TorsionalTrain) -> TorsionalModel:
         hinges=hinges,
         coupling=coupling,
     )
+
+
+BAND = 2e-4
+"""Share of a speed below which dry friction grows with the speed of the twist, so that it sticks but for a creep."""
+
+
+def in_full(train: TorsionalTrain, speed: float) -> TorsionalModel:
+    """Return the model for motion in time: pendulums as bodies, springs by their tables, dry friction by Coulomb.
+
+    speed [rad/s]: by which the band of friction is told. Raises InputError: see `swinging`.
+    """
+    model = swinging(train)
+    if not train.springs:
+        return model
+    stiffness, friction = np.array(model.stiffness, dtype=float), np.zeros(len(model.elements))
+    tables: list[tuple[tuple[float, ...], tuple[float, ...]] | None] = [None] * len(model.elements)
+    for e, one in train.springs:
+        friction[e] = one.friction
+        if one.twists:
+            tables[e], stiffness[e] = (one.twists, one.torques), 0.0
+    creep = np.full(len(model.elements), BAND * abs(speed or 1.0))
+    return replace(model, stiffness=stiffness, tables=tuple(tables), friction=friction, creep=creep)
 
 
 def stacked(models: Sequence[TorsionalModel]) -> TorsionalModel:

@@ -306,6 +306,7 @@ def held(model: TorsionalModel, sides: Array, *, loose: float = 0.0) -> Torsiona
         stiffness=model.stiffness * np.maximum(touching, loose),
         damping=model.damping * touching,
         backlash=np.zeros_like(model.backlash),
+        friction=None if model.friction is None else model.friction * touching,
         rest=0.5 * sides * model.backlash,
     )
 

@@ -17,7 +17,7 @@ from cardan.questions.torsion.model.inputs import Constant, History, Law, SpeedC
 from cardan.questions.torsion.model.torsional_balance import gathered, places
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
 from cardan.questions.torsion.model.torsional_modes import straight_modes
-from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_time, swinging, torsional_train
+from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_full, in_time, torsional_train
 from cardan.questions.torsion.steady.steady import periodic_response
 from cardan.questions.torsion.steady.torsion_response import parted
 from cardan.texts import _
@@ -163,7 +163,7 @@ def transient(
     if not train.model.elements:
         text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")
         raise refuse("shafts[0].stiffness", text)
-    model = in_time(swinging(train), 2.0 * abs(fastest or 1.0))
+    model = in_time(in_full(train, fastest), 2.0 * abs(fastest or 1.0))
     if not model.free and chosen.run_up is not None:
         course = SpeedCourse(times=(0.0, chosen.run_up.duration), speeds=(chosen.run_up.start, chosen.run_up.end))
         model = replace(model, input_speed=None, input_motion=course)
@@ -208,7 +208,7 @@ def run_up_torque(drive: Drive) -> tuple[Array, tuple[int, ...]]:
     if swings > LONGEST:
         text = _("the run-up takes {oscillations:.0f} oscillations; at most {most:.0f} are followed")
         raise refuse("duty.run_up.duration", text.format(oscillations=swings, most=LONGEST), "too_large")
-    found = transient(closed, times=max(int(PEAKS * swings), 501), method=_steps(swinging(train)))
+    found = transient(closed, times=max(int(PEAKS * swings), 501), method=_steps(in_full(train, top)))
     return found.motion.torque, tuple(found.train.model.shaft[a] for a, _b in found.train.model.elements)
 
 
@@ -256,7 +256,7 @@ def event_torque(drive: Drive, event: Event) -> tuple[Array, tuple[int, ...]]:
         found = transient(closed, span=span, times=count, start="settled", step=law).motion
         return found.torque, tuple(train.model.shaft[a] for a, _b in train.model.elements)
     train = torsional_train(closed, replace(duty, input="uniform", engine=None, motor=None), speed=speed)
-    model = in_time(swinging(train), 2.0 * abs(speed))
+    model = in_time(in_full(train, speed), 2.0 * abs(speed))
     band, sense = SLIP * abs(speed), np.sign(speed)
     torques, resisting = [], 0.0
     for one in model.torques:
@@ -387,6 +387,8 @@ def _unsettled(duty: Duty, model: TorsionalModel) -> Iterator[Problem]:
         yield Problem("duty.speed", _("missing; a settled start needs it"), "missing")
     if any(torque.law.order is None for torque in model.torques):
         yield Problem("duty", _("a torque runs in time; a settled start needs torques that follow angle or speed"))
+    elif model.special:
+        yield Problem("start", _("springs with tables and dry friction are followed in time alone; start uniform"))
     elif parted(model)[1]:
         yield Problem("duty", _("orders of the torques do not repeat within two turns; start uniform"))
 
@@ -394,12 +396,7 @@ def _unsettled(duty: Duty, model: TorsionalModel) -> Iterator[Problem]:
 def _method(model: TorsionalModel, rate: Array, span: float) -> Method:
     """Return the quicker way to follow a drive."""
     free = np.arange(model.coordinates)[0 if model.free else 1 :]
-    if (
-        model.hinges
-        or np.any(model.backlash > 0.0)
-        or np.any(gathered(model, model.inertia)[free] == 0.0)
-        or not span > 0.0
-    ):
+    if isinstance(_steps(model), Adaptive) or np.any(model.backlash > 0.0) or not span > 0.0:
         return Adaptive()
     rates = np.broadcast_to(rate, (model.coordinates,))
     _fastest, living = own_rates(model, free, np.zeros(model.coordinates), rates, 0.0, span)
@@ -410,7 +407,7 @@ def _steps(model: TorsionalModel) -> Method:
     """Return steps of one length, compiled, where a drive without play bears them."""
     free = np.arange(model.coordinates)[0 if model.free else 1 :]
     light = np.any(gathered(model, model.inertia)[free] == 0.0)
-    return Adaptive() if model.hinges or light else FixedStep(per_period=PEAKS)
+    return Adaptive() if model.hinges or model.special or light else FixedStep(per_period=PEAKS)
 
 
 def _span(duty: Duty, model: TorsionalModel, fastest: float) -> float:
