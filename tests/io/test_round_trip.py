@@ -277,8 +277,16 @@ def test_torques(kind: type, data: st.DataObject) -> None:
         assert loads(dumps(drive, form=form), form=form) == drive
 
 
-elements = st.none() | things(ToNext)
-hung = st.tuples(st.none() | WAYS[Absorber](Absorber), st.none()) | st.tuples(st.none(), st.none() | things(Pendulum))
+TABLE = {"twists": st.just((-0.1, 0.0, 1 / 3)), "torques": st.just((-1e3, 0.1, 700.0))}
+elements = (
+    st.none()
+    | things(ToNext, **dict.fromkeys(TABLE, st.just(())))
+    | things(ToNext, stiffness=st.none(), backlash=st.just(0.0), **TABLE)
+)
+STOP = {"stop_angle": st.floats(0.1, 1.0), "stop_stiffness": st.floats(1.0, 1e4)}
+NO_STOP = dict.fromkeys(STOP, st.none()) | {"stop_damping": st.just(0.0)}
+pendulums = st.none() | things(Pendulum, **STOP) | things(Pendulum, **NO_STOP)
+hung = st.tuples(st.none() | WAYS[Absorber](Absorber), st.none()) | st.tuples(st.none(), pendulums)
 
 
 @pytest.mark.slow
