@@ -254,6 +254,21 @@ QUESTIONS: dict[str, Question] = {
             ),
         ),
         Question(
+            name="line",
+            module="cardan.questions.bending.line_answer",
+            title=mark("Whirl of the whole line"),
+            group=BENDING,
+            help=mark("How far the whole line whirls over the speed: unbalances, joint couples, weight, its supports."),
+            quick=False,
+            takes=("progress",),
+            command="rotor --line",
+            without={"error": MINUTES},
+            examples=(
+                "cardan rotor truck.toml --line",
+                "cardan rotor truck.toml --line --run-up --plot run.svg",
+            ),
+        ),
+        Question(
             name="balance",
             module="cardan.questions.bending.balance_answer",
             title=mark("Balance"),

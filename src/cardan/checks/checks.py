@@ -29,7 +29,7 @@ from .check import Check
 from .design import Design, design
 from .moving import stood, stopped, worst_of_poses
 from .practice import layout, length, lubrication, part_accuracy, runout, spline_overlap
-from .speeds import balance, critical_speed, gap_closure, half_critical, max_speed, rim_speed
+from .speeds import balance, critical_speed, gap_closure, half_critical, max_speed, rim_speed, whirl_amplitude
 from .strength import (
     bearing_life,
     contact_pressure,
@@ -77,6 +77,7 @@ CHECKS: dict[str, Check] = {
         spline_overlap,
         critical_speed,
         half_critical,
+        whirl_amplitude,
         gap_closure,
         torsional_resonance,
         parametric_stability,

@@ -333,7 +333,7 @@ def commands() -> dict[str, Entry]:
         name, _blank, second = command.partition(" ")
         if not second:
             found[name] = _entry(question, command, QUESTIONS)
-        elif not COMMANDS[name].module:
+        elif name in COMMANDS and not COMMANDS[name].module:
             group = found.setdefault(name, COMMANDS[name])
             inner = {**group.entries, second: _entry(question, command, _(question.group))}
             found[name] = replace(group, entries=inner)

@@ -12,6 +12,8 @@ from cardan.cli.shared.tell import tell
 from cardan.cli.torsion.torsion_parts import Speeds, values
 from cardan.errors import InputError, Problem
 from cardan.questions.bending.line_answer import answer as answer_of_line
+from cardan.questions.bending.line_answer import answer_of_run as answer_of_line_run
+from cardan.questions.bending.line_run import line_run
 from cardan.questions.bending.line_whirl import line_whirl
 from cardan.questions.bending.rotor import DAMPING, joined_rotors, rotor_run
 from cardan.questions.bending.rotor_answer import answer, answer_of_joined, answer_of_run, ask
@@ -61,8 +63,10 @@ def rotor(
     problems = []
     if run_up and joint is not None:
         problems.append(Problem("--joint", _("choose --run-up or --joint, not both")))
-    if line and (run_up or joint is not None or shaft is not None):
-        problems.append(Problem("--line", _("goes without --shaft, --run-up and --joint: it is about all shafts")))
+    if line and (joint is not None or shaft is not None):
+        problems.append(Problem("--line", _("goes without --shaft and --joint: it is about all shafts")))
+    if run_up and speeds is not None:
+        problems.append(Problem("--speeds", _("goes without --run-up, whose speeds are those of duty.run_up")))
     if joint is None and speed_rpm is not None:
         problems.append(Problem("--speed-rpm", _("belongs to --joint; --speeds says a range")))
     if not 1.0 <= turns <= 10_000.0:
@@ -74,7 +78,9 @@ def rotor(
     ratio = DAMPING if damping is None else damping
     with keys_of(file), watching(_("following the shaft")) as progress:
         try:
-            if line:
+            if line and run_up:
+                said = answer_of_line_run(drive, line_run(drive, damping_ratio=damping, progress=progress))
+            elif line:
                 whole = line_whirl(drive, speed=at, damping_ratio=damping, progress=progress)
                 said = answer_of_line(drive, whole)
             elif joint is not None:

@@ -22,6 +22,7 @@ from cardan.units import mm, rpm
 from .bending import CriticalSpeedMap, CriticalSpeeds, Part
 from .cracked_run import CrackedRun
 from .cracked_shafts import CrackedShafts
+from .line_run import LineRun
 from .line_whirl import LineWhirl
 from .rotor import RotorResponse
 
@@ -411,6 +412,27 @@ def line_figure(drive: Drive, found: LineWhirl) -> Figure:
         title=_("Whirl of the whole line over the speed"),
         sentence="",
         source=_("Timoshenko beams on damped supports; unbalances, secondary couples, weight and cracks"),
+        rows=(Row(panels=(panel,), height=2.6),),
+    )
+
+
+def line_run_figure(drive: Drive, found: LineRun) -> Figure:
+    """Return the whirl of the line over the speed, on the way and with each speed held."""
+    on_the_way, held = np.max(found.whirl, axis=-1) / MICRO, np.max(found.steady.whirl, axis=-1) / MICRO
+    ways = ((found.speed, on_the_way, _("on the way")), (found.steady.speed, held, _("each speed held")))
+    panel = Panel(
+        series=tuple(
+            Curve(x=speed / rpm, y=row, role=role, dash=DASHES[k], label=label)
+            for k, ((speed, row, label), role) in enumerate(zip(ways, ("accent", "muted"), strict=True))
+        ),
+        x=axis(_("speed"), "rpm", [speed / rpm for speed, *_rest in ways], dimension="angular_speed", count=8),
+        y=axis(_("Largest whirl"), "um", [row for _speed, row, _label in ways], dimension="displacement"),
+    )
+    return Figure(
+        name="line-run",
+        title=_("Whirl of the whole line while its speed changes"),
+        sentence="",
+        source=_("motion in time of Timoshenko beams on damped supports"),
         rows=(Row(panels=(panel,), height=2.6),),
     )
 

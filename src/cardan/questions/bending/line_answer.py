@@ -1,4 +1,4 @@
-"""What there is to say of the whirl of the whole line: where and when it is largest, by orders, what supports take."""
+"""What there is to say of the whirl of the whole line: where and when it is largest, by orders, while running up."""
 
 from __future__ import annotations
 
@@ -7,20 +7,47 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table
-from cardan.answers.quantity import Quantity, listed, say
+from cardan.answers.quantity import Joined, Quantity, listed, say
+from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
+from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.yokes import yokes_estimated
+from cardan.formulas.run_up import Progress
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 
-from .figure import line_figure, order_name
-from .line_whirl import LineWhirl, largest_of_turn
+from .answer import lacking as lacking_of_bending
+from .bending import wear_factors
+from .figure import line_figure, line_run_figure, order_name
+from .line_run import LineRun
+from .line_whirl import LineWhirl, largest_of_turn, whirl_in_use
 
-__all__ = ["answer"]
+__all__ = ["COLUMNS", "answer", "answer_of_run", "ask", "lacking"]
 
 CLOSE = 1e-3
 """What the basis may miss of all finite elements."""
+
+
+def lacking(drive: Drive) -> Lacking:
+    """Return what the drive file lacks for the whirl of its line: bodies, bearings, a speed, and what shakes it."""
+    shaken = len(drive.joints) > 1 or drive.duty.torque is not None or any(one.unbalance for one in drive.shafts)
+    return (
+        *lacking_of_bending(drive),
+        *absent(
+            (used_speeds(drive.duty) is not None, "duty.speed_range", "duty.speed"),
+            (shaken, "shafts[0].unbalance", "duty.torque"),
+        ),
+    )
+
+
+def ask(drive: Drive, *, progress: Progress | None = None) -> LineWhirl:
+    """Return how the whole line whirls over the speeds in use."""
+    found = whirl_in_use(drive)
+    if progress is not None:
+        progress(1.0)
+    return found
 
 
 def answer(drive: Drive, result: LineWhirl) -> Answer:
@@ -44,6 +71,7 @@ def answer(drive: Drive, result: LineWhirl) -> Answer:
                 title=_("largest whirl of the line"),
                 place=say(_("at {speed}"), speed=Quantity(speed, "angular_speed", 3)),
                 value=Quantity(size, "displacement", 3),
+                check="whirl_amplitude",
             ),
         ),
         figures=lambda: (line_figure(drive, result),),
@@ -57,6 +85,98 @@ def answer(drive: Drive, result: LineWhirl) -> Answer:
         },
         full=lambda: _response(drive, result),
     )
+
+
+def answer_of_run(drive: Drive, result: LineRun) -> Answer:
+    """Return what there is to say of the line while its speed changes."""
+    held, at, _place = result.steady.peak()
+    text = _("from {start:bare} to {end} in {time} the line whirls up to {size}, at {speed}, {place} behind joint 1.")
+    course = drive.duty.run_up
+    assert course is not None
+    return Answer(
+        name="line",
+        title=_("Run-up of the whole line"),
+        sentence=say(
+            text,
+            start=Quantity(abs(course.start), "angular_speed", 3),
+            end=Quantity(abs(course.end), "angular_speed", 3),
+            time=Quantity(result.duration, "time", 3, trim=True),
+            size=Quantity(result.peak, "displacement", 3),
+            speed=Quantity(result.peak_speed, "angular_speed", 3),
+            place=Quantity(result.peak_place, "length", 3),
+        ),
+        tables=(_run_parts(drive, result),),
+        remarks=tuple(_run_remarks(drive, result)),
+        figures=lambda: (line_run_figure(drive, result),),
+        facts={
+            "peak": Quantity(result.peak, "displacement"),
+            "peak_at": Quantity(result.peak_speed, "angular_speed"),
+            "peak_place": Quantity(result.peak_place, "length"),
+            "steady_peak": Quantity(held, "displacement"),
+            "steady_peak_at": Quantity(at, "angular_speed"),
+            "share_of_steady": result.share,
+        },
+        full=lambda: Table(
+            name="run",
+            columns=(
+                Column(key="time", values=result.time, dimension="time"),
+                Column(key="speed", values=result.speed, dimension="angular_speed"),
+                *(
+                    Column(key=f"shaft_{number}", values=column, dimension="displacement")
+                    for number, column in zip(result.shaft.tolist(), result.whirl.T, strict=True)
+                ),
+            ),
+        ),
+    )
+
+
+def _run_parts(drive: Drive, result: LineRun) -> Table:
+    """Return the largest whirl of each shaft on the way and with the speed held."""
+    most = [(float(column.max()), float(result.speed[int(column.argmax())])) for column in result.whirl.T]
+    held = [result.steady.peak(shaft=int(number)) for number in result.shaft]
+    return Table(
+        name="shafts",
+        title=_("Largest whirl of each shaft on the way, and with each speed held"),
+        columns=(
+            _shaft_column(drive, result.shaft.tolist()),
+            Column(
+                key="whirl",
+                heading=_("on the way"),
+                values=[size for size, _speed in most],
+                dimension="displacement",
+                digits=3,
+            ),
+            Column(key="speed", heading=_("at"), values=[speed for _size, speed in most], dimension="angular_speed"),
+            Column(
+                key="steady", heading=_("held"), values=[one[0] for one in held], dimension="displacement", digits=3
+            ),
+            Column(key="steady_speed", heading=_("at"), values=[one[1] for one in held], dimension="angular_speed"),
+        ),
+    )
+
+
+def _run_remarks(drive: Drive, result: LineRun) -> Iterator[Remark]:
+    held, at, _place = result.steady.peak()
+    text = _("That is {share} of the {held} that builds up where {speed} is held.")
+    share, most = Quantity(result.share, "share", 2), Quantity(held, "displacement", 3)
+    yield Remark(text=say(text, share=share, held=most, speed=Quantity(at, "angular_speed", 3)))
+    if result.cracked:
+        text = _(
+            "Cracks do not count on the way, shafts {which}; cardan rotor --run-up follows one shaft with its crack."
+        )
+        yield Remark(text=say(text, which=listed(list(result.cracked))), tone="warning")
+    if result.cancelled:
+        yield Remark(text=_("Stopped before its end."), tone="warning")
+    yield from _assumptions(drive, result.steady)
+    command = ("cardan", "rotor", FILE, "--line", "--run-up", "--plot", "run.svg")
+    yield Remark(text=_("The line over the speed:"), command=command, tone="next")
+
+
+def _shaft_column(drive: Drive, numbers: list[int]) -> Column:
+    """Return the column that names shafts."""
+    names = {shaft.number: shaft.name for shaft in drive.shafts}
+    values = [f"{number} {names.get(number, '')}".strip() for number in numbers]
+    return Column(key="shaft", heading=_("shaft"), values=values, left=True)
 
 
 def _order(result: LineWhirl, speed: float, place: float) -> int:
@@ -73,24 +193,18 @@ def _where(result: LineWhirl, values: Array) -> tuple[float, float]:
 
 
 def _parts(drive: Drive, result: LineWhirl) -> Table:
-    whirl = result.whirl
     numbers = [int(one) for one in np.unique(result.shaft)]
-    most = [_where(result, np.max(whirl[:, result.shaft == number], axis=-1)) for number in numbers]
-    names = {shaft.number: shaft.name for shaft in drive.shafts}
+    most = [result.peak(shaft=number) for number in numbers]
     return Table(
         name="shafts",
         title=_("Largest whirl of each shaft at the speeds in use"),
         columns=(
+            _shaft_column(drive, numbers),
             Column(
-                key="shaft",
-                heading=_("shaft"),
-                values=[f"{number} {names.get(number, '')}".strip() for number in numbers],
-                left=True,
+                key="whirl", heading=_("whirl"), values=[one[0] for one in most], dimension="displacement", digits=3
             ),
-            Column(
-                key="whirl", heading=_("whirl"), values=[one for one, _at in most], dimension="displacement", digits=3
-            ),
-            Column(key="speed", heading=_("at"), values=[at for _one, at in most], dimension="angular_speed"),
+            Column(key="speed", heading=_("at"), values=[one[1] for one in most], dimension="angular_speed"),
+            Column(key="place", heading=_("behind joint 1"), values=[one[2] for one in most], dimension="length"),
         ),
     )
 
@@ -176,19 +290,7 @@ def _response(drive: Drive, result: LineWhirl) -> Table:
 
 
 def _remarks(drive: Drive, result: LineWhirl) -> Iterator[Remark]:
-    taken = [path for path in result.assumed if path.endswith(".unbalance")]
-    if taken:
-        text = _("Shafts without a measured unbalance, {keys}, count with what their balance grade allows, amid them.")
-        yield Remark(text=text.format(keys=", ".join(map(spelled, taken))))
-    if "duty.torque" in result.assumed:
-        yield Remark(text=_("Without a torque the secondary couples of the joints do not count; give duty.torque."))
-    low, high = (float(one) for one in (np.min(result.damping_ratio), np.max(result.damping_ratio)))
-    text = _("Damping ratio of the modes {low} to {high}, beside the dampers of the supports.")
-    yield Remark(text=say(text, low=Quantity(low, "share", 2), high=Quantity(high, "share", 2)))
-    soft = [number for number in result.support if drive.supports[number - 1].damping is None]
-    if soft:
-        text = _("Supports without `damping`, {which}, lose what rubber does; how high the bounce is depends on it.")
-        yield Remark(text=say(text, which=listed(soft)))
+    yield from _assumptions(drive, result)
     if result.cracked:
         text = _("Cracks breathe with the weight; whether the whirl is stable, `cardan rotor --shaft N` tells.")
         yield Remark(text=text)
@@ -199,3 +301,63 @@ def _remarks(drive: Drive, result: LineWhirl) -> Iterator[Remark]:
         yield Remark(text=_("Checked: modes and static shapes agree with all finite elements at the peak."))
     command = ("cardan", "rotor", FILE, "--line", "--plot", "line.svg")
     yield Remark(text=_("The line over the speed:"), command=command, tone="next")
+
+
+def _assumptions(drive: Drive, result: LineWhirl) -> Iterator[Remark]:
+    """Yield what the drive does not say and the answer takes."""
+    taken = [path for path in result.assumed if path.endswith(".unbalance")]
+    if taken:
+        text = _("Shafts without a measured unbalance, {keys}, count with what their balance grade allows, amid them.")
+        yield Remark(text=text.format(keys=", ".join(map(spelled, taken))))
+    if "duty.torque" in result.assumed:
+        yield Remark(text=_("Without a torque the secondary couples of the joints do not count; give duty.torque."))
+    if result.worn:
+        factors = wear_factors(drive)
+        text = _("For the play of splines shafts count with k_n² of their bending stiffness: {factors}.")
+        said = [say("{number}: {factor}", number=n, factor=Quantity(factors[n - 1], digits=2)) for n in result.worn]
+        yield Remark(text=say(text, factors=Joined(said)))
+    low, high = (float(one) for one in (np.min(result.damping_ratio), np.max(result.damping_ratio)))
+    text = _("Damping ratio of the modes {low} to {high}, beside the dampers of the supports.")
+    yield Remark(text=say(text, low=Quantity(low, "share", 2), high=Quantity(high, "share", 2)))
+    soft = [number for number in result.support if drive.supports[number - 1].damping is None]
+    if soft:
+        text = _("Supports without `damping`, {which}, lose what rubber does; how high the bounce is depends on it.")
+        yield Remark(text=say(text, which=listed(soft)))
+
+
+def _column_values(found: LineWhirl) -> tuple[float, float, float, float]:
+    force = largest_of_turn(found.order, found.support_force)[found.within]
+    return (*found.peak(), float(np.max(force, initial=0.0)))
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="line_whirl",
+        doc=mark("largest whirl of the whole line at the speeds in use, where and at which speed, and on its supports"),
+        told=(
+            OutputColumn(
+                name="line_whirl_um", dimension="displacement", unit="um", text=mark("largest whirl of the line")
+            ),
+            OutputColumn(
+                name="line_whirl_speed_rpm",
+                dimension="angular_speed",
+                unit="rpm",
+                text=mark("speed at which the line whirls most"),
+            ),
+            OutputColumn(
+                name="line_whirl_place_mm",
+                dimension="length",
+                unit="mm",
+                text=mark("place behind joint 1 at which the line whirls most"),
+            ),
+            OutputColumn(
+                name="line_support_force_N",
+                dimension="force",
+                unit="N",
+                text=mark("largest alternating force on a support that gives way"),
+            ),
+        ),
+        of_result=_column_values,
+    ),
+)
+"""What a sweep may ask of the whirling line."""

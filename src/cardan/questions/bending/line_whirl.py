@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 import scipy
@@ -30,7 +31,7 @@ from cardan.questions.forces.kinetostatics import standing
 from cardan.texts import _
 
 from .balance import balance
-from .bending import elements
+from .bending import elements, wear_factors
 from .whirl_line import WhirlLine, crack_place, whirl_line
 
 TURN = 64
@@ -51,8 +52,14 @@ SAMPLES = 32
 BLOCK = 64
 """Speeds at which it is looked for at a time."""
 
-SPEEDS = 400
-"""Speeds where none are given."""
+SPEEDS = 200
+"""Speeds where none are given, beside those about the resonances."""
+
+ABOUT = (-3.0, -1.5, -0.8, -0.4, 0.0, 0.4, 0.8, 1.5, 3.0)
+"""Speeds about a resonance, in half the width at which its amplitude is 0.7 of the peak."""
+
+NARROW = 1e-4
+"""Damping ratio from which a resonance is wide enough to be looked at like this."""
 
 BEYOND = 1.25
 """Highest speed looked at over the highest in use."""
@@ -76,6 +83,7 @@ class LineWhirl:
     used: tuple[float, float] | None  # [rad/s]: lowest and highest speed of running
     damping_ratio: Array  # (m,): of each mode, without the dampers of the supports
     cracked: tuple[int, ...]  # shafts with a crack that counts
+    worn: tuple[int, ...]  # shafts whose spline has play, so that their stiffness counts with the square of k_n
     # what the basis of modes and static shapes misses of all finite elements where the line whirls most, over the
     # motion there; without cracks
     residual: float
@@ -95,15 +103,16 @@ class LineWhirl:
         inside: Array = (self.speed >= low * (1.0 - 1e-9)) & (self.speed <= high * (1.0 + 1e-9))
         return inside if np.any(inside) else np.ones(len(self.speed), dtype=bool)
 
-    def peak(self, order: int | None = None) -> tuple[float, float, float]:
+    def peak(self, order: int | None = None, *, shaft: int | None = None) -> tuple[float, float, float]:
         """Return amplitude [m], speed [rad/s] and place [m] where the line whirls most within the speeds in use.
 
-        order: one order alone; all of them together but for the mean when not given.
+        order: one order alone; all of them together but for the mean when not given; shaft: one shaft alone.
         """
         size = self.whirl
         if order is not None:
             size = np.abs(np.sum(self.deflection[:, self.order == order], axis=1))
-        size = np.where(self.within[:, None], size, -1.0)
+        here = np.ones(len(self.place), dtype=bool) if shaft is None else self.shaft == shaft
+        size = np.where(self.within[:, None] & here, size, -1.0)
         k, p = np.unravel_index(int(np.argmax(size)), size.shape)
         return float(size[k, p]), float(self.speed[k]), float(self.place[p])
 
@@ -133,7 +142,7 @@ def line_whirl(
 
     drive: with bodies of its shafts, unbalances, supports with stiffness and `damping`, cracks with their depth.
     duty: speeds of running and torque; those of the drive by default.
-    speed (k,) [rad/s]: speeds of the input; by default up to beyond the highest in use.
+    speed (k,) [rad/s]: speeds of the input; by default up to beyond the highest in use, close about each resonance.
     damping_ratio: ζ of all modes; by default half the loss factors of steel shafts and of supports, by their share in
     the energy of each mode. The dampers of supports come on top.
 
@@ -142,25 +151,37 @@ def line_whirl(
     pushes the line. Forces are the unbalances as their shafts turn, behind joints with their further odd orders (the
     allowed unbalance where a shaft between joints has none), the couples that the joints pass on across the shafts
     (order 0, 2, 4; without the inertia of the shafts), and the weight. A support whose `side_stiffness` differs
-    couples order n with the conjugate of -n. A crack is a hinge with the local compliance of its depth (strain energy
-    release rates of a straight edge, Dimarogonas and Papadopoulos 1983; a tube as one through the wall), which breathes
-    with the weight; all orders of it are solved together.
+    couples order n with the conjugate of -n. A shaft with a wear factor k_n counts with k_n² of its bending stiffness,
+    so that it whirls at its real critical speed. A crack is a hinge with the local compliance of its depth (strain
+    energy release rates of a straight edge, Dimarogonas and Papadopoulos 1983; a tube as one through the wall), which
+    breathes with the weight; all orders of it are solved together.
     See bending_speeds, rotor_response, balance
     """
     chosen = drive.duty if duty is None else duty
-    used = used_speeds(chosen)
-    if speed is None and used is None:
-        raise refuse("duty.speed_range", _("missing: the speeds at which the line is looked at"), "missing")
-    at = np.atleast_1d(
-        np.asarray(np.linspace(0.0, BEYOND * used[1], SPEEDS + 1)[1:] if speed is None and used else speed, dtype=float)
-    )
+    model, used = line_model(drive, chosen, damping_ratio), used_speeds(chosen)
+    if speed is None:
+        if used is None:
+            raise refuse("duty.speed_range", _("missing: the speeds at which the line is looked at"), "missing")
+        at = model.speeds(0.0, BEYOND * used[1], used)
+    else:
+        at = np.atleast_1d(np.asarray(speed, dtype=float))
     if not np.all(np.isfinite(at)) or np.any(at < 0.0):
         raise refuse("speed", _("needs to be at least 0"), "negative")
+    return model.steady(at, used, progress)
+
+
+@lru_cache(maxsize=8)
+def whirl_in_use(drive: Drive) -> LineWhirl:
+    """Return how the whole line of a drive whirls over the speeds in use, found once for answers, checks and report."""
+    return line_whirl(drive)
+
+
+def line_model(drive: Drive, duty: Duty, damping_ratio: float | None) -> LineModel:
+    """Return the line of a drive in a duty as matrices; see `line_whirl`."""
     if damping_ratio is not None and not 0.0 <= damping_ratio < 1.0:
         text = _("{value:.6g} is not at least 0 and below 1")
         raise refuse("damping_ratio", text.format(value=damping_ratio), "out_of_range")
-    model = _Model(replace(drive, duty=chosen), damping_ratio)
-    return model.steady(at, used, progress)
+    return LineModel(replace(drive, duty=duty), damping_ratio)
 
 
 def turning_marks(drive: Drive) -> tuple[Array, Array, Array, Array]:
@@ -184,7 +205,7 @@ def turning_marks(drive: Drive) -> tuple[Array, Array, Array, Array]:
     return gravity, down, ahead, np.sum(arms * down, axis=-1).T + 1j * np.sum(arms * ahead, axis=-1).T
 
 
-class _Model:
+class LineModel:
     """The line as matrices in its basis, and all that pushes it by orders of the input."""
 
     def __init__(self, drive: Drive, damping_ratio: float | None) -> None:
@@ -192,7 +213,10 @@ class _Model:
         self.whole = whirl_line(drive)
         self.assumed: list[str] = [*self.whole.assumed]
         cuts = elements(self.whole, MODES, ELEMENTS)
-        self.fine = divided(self.whole.line, cuts)
+        soft = wear_factors(self.drive)[self.whole.shaft - 1] ** 2
+        self.worn = tuple(np.unique(self.whole.shaft[soft < 1.0]).tolist())
+        line = replace(self.whole.line, bending=soft * self.whole.line.bending, shear=self.whole.line.shear / soft)
+        self.fine = divided(line, cuts)
         self.node = np.concatenate(([0], np.cumsum(cuts)))
         self.at = layout(self.fine)
         self.origin = _origins(self.whole)
@@ -370,14 +394,46 @@ class _Model:
         loss = 0.5 * ((1.0 - share) * LOSS["shaft"] + share * LOSS["support"])
         self.damping = loss if damping_ratio is None else np.full(len(square), damping_ratio)
 
-    def steady(self, speed: Array, used: tuple[float, float] | None, progress: Progress | None) -> LineWhirl:
+    def speeds(self, low: float, high: float, ends: tuple[float, ...] = ()) -> Array:
+        """Return speeds from low to high [rad/s], close about those at which an order meets a mode."""
+        even = np.linspace(low, high, SPEEDS + 1)[1:]
+        near = [speed * (1.0 + max(ratio, NARROW) * np.asarray(ABOUT)) for speed, ratio in self.resonances()]
+        found = np.unique(np.concatenate([even, *near, np.asarray(ends, dtype=float)]))
+        return found[(found > 0.0) & (found >= low) & (found <= high)]
+
+    def resonances(self) -> list[tuple[float, float]]:
+        """Return the speeds at which an order that pushes the line meets a mode [rad/s], with its damping ratio."""
+        v, m = self.basis[self.support_row], len(self.square)
+        turned = self.basis.T @ self.gyroscopic @ self.basis
+        apart = (v.T * self.unequal) @ v
+        loss = np.diag(2.0 * self.damping * np.sqrt(self.square)) + (v.T * self.damper) @ v
+        pushed = self.spinning + self.couples
+        coupled = bool(np.any(self.unequal))
+        found: list[tuple[float, float]] = []
+        for n in range(1, REACH + 1):
+            there = [bool(np.any(pushed[REACH + n])), bool(np.any(pushed[REACH - n]))]
+            # Forward whirl, K - n²Ω² (1 - G/n), and backward, with the other sign; unequal supports couple them.
+            ways = [(1.0, -1.0)] if coupled and any(there) else [(1.0,)] * there[0] + [(-1.0,)] * there[1]
+            for way in ways:
+                stiff = scipy.linalg.block_diag(*[np.diag(self.square)] * len(way))
+                if len(way) > 1:
+                    stiff[:m, m:] = stiff[m:, :m] = apart
+                inert = scipy.linalg.block_diag(*(n * n * np.eye(m) - sign * n * turned for sign in way))
+                roots, shapes = scipy.linalg.eigh(inert, stiff)
+                parts = shapes[:, roots > 0.0].T.reshape(-1, len(way), m)
+                speed = 1.0 / np.sqrt(roots[roots > 0.0])
+                lost = np.einsum("kwi,ij,kwj->k", parts, loss, parts) / np.sum(parts**2, axis=(1, 2))
+                found += zip(speed.tolist(), (lost / (2.0 * n * speed)).tolist(), strict=True)
+        return found
+
+    def steady(self, speed: Array, used: tuple[float, float] | None, progress: Progress | None = None) -> LineWhirl:
         """Return the steady whirl at the speeds."""
         sources = speed[:, None, None] ** 2 * (self.spinning @ self.basis) + (self.couples + self.weight) @ self.basis
-        value = self._solved(speed, sources)
+        value = self.solved(speed, sources)
         if self.cracked:
             columns = np.stack(self.column) @ self.basis
             jumps = self._jumps(speed, value @ columns.T, columns)
-            value = value - self._solved(speed, jumps @ columns)
+            value = value - self.solved(speed, jumps @ columns)
         deflection = np.zeros((*value.shape[:2], self.fine.beams + 1), dtype=complex)
         rows = self.number[self.at.deflection]
         deflection[..., rows >= 0] = value @ self.basis[rows[rows >= 0]].T
@@ -398,6 +454,7 @@ class _Model:
             used=used,
             damping_ratio=self.damping,
             cracked=tuple(self.cracked),
+            worn=self.worn,
             residual=0.0,
             assumed=tuple(dict.fromkeys(self.assumed)),
         )
@@ -413,7 +470,7 @@ class _Model:
         found: Array = plain + rate * speed[:, None, None] * turned - rate**2 * np.eye(len(v.T)) + 1j * rate * loss
         return found
 
-    def _solved(self, speed: Array, push: Array) -> Array:
+    def solved(self, speed: Array, push: Array) -> Array:
         """Return the motion in the basis under forces, both complex (k, N, m)."""
         value = np.zeros_like(push)
         coupled = bool(np.any(self.unequal))
@@ -455,7 +512,7 @@ class _Model:
                 for unit in (1.0, 1j):
                     push = np.zeros((len(speed), orders, columns.shape[1]), dtype=complex)
                     push[:, n] = unit * columns[j]
-                    seen = (self._solved(speed, push) @ columns.T).reshape(len(speed), size)
+                    seen = (self.solved(speed, push) @ columns.T).reshape(len(speed), size)
                     # a u + b u*: the sum and difference of what 1 and i give.
                     real[:, :, n * count + j] += seen / (2.0 * unit)
                     conj[:, :, n * count + j] += seen * unit / 2.0
@@ -488,7 +545,7 @@ class _Model:
         k, row = map(int, np.unravel_index(int(np.argmax(size)), size.shape))
         n, omega = abs(int(self.order[self.order != 0][row])), float(speed[k])
         push = omega**2 * self.spinning + self.couples
-        basis = self._solved(speed[k : k + 1], (push @ self.basis)[None])[0] @ self.basis.T
+        basis = self.solved(speed[k : k + 1], (push @ self.basis)[None])[0] @ self.basis.T
         weights = self.inertia @ self.basis
         loss = (weights * (2.0 * self.damping * np.sqrt(self.square))) @ weights.T
         loss[self.support_row, self.support_row] += self.damper

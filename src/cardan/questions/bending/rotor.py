@@ -30,7 +30,7 @@ from .bending import CriticalSpeeds, bending_speeds
 from .cracked_rotor import UNCRACKED, Crack, CrackedRotor, crack_section, cracked_rotor
 from .cracked_run import CrackedRun, cracked_run
 from .cracked_shafts import CrackedShafts, WhirlingShaft, cracked_shafts
-from .line_whirl import turning_marks
+from .line_whirl import LineWhirl, turning_marks
 
 DAMPING = 0.02
 """Damping ratio of bending where nothing says another; measured drives have 0.01 to 0.05."""
@@ -231,12 +231,15 @@ class RotorResponse:
         Lowest and highest speed of running; None where the drive says none.
     behind : UnbalanceBehindJoint or None
         Orders that the uneven turning adds to the force of the unbalance; None for the input shaft.
+    line : LineWhirl or None
+        The shaft among all others on their supports, where that is asked too and can be told.
     """
 
     rotor: Rotor
     steady: CrackedRotor
     used: tuple[float, float] | None
     behind: UnbalanceBehindJoint | None
+    line: LineWhirl | None = None
 
     def peak(self, order: int) -> tuple[float, float]:
         """Return speed [rad/s] and amplitude [m] where an order is largest, within the speeds of running.

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table
-from cardan.answers.quantity import Quantity, Text, say
+from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.yokes import yokes_estimated
+from cardan.errors import InputError
 from cardan.maths.ties import foremost_of
 from cardan.texts import _, mark
 
@@ -22,8 +24,8 @@ from .answer import lacking as lacking_of_bending
 from .cracked_run import CrackedRun
 from .cracked_shafts import CrackedShafts
 from .figure import ORDERS, joined_figure, order_name, rotor_figures, run_figure
-from .rotor import Rotor, RotorResponse
-from .rotor import rotor_response as ask
+from .line_whirl import whirl_in_use
+from .rotor import Rotor, RotorResponse, rotor_response
 
 __all__ = ["COLUMNS", "answer", "answer_of_joined", "answer_of_run", "ask", "lacking"]
 
@@ -41,6 +43,15 @@ def lacking(drive: Drive) -> Lacking:
     """Return what the drive file lacks for the whirl of a shaft: bodies, bearings, and an unbalance or a crack."""
     excited = any(shaft.crack or shaft.unbalance for shaft in drive.shafts)
     return (*lacking_of_bending(drive), *absent((excited, "shafts[1].unbalance", "shafts[1].crack")))
+
+
+def ask(drive: Drive, **choices: Any) -> RotorResponse:
+    """Return how a shaft whirls by itself and, where the file says enough, among all others on their supports."""
+    found = rotor_response(drive, **choices)
+    try:
+        return replace(found, line=whirl_in_use(drive))
+    except InputError:
+        return found
 
 
 def answer(drive: Drive, result: RotorResponse) -> Answer:
@@ -171,14 +182,20 @@ def _sentence(result: RotorResponse) -> Text:
         return say(_("shaft {number} has no steady motion at these speeds."), number=result.rotor.shaft)
     order = foremost_of(known, lambda one: known[one][1])
     speed, size = known[order]
-    return say(
-        _("shaft {number} whirls most in {order}: amplitude {size} at {speed}, {share} of its critical speed."),
+    alone = say(
+        _("shaft {number} by itself whirls most in {order}: {size} at {speed}, {share} of its own critical speed."),
         number=result.rotor.shaft,
         order=order_name(order),
         size=Quantity(size, "displacement", 3),
         speed=Quantity(speed, "angular_speed", 3),
         share=Quantity(speed / result.rotor.critical, decimals=2),
     )
+    if result.line is None or result.rotor.shaft not in result.line.shaft:
+        return alone
+    most, when, _place = result.line.peak(shaft=result.rotor.shaft)
+    text = _("In the whole line, with all that shakes it and on its supports, it whirls by {size}, at {speed}.")
+    whole = say(text, size=Quantity(most, "displacement", 3), speed=Quantity(when, "angular_speed", 3))
+    return Joined([alone, whole], between=" ")
 
 
 def _peaks(result: RotorResponse) -> Table:
@@ -299,13 +316,13 @@ def _largest(result: RotorResponse) -> tuple[float, float] | None:
 
 def _keys(result: RotorResponse) -> Iterator[KeyFigure]:
     peak = _largest(result)
-    if peak is not None:
+    if peak is not None and result.line is None:  # else the line tells how far the shaft whirls
         speed, size = peak
         place = say(
             _("shaft {number}, at {speed}"), number=result.rotor.shaft, speed=Quantity(speed, "angular_speed", 3)
         )
         value = Quantity(size, "displacement", 3)
-        yield KeyFigure(name="whirl", title=_("largest whirl amplitude"), place=place, value=value)
+        yield KeyFigure(name="whirl", title=_("largest whirl amplitude of a shaft by itself"), place=place, value=value)
 
 
 def _rotor(rotor: Rotor) -> dict[str, Any]:
@@ -333,10 +350,13 @@ def _column_values(found: RotorResponse) -> tuple[float, float, float]:
 COLUMNS = (
     SweepQuestion(
         name="whirl",
-        doc=mark("largest whirl amplitude of a shaft with an unbalance or a crack, and in how many ranges it grows"),
+        doc=mark("largest whirl of a shaft by itself, with an unbalance or a crack, and in how many ranges it grows"),
         told=(
             OutputColumn(
-                name="whirl_um", dimension="displacement", unit="um", text=mark("largest whirl amplitude of an order")
+                name="whirl_um",
+                dimension="displacement",
+                unit="um",
+                text=mark("largest whirl amplitude of an order, of a shaft by itself"),
             ),
             OutputColumn(
                 name="whirl_speed_rpm", dimension="angular_speed", unit="rpm", text=mark("speed at which it is so")
