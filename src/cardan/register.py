@@ -174,6 +174,18 @@ QUESTIONS: dict[str, Question] = {
             ),
         ),
         Question(
+            name="mathieu",
+            module="cardan.book.mathieu_answer",
+            title=mark("Mathieu's equation"),
+            group=TORSION,
+            help=mark("Where the modes stand in the chart of Mathieu's equation, and the book's method for sizing."),
+            quick=False,
+            report=False,
+            command="torsion mathieu",
+            without={"error": MINUTES},
+            examples=("cardan torsion mathieu truck.toml --plot chart.svg",),
+        ),
+        Question(
             name="run-up",
             module="cardan.questions.torsion.transient.run_up_answer",
             title=mark("Run-up"),

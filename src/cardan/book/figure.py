@@ -11,6 +11,7 @@ from cardan.answers.quantity import Quantity, say
 from cardan.answers.reader import significant
 from cardan.figures.axes import across, axis, steps, written
 from cardan.figures.figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
+from cardan.figures.palette import shaft
 from cardan.maths.arrays import Array
 from cardan.maths.periodic.mathieu import LARGEST_Q, boundaries, damped_zone, exponents
 from cardan.texts import _
@@ -18,6 +19,7 @@ from cardan.units import deg, rpm
 
 from .comparison import BookComparison
 from .mathieu_drive import MathieuReduction
+from .mathieu_modes import MathieuModes
 
 POINTS = 121
 """Places along q at which boundaries are drawn."""
@@ -80,6 +82,51 @@ def reduction_figure(found: MathieuReduction) -> Figure:
             "b_r(q) exact, without damping"
         ),
         rows=(Row(panels=(close,), height=2.6),),
+    )
+
+
+BROAD = 18.0
+"""Largest a of the chart of all modes, as of Fig. 77."""
+
+
+def modes_chart_figure(found: MathieuModes) -> Figure:
+    """Return the chart of stability with the modes of a drive in it, and about the zone that is nearest to one."""
+    k = found.nearest
+    marks = tuple(
+        mark
+        for j, number in enumerate(found.number.tolist())
+        if found.a[j] <= BROAD
+        for mark in _point(
+            float(found.a[j]), float(found.q[j]), _("mode {number}").format(number=number), shaft(number)
+        )
+    )
+    top = 1.25 * max([2.0, *(float(q) for a, q in zip(found.a, found.q, strict=True) if a <= BROAD)])
+    a, q, zone = float(found.a[k]), float(found.q[k]), found.zone[k][0]
+    centre = float(zone * zone)
+    high = max(LEAST_Q, ROOM * q * max(1.0, centre / a))
+    reach = max(1.2 * abs(a - centre), 1.6 * high, 0.05)
+    ray = np.asarray([0.0, 1e3])
+    close = chart_panel(
+        (centre - reach, centre + reach),
+        high,
+        (
+            Curve(x=ray * a, y=ray * q, role="muted", width=1.0, dash="dotted", label=_("mode at other speeds")),
+            *_point(a, 0.5 * q, _("by the book's q, half of it"), "muted"),
+            *_point(a, q, _("mode {number}").format(number=int(found.number[k])), shaft(int(found.number[k]))),
+        ),
+        damping=float(found.damping[k]),
+        title=_("Parametric term q, about zone {number}").format(number=zone),
+        named=True,
+    )
+    return Figure(
+        name="mathieu-modes",
+        title=_("Parametric resonance: where the modes of the drive stand"),
+        sentence="",
+        source=_(
+            "Kozhevnikov & Perfil'ev (1978), eq. 196 with q put right, Figs. 77, 78; boundaries a_r(q), "
+            "b_r(q) exact, dashed with damping"
+        ),
+        rows=(Row(panels=(chart_panel((-2.0, BROAD), top, marks),), height=2.2), Row(panels=(close,), height=2.4)),
     )
 
 
@@ -267,5 +314,5 @@ def book_figure(found: BookComparison) -> Figure:
     )
 
 
-FIGURES = {BookComparison: book_figure, MathieuReduction: reduction_figure}
+FIGURES = {BookComparison: book_figure, MathieuReduction: reduction_figure, MathieuModes: modes_chart_figure}
 """Result -> what makes its figure."""

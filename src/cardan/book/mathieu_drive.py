@@ -130,16 +130,23 @@ class MathieuReduction:
         Another speed moves (a, q) along the ray through the origin: a = a_r(q), b_r(q) with q = a (q/a), found by
         repetition.
         """
-        slope = self.q / self.a
-        ends = []
-        for which in (0, 1):
-            a = float(zone * zone)
-            for _round in range(REPEATS):
-                before, a = a, float(boundaries(slope * a, zone)[which][-1])
-                if abs(a - before) <= 1e-14 * a:
-                    break
-            ends.append(self.natural_frequency / np.sqrt(a))
-        return float(ends[0]), float(ends[1])
+        return zone_speeds(self.natural_frequency, self.q / self.a, zone)
+
+
+def zone_speeds(natural_frequency: float, slope: float, zone: int = 1) -> tuple[float, float]:
+    """Return the speeds between which a mode is unstable without damping [rad/s], the slower one first.
+
+    natural_frequency [rad/s]; slope: q/a, the same at all speeds; zone: zone r lies about the natural frequency over r.
+    """
+    ends = []
+    for which in (0, 1):
+        a = float(zone * zone)
+        for _round in range(REPEATS):
+            before, a = a, float(boundaries(slope * a, zone)[which][-1])
+            if abs(a - before) <= 1e-14 * a:
+                break
+        ends.append(natural_frequency / np.sqrt(a))
+    return float(ends[0]), float(ends[1])
 
 
 def mathieu_reduction(
