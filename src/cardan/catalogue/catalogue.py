@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 
 from cardan.drive.fields.keys import NAMED, spelled
 from cardan.drive.material import Material
+from cardan.drive.shaft import Ply
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.files import refusal
 from cardan.reading.limits import check_text
@@ -22,7 +23,7 @@ from cardan.reading.scalar import nearest_of
 from cardan.reading.tree import Form, read_table
 from cardan.texts import _, language
 
-from .rows import TABLES, Grade, JointSize, Row, row_tree, told
+from .rows import TABLES, Grade, JointSize, Lamina, Row, row_tree, told
 from .sheets import tree_of
 
 R = TypeVar("R", bound=Row)
@@ -237,6 +238,33 @@ def found(known: Catalogue, words: str, only: str = "") -> dict[str, list[Row]]:
 def _stands(wanted: Sequence[str], row: Row) -> bool:
     text = str(list(row_tree(row).values())).casefold()
     return all(word in text for word in wanted)
+
+
+def ply(name: str, *, known: Catalogue | None = None, field: str = "ply") -> Ply:
+    """Return the ply of a lamina.
+
+    name: id of the lamina; known: the shipped catalogue when not given; field: what is refused.
+    Raises InputError: no lamina has the name, or it has no shear modulus.
+
+    >>> ply("CFRP-HT-UD").tension_along
+    1500000000.0
+    """
+    row = (known or catalogue()).row(Lamina, name, field=field)
+    if row.shear_12 is None:
+        raise refuse(field, _("{name} has no shear modulus; give the figures of the ply").format(name=name), "missing")
+    made = Ply(
+        grade=name,
+        along=row.youngs_1,
+        across=row.youngs_2,
+        shear=row.shear_12,
+        tension_along=row.tension_1,
+        compression_along=row.compression_1,
+        tension_across=row.tension_2,
+        compression_across=row.compression_2,
+        shear_strength=row.shear_strength,
+    )
+    made = made if row.poisson_12 is None else replace(made, poisson=row.poisson_12)
+    return made if row.density is None else replace(made, density=row.density)
 
 
 # From the tables of a catalogue file to rows, every problem at once.

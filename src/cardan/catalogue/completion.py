@@ -9,9 +9,10 @@ from typing import Any
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.material import Material
+from cardan.drive.shaft import Ply
 from cardan.errors import InputError, Problem, check
 
-from .catalogue import Catalogue, catalogue, material
+from .catalogue import Catalogue, catalogue, material, ply
 from .rows import JointSize, JointType
 
 SIZED = ("mass", "cross", "needles", "yoke", "rating")
@@ -62,9 +63,9 @@ def shortened(drive: Drive, known: Catalogue | None = None) -> Drive:
 
 
 def _unknown(drive: Drive, rows: Catalogue) -> Iterator[Problem]:
-    for path, grade in _grades(drive, ""):
+    for path, one in _named(drive, ""):
         try:
-            rows.grade(grade, field=path)
+            _filled_in(one, rows, path)
         except InputError as error:
             yield from error.problems
     for i, joint in enumerate(drive.joints):
@@ -77,18 +78,31 @@ def _unknown(drive: Drive, rows: Catalogue) -> Iterator[Problem]:
                 yield from error.problems
 
 
-def _grades(thing: Any, path: str) -> Iterator[tuple[str, str]]:
-    """Yield path and name of every material that is given by its name alone."""
-    if isinstance(thing, Material):
-        if thing.grade and thing == Material(grade=thing.grade):
-            yield path, thing.grade
+def _filled_in(thing: Material | Ply, rows: Catalogue, path: str = "") -> Material | Ply:
+    """Return a material or a ply with the figures of its grade."""
+    if isinstance(thing, Ply):
+        return ply(thing.grade, known=rows, field=path)
+    rows.grade(thing.grade, field=path)
+    return material(thing.grade, known=rows)
+
+
+def _bare(thing: Material | Ply) -> bool:
+    """Tell whether a material or a ply is given by its name alone."""
+    return bool(thing.grade) and thing == type(thing)(grade=thing.grade)
+
+
+def _named(thing: Any, path: str) -> Iterator[tuple[str, Material | Ply]]:
+    """Yield path and thing of every material and ply that is given by its name alone."""
+    if isinstance(thing, Material | Ply):
+        if _bare(thing):
+            yield path, thing
     elif isinstance(thing, tuple):
         for k, item in enumerate(thing):
             if is_dataclass(item):
-                yield from _grades(item, f"{path}[{k}]")
+                yield from _named(item, f"{path}[{k}]")
     elif is_dataclass(thing):
         for one in fields(thing):
-            yield from _grades(getattr(thing, one.name), f"{path}.{one.name}" if path else one.name)
+            yield from _named(getattr(thing, one.name), f"{path}.{one.name}" if path else one.name)
 
 
 def _sized(joint: Joint, rows: Catalogue) -> Joint:
@@ -128,20 +142,19 @@ def _under(given: Any, usual: Any, rows: Catalogue) -> Any:
 
 def _graded(thing: Any, rows: Catalogue) -> Any:
     """Return a thing whose materials carry the figures of their grades."""
-    if isinstance(thing, Material):
-        bare = bool(thing.grade) and thing == Material(grade=thing.grade)
-        return material(thing.grade, known=rows) if bare else thing
+    if isinstance(thing, Material | Ply):
+        return _filled_in(thing, rows) if _bare(thing) else thing
     return _changed(thing, lambda inner: _graded(inner, rows))
 
 
 def _ungraded(thing: Any, rows: Catalogue) -> Any:
     """Return a thing whose materials are names alone where the catalogue says the rest."""
-    if isinstance(thing, Material):
+    if isinstance(thing, Material | Ply):
         try:
-            same = bool(thing.grade) and thing == material(thing.grade, known=rows)
+            same = bool(thing.grade) and thing == _filled_in(thing, rows)
         except InputError:
             return thing
-        return Material(grade=thing.grade) if same else thing
+        return type(thing)(grade=thing.grade) if same else thing
     return _changed(thing, lambda inner: _ungraded(inner, rows))
 
 

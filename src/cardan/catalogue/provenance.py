@@ -9,8 +9,8 @@ from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.texts import _
 
-from .catalogue import Catalogue
-from .rows import UNSURE, JointSize, Row, sureness
+from .catalogue import Catalogue, ply
+from .rows import UNSURE, JointSize, Lamina, Row, sureness
 
 _STEP = re.compile(r"(\w+)((?:\[\d+\])*)")
 _PART = re.compile(r"joints\[(\d+)\]\.\w+\.")
@@ -46,6 +46,10 @@ def _row(drive: Drive, known: Catalogue, path: str) -> Row | None:
         except InputError:
             return None
         return grade if grade is not None and getattr(grade, name, None) == getattr(material, name) else None
+    if holder.endswith(".ply"):
+        own = _at(drive, holder)
+        lamina = known.rows(Lamina).get(own.grade) if own is not None else None
+        return lamina if lamina is not None and own == ply(own.grade, known=known) else None
     match = _PART.match(path)
     size = known.rows(JointSize).get(drive.joints[int(match[1])].size) if match else None
     if size is None:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cardan.errors import Problem
-from cardan.maths.linear.laminate import PlyStiffness, laminate_moduli
+from cardan.maths.linear.laminate import laminate_moduli
 from cardan.texts import _
 from cardan.units import mm
 
@@ -97,8 +97,8 @@ def body_material(shaft: Shaft) -> Material:
     layup = shaft.layup
     if layup is None:
         return shaft.material or Material()
-    ply = PlyStiffness(layup.ply.along, layup.ply.across, layup.ply.shear, layup.ply.poisson)
-    along, _around, shear = laminate_moduli(layup.angles, [layup.ply_thickness] * len(layup.angles), ply)
+    thickness = [layup.ply_thickness] * len(layup.angles)
+    along, _around, shear = laminate_moduli(layup.angles, thickness, layup.ply.stiffness)
     return Material(density=layup.ply.density, youngs=float(along), shear=float(shear))
 
 

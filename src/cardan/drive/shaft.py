@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from cardan.errors import refuse
+from cardan.maths.linear.laminate import PlyStiffness
+from cardan.texts import _
 from cardan.units import plain, quantity
 
 from .crack import ShaftCrack
@@ -67,11 +70,38 @@ class Notch:
 class Ply:
     """One layer of fibre and resin, in its own axes."""
 
-    along: float = quantity("stress", doc="Young's modulus along the fibres", above=0.0)
-    across: float = quantity("stress", doc="Young's modulus across the fibres", above=0.0)
-    shear: float = quantity("stress", doc="shear modulus", above=0.0)
+    grade: str = plain("", doc="lamina of the catalogue, whose figures hold where none are given")
+    along: float | None = quantity("stress", None, doc="Young's modulus along the fibres", above=0.0)
+    across: float | None = quantity("stress", None, doc="Young's modulus across the fibres", above=0.0)
+    shear: float | None = quantity("stress", None, doc="shear modulus", above=0.0)
     poisson: float = plain(0.3, doc="Poisson's ratio, contraction across over stretch along", above=-1.0, below=1.0)
     density: float = quantity("density", 1600.0, doc="density", above=0.0)
+    tension_along: float | None = quantity("stress", None, doc="tensile strength along the fibres", above=0.0)
+    compression_along: float | None = quantity("stress", None, doc="compressive strength along the fibres", above=0.0)
+    tension_across: float | None = quantity("stress", None, doc="tensile strength across the fibres", above=0.0)
+    compression_across: float | None = quantity("stress", None, doc="compressive strength across the fibres", above=0.0)
+    shear_strength: float | None = quantity("stress", None, doc="shear strength in the ply", above=0.0)
+
+    @property
+    def stiffness(self) -> PlyStiffness:
+        """Its moduli in its own axes."""
+        if self.along is None or self.across is None or self.shear is None:
+            text = _("missing: the moduli along, across and in shear, or a lamina of the catalogue")
+            raise refuse("layup.ply", text, "missing")
+        return PlyStiffness(self.along, self.across, self.shear, self.poisson)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Bond:
+    """Bond by which a metal end is glued into a composite tube, over a length at both ends."""
+
+    length: float = quantity("length", doc="length of the overlap", above=0.0)
+    thickness: float = quantity("length", doc="thickness of the adhesive", above=0.0)
+    shear: float = quantity("stress", doc="shear modulus of the adhesive", above=0.0)
+    strength: float = quantity("stress", doc="shear strength of the adhesive", above=0.0)
+    wall: float | None = quantity(
+        "length", None, doc="wall of the steel end within the tube; rigid when not given", above=0.0
+    )
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -80,7 +110,8 @@ class Layup:
 
     angles: tuple[float, ...] = quantity("angle", doc="angle of each ply from the axis of the shaft")
     ply_thickness: float = quantity("length", doc="thickness of a ply", above=0.0)
-    ply: Ply = plain(doc="elastic figures of a ply")
+    ply: Ply = plain(doc="figures of a ply, or the name of a lamina of the catalogue")
+    bond: Bond | None = plain(None, doc="bond between the tube and its metal ends")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -6,9 +6,14 @@ import math
 from dataclasses import dataclass
 from statistics import NormalDist
 
-from cardan.drive.shaft import Layup
+import numpy as np
+
+from cardan.drive.material import Material
+from cardan.drive.shaft import Bond, Layup
+from cardan.errors import Problem, check
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
-from cardan.maths.linear.laminate import PlyStiffness, laminate_moduli
+from cardan.maths.linear.laminate import laminate_moduli, ply_stresses
+from cardan.texts import _
 from cardan.units import mm
 
 RATED_TWIST = math.radians(9.0)
@@ -307,7 +312,7 @@ def composite_tube(layup: Layup, mean_diameter: float) -> CompositeTube:
     Notes
     -----
     T_b = 2π r² t·0.272 (E_x E_y³)^(1/4) (t/r)^(3/2); 0.272 is a figure of the literature, the classical one of an
-    isotropic tube is 0.253. Only stiffness: no ply strength is checked.
+    isotropic tube is 0.253. Only stiffness; the strength of the plies is `ply_exposure`.
 
     Examples
     --------
@@ -319,8 +324,7 @@ def composite_tube(layup: Layup, mean_diameter: float) -> CompositeTube:
     """
     plies = len(layup.angles)
     thickness = plies * layup.ply_thickness
-    stiff = PlyStiffness(layup.ply.along, layup.ply.across, layup.ply.shear, layup.ply.poisson)
-    along, around, shear = laminate_moduli(layup.angles, [layup.ply_thickness] * plies, stiff)
+    along, around, shear = laminate_moduli(layup.angles, [layup.ply_thickness] * plies, layup.ply.stiffness)
     radius = 0.5 * mean_diameter
     buckling = 2.0 * math.pi * radius**2 * thickness * 0.272 * (along * around**3) ** 0.25 * (thickness / radius) ** 1.5
     return CompositeTube(
@@ -331,6 +335,125 @@ def composite_tube(layup: Layup, mean_diameter: float) -> CompositeTube:
         mass_per_length=2.0 * math.pi * radius * thickness * layup.ply.density,
         buckling_torque=float(buckling),
     )
+
+
+PLY_STRENGTHS = ("tension_along", "compression_along", "tension_across", "compression_across", "shear_strength")
+"""Fields of a ply that its strength needs."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PlyExposure:
+    """How much of their strength the plies of a tube use, arrays (...)."""
+
+    exposure: Array  # (...): of the ply that is worst off, 1 where it fails by Tsai and Wu
+    ply: Array  # (...) of int: which one that is, from 1 at the inside
+    shear: Array  # (...) [Pa]: largest shear stress along the fibres in any ply
+
+
+def ply_exposure(
+    layup: Layup, mean_diameter: ArrayLike, ply_thickness: ArrayLike, torque: ArrayLike, bending: ArrayLike = 0.0
+) -> PlyExposure:
+    """Return how much of their strength the plies of a thin tube use under torque and a bending moment.
+
+    Parameters
+    ----------
+    layup : Layup
+        Its angles and the figures of its ply, strengths included.
+    mean_diameter, ply_thickness : arrays (...) [m]
+        Of the middle of the wall, of a ply.
+    torque, bending : arrays (...) [N·m]
+        Either way round: the tube turns under the moment, and the torque may be that of coasting.
+
+    Returns
+    -------
+    PlyExposure
+
+    Notes
+    -----
+    N_xy = T/(2πr²), N_x = ±M/(πr²); stresses of each ply by classical laminate theory, `ply_stresses`. Tsai and Wu
+    (1971): F_1 σ_1 + F_2 σ_2 + F_11 σ_1² + F_22 σ_2² + F_66 τ² + 2 F_12 σ_1 σ_2 = 1 with F_12 = -½√(F_11 F_22); the
+    exposure is the inverse of the factor by which the loads grow until then. The ends of the tube are left out.
+
+    Examples
+    --------
+    >>> from cardan.drive.shaft import Ply
+    >>> ply = Ply(along=135e9, across=10e9, shear=5e9, tension_along=1500e6, compression_along=1200e6,
+    ...           tension_across=50e6, compression_across=250e6, shear_strength=70e6)
+    >>> layup = Layup(angles=(math.pi / 4, -math.pi / 4), ply_thickness=1e-3, ply=ply)
+    >>> found = ply_exposure(layup, 0.09, 1e-3, 2000.0)
+    >>> print(f"{found.exposure:.3f}")
+    0.245
+    """
+    strength = {name: getattr(layup.ply, name) for name in PLY_STRENGTHS}
+    lacking = [name for name, value in strength.items() if value is None]
+    check(Problem(f"layup.ply.{name}", _("missing: the strength of the ply"), "missing") for name in lacking)
+    first, second, third, fourth, fifth = strength.values()
+    unit = ply_stresses(layup.angles, np.ones(len(layup.angles)), layup.ply.stiffness)
+    radius, thin, twist, bent = np.broadcast_arrays(0.5 * np.asarray(mean_diameter), ply_thickness, torque, bending)
+    across = twist / (2.0 * np.pi * radius**2 * thin)
+    along = bent / (np.pi * radius**2 * thin)
+    exposure, shear = [], []
+    f11, f22, f66 = 1.0 / (first * second), 1.0 / (third * fourth), 1.0 / fifth**2
+    f1, f2, f12 = 1.0 / first - 1.0 / second, 1.0 / third - 1.0 / fourth, -0.5 * math.sqrt(f11 * f22)
+    for way in (1.0, -1.0):
+        for side in (1.0, -1.0):
+            one, two, tau = np.moveaxis(
+                side * along[..., None, None] * unit[:, :, 0] + way * across[..., None, None] * unit[:, :, 2], -1, 0
+            )
+            square = f11 * one**2 + f22 * two**2 + f66 * tau**2 + 2.0 * f12 * one * two
+            straight = f1 * one + f2 * two
+            exposure.append(0.5 * (straight + np.sqrt(straight**2 + 4.0 * square)))
+            shear.append(np.abs(tau))
+    most: Array = np.max(exposure, axis=0)
+    return PlyExposure(
+        exposure=np.max(most, axis=-1), ply=np.argmax(most, axis=-1) + 1, shear=np.max(shear, axis=(0, -1))
+    )
+
+
+def bond_shear(bond: Bond, layup: Layup, outer: ArrayLike, ply_thickness: ArrayLike, torque: ArrayLike) -> Array:
+    """Return the largest shear stress in the bond between a composite tube and the metal end in it, array (...) [Pa].
+
+    Parameters
+    ----------
+    bond : Bond
+    layup : Layup
+        Of the tube.
+    outer, ply_thickness : arrays (...) [m]
+        Outer diameter of the tube, thickness of a ply.
+    torque : array (...) [N·m]
+
+    Notes
+    -----
+    Lap of two tubes twisted against each other (Volkersen's model in torsion, Adams and Peppiatt 1977): with the
+    torsional stiffness k_1 of the tube and k_2 of the steel end, β² = 2πa³ G_a/t_a (1/k_1 + 1/k_2), the stress at the
+    end from which the part with the share s = k/(k_1 + k_2) comes is T β/(2πa²) (s + (1 - s) cosh βL)/sinh βL; the
+    larger end counts.
+
+    Examples
+    --------
+    >>> from cardan.drive.shaft import Ply
+    >>> ply = Ply(along=135e9, across=10e9, shear=5e9)
+    >>> layup = Layup(angles=(math.pi / 4, -math.pi / 4), ply_thickness=1e-3, ply=ply)
+    >>> bond = Bond(length=0.05, thickness=0.2e-3, shear=1e9, strength=30e6)
+    >>> print(f"{bond_shear(bond, layup, 0.092, 1e-3, 1000.0) / 1e6:.2f} MPa")
+    9.65 MPa
+    """
+    plies = len(layup.angles)
+    _along, _around, shear = laminate_moduli(layup.angles, [layup.ply_thickness] * plies, layup.ply.stiffness)
+    wide, thin, load = np.broadcast_arrays(*floats(outer, ply_thickness, torque))
+    wall = plies * thin
+    inside = 0.5 * wide - wall
+    tube = shear * 2.0 * np.pi * (inside + 0.5 * wall) ** 3 * wall
+    steel = Material().shear_modulus
+    end = np.inf
+    if bond.wall is not None:
+        end = steel * 0.5 * np.pi * (inside**4 - np.maximum(inside - bond.wall, 0.0) ** 4)
+    share = np.where(np.isinf(end), 0.0, tube / (tube + end))
+    steep = np.sqrt(2.0 * np.pi * inside**3 * bond.shear / bond.thickness * (1.0 / tube + 1.0 / end))
+    less = np.minimum(share, 1.0 - share)
+    far = steep * bond.length
+    found: Array = load * steep / (2.0 * np.pi * inside**2) * (less / np.sinh(far) + (1.0 - less) / np.tanh(far))
+    return found
 
 
 # Torque a vehicle's shaft must carry: what the engine brings, and what the wheels can pass to the road.

@@ -22,7 +22,7 @@ from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
 from cardan.drive.pose import Pose
 from cardan.drive.settings import Settings, TitleBlock
-from cardan.drive.shaft import Layup, Notch, Ply, PointMass, Segment, Shaft, Spline, Unbalance
+from cardan.drive.shaft import Bond, Layup, Notch, Ply, PointMass, Segment, Shaft, Spline, Unbalance
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.steering import Steering
 from cardan.drive.support import Support
@@ -189,6 +189,7 @@ def sections() -> tuple[tuple[str, type], ...]:
         ("`notch` of a shaft", Notch),
         ("`layup` of a shaft", Layup),
         ("`ply` of a layup", Ply),
+        ("`bond` of a layup", Bond),
         ("`unbalance` of a shaft", Unbalance),
         ("`crack` of a shaft", ShaftCrack),
         ("`[[supports]]`", Support),

@@ -39,6 +39,7 @@ SIZED = {
     "tube_fatigue": "tube",
     "shaft_life": "tube",
     "tube_buckling": "tube",
+    "ply_strength": "tube",
     "journal_strength": "journal",
     "needle_static": "needles",
     "bearing_life": "needles",

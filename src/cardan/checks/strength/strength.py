@@ -36,6 +36,7 @@ from . import (
     joint_torque,
     journal_strength,
     needle_static,
+    ply_strength,
     rated_torque,
     shaft_life,
     spline_pressure,
@@ -56,6 +57,7 @@ STRENGTH = tuple(
     for module in (
         tube_strength,
         tube_buckling,
+        ply_strength,
         tube_fatigue,
         shaft_life,
         spline_strength,

@@ -33,7 +33,7 @@ def _of_composite(design: Design, k: int) -> Iterator[Verdict]:
         limit=buckles / design.value("limits.safety"),
         source=_("buckling of the wall, 2π r² t·0.272 (E_x E_y³)^(1/4) (t/r)^(3/2), over safety"),
         design_variables=(f"shafts[{k}].layup.ply_thickness", f"shafts[{k}].outer", *design.torque_design_variables),
-        note=" ".join(part for part in (note, _("the strength of the plies is not checked")) if part),
+        note=note,
     )
 
 

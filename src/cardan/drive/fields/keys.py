@@ -13,7 +13,7 @@ from cardan.drive.joints import DEFAULT, JOINTS, Joint
 from cardan.drive.machine import LAWS, MachineTorque
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Movement
-from cardan.drive.shaft import Shaft
+from cardan.drive.shaft import Ply, Shaft
 from cardan.reading.fields import Field, exact_in_unit, fields_of, in_unit
 from cardan.units import DIMENSIONS
 
@@ -24,7 +24,7 @@ KINDS: dict[type, tuple[Mapping[str, type], str | None]] = {
 }
 """Base class -> its kinds by the value of the key ``kind``, and the default kind."""
 
-NAMED: dict[type, str] = {Material: "grade", History: "file"}
+NAMED: dict[type, str] = {Material: "grade", Ply: "grade", History: "file"}
 """Class of a table that may be given by a name alone -> field that holds the name."""
 
 

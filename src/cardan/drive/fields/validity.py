@@ -541,6 +541,10 @@ def _layup(shaft: Shaft, path: str) -> Iterator[Problem]:
         yield Problem(f"{path}.layup.ply_thickness", _("the plies are thicker than half the outer diameter"))
     if not layup.angles:
         yield Problem(f"{path}.layup.angles", _("holds no ply"), "empty")
+    for name in ("along", "across", "shear"):
+        if getattr(layup.ply, name) is None and not layup.ply.grade:
+            text = _('missing; or name a lamina of the catalogue, ply = "CFRP-HT-UD"')
+            yield Problem(f"{path}.layup.ply.{name}", text, "missing")
     for name in ("material", "wall", "inner"):
         if getattr(shaft, name) is not None:
             yield Problem(f"{path}.{name}", _("layup gives the same already"))
