@@ -170,7 +170,7 @@ def line_whirl(
     return model.steady(at, used, progress)
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)
 def whirl_in_use(drive: Drive) -> LineWhirl:
     """Return how the whole line of a drive whirls over the speeds in use, found once for answers, checks and report."""
     return line_whirl(drive)

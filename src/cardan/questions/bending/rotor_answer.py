@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table
-from cardan.answers.quantity import Joined, Quantity, Text, say
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
@@ -182,7 +182,7 @@ def _sentence(result: RotorResponse) -> Text:
         return say(_("shaft {number} has no steady motion at these speeds."), number=result.rotor.shaft)
     order = foremost_of(known, lambda one: known[one][1])
     speed, size = known[order]
-    alone = say(
+    return say(
         _("shaft {number} by itself whirls most in {order}: {size} at {speed}, {share} of its own critical speed."),
         number=result.rotor.shaft,
         order=order_name(order),
@@ -190,12 +190,6 @@ def _sentence(result: RotorResponse) -> Text:
         speed=Quantity(speed, "angular_speed", 3),
         share=Quantity(speed / result.rotor.critical, decimals=2),
     )
-    if result.line is None or result.rotor.shaft not in result.line.shaft:
-        return alone
-    most, when, _place = result.line.peak(shaft=result.rotor.shaft)
-    text = _("In the whole line, with all that shakes it and on its supports, it whirls by {size}, at {speed}.")
-    whole = say(text, size=Quantity(most, "displacement", 3), speed=Quantity(when, "angular_speed", 3))
-    return Joined([alone, whole], between=" ")
 
 
 def _peaks(result: RotorResponse) -> Table:
@@ -274,6 +268,7 @@ def _shaft(rotor: Rotor) -> Iterator[Remark]:
 
 
 def _remarks(result: RotorResponse) -> Iterator[Remark]:
+    yield from _in_line(result)
     yield from _shaft(result.rotor)
     used, steady = result.used, result.steady
     for low, high in result.unstable:
@@ -298,6 +293,15 @@ def _remarks(result: RotorResponse) -> Iterator[Remark]:
     yield Remark(text=_("Orders over the speed, and orbits:"), command=command, tone="next")
     text = _("This is one shaft in one mode; all shafts on their supports:")
     yield Remark(text=text, command=("cardan", "rotor", FILE, "--line"), tone="next")
+
+
+def _in_line(result: RotorResponse) -> Iterator[Remark]:
+    """Yield what the shaft does in the whole line, which is the answer for the drive."""
+    if result.line is not None and result.rotor.shaft in result.line.shaft:
+        size, speed, _place = result.line.peak(shaft=result.rotor.shaft)
+        text = _("In the whole line, with all that shakes it and on its supports, it whirls by {size}, at {speed}.")
+        whole = say(text, size=Quantity(size, "displacement", 3), speed=Quantity(speed, "angular_speed", 3))
+        yield Remark(text=whole, tone="warning")
 
 
 def _checked(residual: float, what: str) -> Remark:
