@@ -106,7 +106,7 @@ def answer_of_run(drive: Drive, result: LineRun) -> Answer:
             place=Quantity(result.peak_place, "length", 3),
         ),
         tables=(_run_parts(drive, result),),
-        remarks=tuple(_run_remarks(drive, result)),
+        remarks=(*yokes_estimated(drive), *_run_remarks(drive, result)),
         figures=lambda: (line_run_figure(drive, result),),
         facts={
             "peak": Quantity(result.peak, "displacement"),
