@@ -20,6 +20,7 @@ from .choices.remedy import most_helpful as most_helpful
 from .choices.remedy import remedies as remedies
 from .choices.size_search import Sizing as Sizing
 from .choices.sizing import size as size
+from .choices.torsion_design import optimise_torsion as optimise_torsion
 from .drive.accuracy import Tolerance as Tolerance
 from .drive.drive import Drive as Drive
 from .errors import CardanError as CardanError
@@ -69,7 +70,6 @@ from .questions.torsion.absorber.absorber import absorber as absorber
 from .questions.torsion.model.torsion import TorsionModes as TorsionModes
 from .questions.torsion.model.torsion import torsion_modes as torsion_modes
 from .questions.torsion.optimise.optimise import OptimisedTorsion as OptimisedTorsion
-from .questions.torsion.optimise.optimise import optimise_torsion as optimise_torsion
 from .questions.torsion.stability.torsion_stability import Stability as Stability
 from .questions.torsion.stability.torsion_stability import stability as stability
 from .questions.torsion.steady.torsion_response import TorsionResponse as TorsionResponse

@@ -219,13 +219,13 @@ QUESTIONS: dict[str, Question] = {
         ),
         Question(
             name="optimise",
-            module="cardan.questions.torsion.optimise.answer",
+            module="cardan.choices.torsion_design",
             title=mark("Torsional optimisation"),
             group=TORSION,
             help=mark("Which yoke angles, stiffnesses, inertias or joint positions make torsional vibration least."),
             quick=False,
             report=False,
-            takes=("progress",),
+            takes=("known", "progress"),
             command="torsion optimise",
             without={"pose": DESIGNED, "movement": DESIGNED, "case": DESIGNED, "error": MINUTES},
             examples=(

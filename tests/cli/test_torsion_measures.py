@@ -10,9 +10,9 @@ import pytest
 from cardan import io as files
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
+from cardan.choices import torsion_design as calms
 from cardan.cli.torsion import torsion_absorber, torsion_optimise
 from cardan.questions.torsion.absorber import absorber as absorbers
-from cardan.questions.torsion.optimise import optimise as calms
 from cardan.questions.torsion.optimise.answer import reasons
 from cardan.questions.torsion.optimise.optimise import Grid
 from cardan.units import rpm

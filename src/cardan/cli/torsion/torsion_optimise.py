@@ -5,23 +5,30 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Annotated
 
+from cardan.choices.torsion_design import answer, optimise_torsion
 from cardan.cli.shared.asked import TorqueNm, check_options, on_duty
 from cardan.cli.shared.options import option
 from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Force, Plot, SpeedRpm, read_with_text
 from cardan.cli.shared.tell import tell
 from cardan.errors import Problem, check
+from cardan.io.drive_file import known_to
 from cardan.io.edit import edit
 from cardan.maths.curves.search import Evolution
-from cardan.questions.torsion.optimise.answer import answer
-from cardan.questions.torsion.optimise.optimise import Grid, optimise_torsion
+from cardan.questions.torsion.optimise.optimise import Grid
 from cardan.texts import _
 
 from .torsion_band import Element, Out, SpeedBand, asked_of, band_of, check_out, elements_of, repeated, stepped, written
 
 ROUNDS = 40  # generations of a search
 
-OPTIONS = {"free": "--free", "speeds": "--speeds", "elements": "--element", "method.points": "--grid"}
+OPTIONS = {
+    "free": "--free",
+    "speeds": "--speeds",
+    "elements": "--element",
+    "method.points": "--grid",
+    "tolerances": "--tolerance",
+}
 """What the question calls by another name than the command."""
 
 
@@ -33,6 +40,14 @@ def torsion_optimise(
             "--free",
             "PATH=LOW:HIGH[:STEP]",
             _("Key of the file that may change, as shafts[1].yoke_angle_deg; may be repeated. Yokes by default."),
+        ),
+    ] = None,
+    tolerance: Annotated[
+        list[str] | None,
+        option(
+            "--tolerance",
+            "PATH=SIZE",
+            _("How far a key may be off to either side, as shafts[1].stiffness_Nm_per_rad=5%; may be repeated."),
         ),
     ] = None,
     speeds: SpeedBand = None,
@@ -53,22 +68,45 @@ def torsion_optimise(
     """Tell the yokes, stiffnesses, inertias or joint positions with the least alternating torque over the speeds."""
     check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
     check_out(out, file, force=force)
-    band, ranges = band_of(speeds), ranges_of(free or [])
+    band, ranges, off = band_of(speeds), ranges_of(free or []), sizes_of(tolerance or [])
     drive, text = read_with_text(file)
     drive = on_duty(drive, speed_rpm, torque)
+    known = known_to(drive, file.parent) if drive.settings.catalogues else None
     method = Evolution(rounds=rounds, seed=seed) if grid is None else Grid(points=grid)
     with asked_of(file, OPTIONS), keeping(_("searching designs")) as progress:
         found = optimise_torsion(
-            drive, free=ranges, speeds=band, elements=elements_of(element), method=method, progress=progress
+            drive,
+            free=ranges,
+            speeds=band,
+            elements=elements_of(element),
+            method=method,
+            tolerances=off or None,
+            known=known,
+            progress=progress,
         )
     if out is not None:
         changed = {one.path: found.values[one.path] for one in found.free if found.values[one.path] != one.built}
         written(file, text, out, lambda: edit(text, changed, folder=file.parent) if changed else text, found.drive)
     given: dict[str, object] = {"--speeds": speeds, "--grid": grid, "--rounds": None if rounds == ROUNDS else rounds}
     given |= {"--seed": seed or None, "--speed-rpm": speed_rpm, "--torque-Nm": torque}
-    options = repeated(given, {"--free": free, "--element": element})
+    options = repeated(given, {"--free": free, "--tolerance": tolerance, "--element": element})
     said = stepped(answer(drive, found), ("torsion", "optimise"), options, out)
     return ended(tell(said, file, drive, json=json, csv=csv, plot=plot), progress)
+
+
+def sizes_of(texts: Sequence[str]) -> dict[str, float | str]:
+    """Return path -> size of PATH=SIZE."""
+    found: dict[str, float | str] = {}
+    problems = []
+    for text in texts:
+        path, equals, rest = text.partition("=")
+        if not equals or not rest.strip():
+            problems.append(Problem("--tolerance", _("not PATH=SIZE: {text}").format(text=text)))
+        elif path in found:
+            problems.append(Problem("--tolerance", _("{path} is given twice").format(path=path)))
+        found[path] = rest
+    check(problems)
+    return found
 
 
 def ranges_of(texts: Sequence[str]) -> dict[str, tuple[float, ...]] | None:

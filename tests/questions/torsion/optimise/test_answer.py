@@ -7,11 +7,12 @@ import pytest
 from cardan.answers.data import data
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
+from cardan.choices.torsion_design import ask
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
-from cardan.questions.torsion.optimise.answer import answer, ask, lacking, otherwise, reasons
+from cardan.questions.torsion.optimise.answer import answer, lacking, otherwise, reasons
 from cardan.questions.torsion.optimise.optimise import Grid, optimise_torsion
 from cardan.report.block import page
 from cardan.texts import speaking

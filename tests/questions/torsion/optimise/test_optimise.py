@@ -225,3 +225,91 @@ def test_stations_that_meet_are_no_design() -> None:
     found = optimise_torsion(drive, free={"stations[1].position_mm": (100.0, 900.0, 200.0)}, method=Grid())
     assert found.infeasible == 1
     assert found.peak_after.torque < found.peak_before.torque
+
+
+# Tolerances: the worst within them counts, found apart by plain steady responses at very many places within.
+
+DAMPER = "shafts[1].damping_Nms_per_rad"
+OFF = {SPRING: "15%", DAMPER: "40%", YOKE: 4.0}
+DAMPED = replace(DRIVE, shafts=(DRIVE.shafts[0], replace(DRIVE.shafts[1], damping=8.0), DRIVE.shafts[2]))
+"""So much damping that nothing grows anywhere within the tolerances, and peaks are wide beside steps of the speed."""
+
+
+def off_by(drive: Drive, sides: tuple[float, float, float]) -> Drive:
+    """Return a drive off by parts of `OFF`, by hand."""
+    spring, damper, yoke = sides
+    shaft = drive.shafts[1]
+    made = replace(
+        shaft,
+        stiffness=shaft.stiffness * (1.0 + 0.15 * spring),
+        damping=shaft.damping * (1.0 + 0.4 * damper),
+        yoke_angle=shaft.yoke_angle + 4.0 * deg * yoke,
+    )
+    return replace(drive, shafts=(drive.shafts[0], made, drive.shafts[2]))
+
+
+def worst_by_hand(drive: Drive, count: int) -> float:
+    """Return the largest swing at the corners of the tolerances and at places within them drawn by chance."""
+    places = [*product((-1.0, 1.0), repeat=3), *np.random.default_rng(5).uniform(-1.0, 1.0, (count, 3))]
+    return max(peak(off_by(drive, tuple(one)), 81) for one in places)
+
+
+@pytest.mark.slow
+def test_the_robust_design_is_calmest_at_its_worst() -> None:
+    """Against every combination of a table by hand: none has a smaller worst within its tolerances."""
+    free = {YOKE: (-60.0, 60.0), SPRING: (3000.0, 12000.0)}
+    found = optimise_torsion(DAMPED, free=free, method=Grid(points=4), tolerances=OFF)
+    assert found.worst_after is not None
+    assert found.worst_before is not None
+    # evenly spread speeds of the hand calculation miss the tops of resonances by little
+    by_hand = worst_by_hand(found.drive, 40)
+    assert found.worst_after.torque == pytest.approx(by_hand, rel=0.03)
+    assert found.worst_after.torque >= by_hand * 0.98
+    table = {
+        (yoke, spring): max(
+            peak(off_by(with_values(DAMPED, {YOKE: yoke, SPRING: spring}), one), 81)
+            for one in product((-1.0, 1.0), repeat=3)
+        )
+        for yoke, spring in product(np.linspace(-60.0, 60.0, 4), np.linspace(3000.0, 12000.0, 4))
+    }
+    assert found.worst_after.torque <= min(table.values()) * 1.01
+    plain = optimise_torsion(DAMPED, free=free, method=Grid(points=4))
+    assert plain.peak_after.torque <= found.peak_after.torque * 1.001
+    assert found.worst_after.torque <= worst_by_hand(plain.drive, 0) * 1.01
+    assert found.worst_before.torque == pytest.approx(worst_by_hand(DAMPED, 0), rel=0.05)
+
+
+def test_a_resonance_within_the_tolerances_and_outside_of_their_corners_is_met() -> None:
+    """A narrow band: both ends of the stiffness leave it calm, a value between brings order 2 into it."""
+    single = replace(
+        Drive.from_angles([12 * deg]),
+        shafts=(Shaft(number=1, stiffness=1000.0, damping=0.4),),
+        stations=(Station(shaft=2, inertia=0.4),),
+        duty=Duty(torque=20.0, speed_range=(24.5, 25.5)),
+    )
+    path = "shafts[0].stiffness_Nm_per_rad"
+    assert 0.5 * np.sqrt(1000.0 / 0.4) == pytest.approx(25.0)
+    found = optimise_torsion(single, free={path: (980.0, 1020.0, 40.0)}, method=Grid(), tolerances={path: "20%"})
+    assert found.worst_after is not None
+    assert abs(found.worst_after.sides[0]) < 0.3
+    assert found.worst_after.torque > 3.0 * peak(with_values(single, {path: 1.2 * 1020.0}), 31)
+
+
+def test_tolerances_that_are_none_are_refused_with_their_keys() -> None:
+    for path, size, said in (
+        (SPRING, "0", "not a tolerance: 0"),
+        (SPRING, "120%", "not a tolerance: 120%"),
+        (SPRING, "much", "not a tolerance: much"),
+        ("shafts[1].name", 1.0, "leads to no number"),
+        ("shafts[7].stiffness_Nm_per_rad", 1.0, "shafts"),
+    ):
+        with pytest.raises(InputError, match=said):
+            optimise_torsion(DRIVE, free=FREE, method=Grid(points=2), tolerances={path: size})
+    many = (
+        {f"stations[0].{name}": "5%" for name in ("inertia_kg_m2",)}
+        | {f"shafts[1].{name}": "5%" for name in ("stiffness_Nm_per_rad", "damping_Nms_per_rad", "inertia_kg_m2")}
+        | {f"joints[{k}].joint_angle_deg": 0.5 for k in (0, 1)}
+        | {"duty.torque_Nm": "5%"}
+    )
+    with pytest.raises(InputError, match="7 tolerances; at most 6"):
+        optimise_torsion(DRIVE, free=FREE, method=Grid(points=2), tolerances=many)

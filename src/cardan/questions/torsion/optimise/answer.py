@@ -8,19 +8,19 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import Answer, Column, Remark, Table, Tone
-from cardan.answers.quantity import Quantity, Say, Text, say
+from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
 from cardan.drive.yokes import yokes_estimated
 from cardan.maths.ties import foremost
 from cardan.questions.torsion.absorber.answer import LITTLE, band, cautions, curves, lacking_line, speed, torque
-from cardan.questions.torsion.steady.torsion_response import Progress
 from cardan.texts import _
 
 from .designs import Free
 from .figure import torsion_design_figures
 from .modal_excitation import NodeRule
-from .optimise import OptimisedTorsion, Peak, optimise_torsion
+from .optimise import OptimisedTorsion, Peak, Worst
+from .spread import Spread
 
 AGREE = 0.02
 """Independent searches whose answers differ by no more than this share agree."""
@@ -43,17 +43,6 @@ def lacking(drive: Drive) -> Lacking:
     duty = drive.duty
     speeds = duty.speed_range is not None or bool(duty.speed)
     return (*lacking_line(drive), *absent((speeds, "duty.speed_range", "duty.speed")))
-
-
-def ask(drive: Drive, *, progress: Progress | None = None) -> OptimisedTorsion | None:
-    """Return the yoke angles with the least torsional vibration; None where no yoke may be turned.
-
-    drive: with what `optimise_torsion` needs; its yokes that are not fixed may turn.
-    progress: told the share done; when it answers "stop" the best so far is returned.
-    """
-    if all(shaft.yoke_fixed for shaft in drive.shafts[1:-1]):
-        return None
-    return optimise_torsion(drive, progress=progress)
 
 
 def otherwise(_drive: Drive) -> str:
@@ -79,9 +68,15 @@ def answer(drive: Drive, result: OptimisedTorsion) -> Answer:
 
 def _sentence(result: OptimisedTorsion) -> tuple[Tone, Say]:
     values = {"after": torque(result.peak_after.torque), "band": band(result.speed)}
-    if result.reduction > LITTLE and not len(result.unstable_before):
+    drawn = result.worst_after is None
+    if drawn and result.reduction > LITTLE and not len(result.unstable_before):
         text = _("nothing that may change makes it vibrate much less; largest alternating torque ±{after}, {band}.")
         return "warning", say(text, **values)
+    if result.worst_before is not None and result.worst_after is not None:
+        before, after = (torque(one.torque) for one in (result.worst_before, result.worst_after))
+        text = _("within its tolerances the largest alternating torque falls from ±{before:bare} to ±{after}, {band}.")
+        said = say(text, before=before, after=after, band=values["band"])
+        return "warning" if result.worst_after.unstable else "good", said
     text = _("the largest alternating torque falls from ±{before:bare} to ±{after} ({share}), {band}.")
     share = Quantity(result.reduction, "share", 3)
     tone: Tone = "warning" if len(result.unstable_after) else "good"
@@ -147,6 +142,7 @@ def _remarks(result: OptimisedTorsion) -> Iterator[Remark]:
     for path in result.at_limits:
         yield Remark(text=_("{path} is at the end of its range; a wider one may do more.").format(path=path))
     yield from cautions(result)
+    yield from _spread_remarks(result)
     if result.infeasible:
         yield Remark(text=say(_("{count} of the values tried make no drive."), count=int(result.infeasible)))
     if len(result.run_peaks) > 1:
@@ -160,6 +156,37 @@ def _remarks(result: OptimisedTorsion) -> Iterator[Remark]:
     else:
         text = _("Searched {count} designs on the exact equations.")
         yield Remark(text=say(text, count=int(result.evaluations)))
+
+
+def _spread_remarks(result: OptimisedTorsion) -> Iterator[Remark]:
+    """Yield what tolerances and limits make of it."""
+    worst = result.worst_after
+    if worst is not None:
+        text = _("As drawn ±{drawn}; at worst within the tolerances ±{worst} at {speed}, with {values}.")
+        pairs = [(one, side) for one, side in zip(result.off, worst.sides, strict=True) if side]
+        parts: list[Text] = [
+            say(_("{path} {sign}{size}"), path=one.path, sign="+" if side > 0.0 else "−", size=_off(one, abs(side)))
+            for one, side in pairs
+        ]
+        values = Joined(parts) if parts else _("all values as drawn")
+        drawn = torque(result.peak_after.torque)
+        yield Remark(
+            text=say(text, drawn=drawn, worst=torque(worst.torque), speed=speed(worst.speed, 4), values=values)
+        )
+        if worst.unstable:
+            text = _("Warning: within the tolerances it is unstable at some speeds of the band.")
+            yield Remark(text=text, tone="warning", alarm=True)
+    if result.limited is not None:
+        most = result.limited[1]
+        text = _("The limits of the drive file are kept; {share} of the nearest is used.")
+        if most > 1.0:
+            text = _("Warning: no design keeps the limits of the drive file; {share} of one is used.")
+        yield Remark(text=say(text, share=Quantity(most, "share", 3)), tone="plain" if most <= 1.0 else "warning")
+
+
+def _off(one: Spread, part: float) -> Quantity:
+    """Return so much of a tolerance, in the unit of its key."""
+    return Quantity(part * one.size, "share" if one.share else "", 3, trim=True)
 
 
 def reasons(result: OptimisedTorsion) -> tuple[Text, ...]:
@@ -273,6 +300,10 @@ def _facts(result: OptimisedTorsion) -> dict[str, Any]:
         "cancelled": result.cancelled,
         "backlash_closed": result.play,
         "at_limits": list(result.at_limits),
+        "tolerances": [{"path": one.path, "size": one.size, "share": one.share} for one in result.off],
+        "worst_before": _worst(result, result.worst_before),
+        "worst_after": _worst(result, result.worst_after),
+        "limits_used": None if result.limited is None else result.limited[1],
         "assumed": list(result.assumed),
     }
 
@@ -283,6 +314,13 @@ def _peak(result: OptimisedTorsion, one: Peak) -> dict[str, Any]:
         "at": Quantity(one.speed, "angular_speed"),
         "element": result.elements[one.element],
     }
+
+
+def _worst(result: OptimisedTorsion, one: Worst | None) -> dict[str, Any] | None:
+    if one is None:
+        return None
+    peak = Peak(torque=one.torque, speed=one.speed, element=one.element)
+    return {**_peak(result, peak), "sides": list(one.sides), "unstable": one.unstable}
 
 
 def _rule(one: NodeRule) -> dict[str, Any]:

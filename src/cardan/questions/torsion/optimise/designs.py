@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import floor, isfinite
 
@@ -27,6 +27,8 @@ from cardan.questions.torsion.model.torsional_train import TorsionalTrain
 from cardan.questions.torsion.steady.alternating_torque import TorqueSwings
 from cardan.texts import _
 
+from .spread import Spread, corners, drive_off
+
 TURN = 90.0
 """How far yokes may turn either way where nothing else is said [°]: beyond, they stand as before."""
 
@@ -37,7 +39,8 @@ LOST = 10.0
 """What a motion that was not found counts as, times the largest torque as built."""
 
 WORST = 1e3
-"""What an unstable design counts as at least, times the largest torque as built: it never beats a stable one."""
+"""What an unstable design, or one that breaks a limit, counts as at least, times the largest torque as built: it never
+beats a stable one that keeps them."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -138,10 +141,21 @@ class Designs:
 
     drive: as built, with its duty; band [rad/s].
     elements: elements that are judged; all of the line by default.
+    off: tolerances; every design counts as its worst at their corners.
+    used: share of the limits that a drive uses, at most 1 where it keeps them; None where there are none.
     """
 
-    def __init__(self, drive: Drive, free: tuple[Free, ...], band: tuple[float, float], elements: Array | None) -> None:
-        self.drive, self.free, self.band = drive, free, band
+    def __init__(
+        self,
+        drive: Drive,
+        free: tuple[Free, ...],
+        band: tuple[float, float],
+        elements: Array | None,
+        off: tuple[Spread, ...] = (),
+        used: Callable[[Drive], float] | None = None,
+    ) -> None:
+        self.drive, self.free, self.band, self.off, self.used = drive, free, band, off, used
+        self.sides = corners(len(off))
         self.middle = 0.5 * (band[0] + band[1])
         self.built = lines([drive], self.middle)
         self.elements = self.built.elements if elements is None else elements
@@ -173,22 +187,36 @@ class Designs:
         except InputError:
             return None
 
-    def groups(self, places: Array) -> Iterator[tuple[Array, Lines]]:
-        """Yield places (D, v) by their build, each with its rows; those that make no drive are left out."""
-        found: dict[tuple[object, ...], list[tuple[int, Drive, TorsionalTrain]]] = {}
-        for k, at in enumerate(places):
-            drive = self.drive_at(at)
-            try:
-                train = None if drive is None else train_at(drive, self.middle)
-            except InputError:
-                train = None
-            if drive is None or train is None or len(train.model.elements) != self.count:  # stations that meet are one
-                self.infeasible += 1
-                continue
-            found.setdefault(built(train), []).append((k, drive, train))
+    def groups(self, places: Array) -> Iterator[tuple[tuple[Array, Array], Lines]]:
+        """Yield places (D, v), each with its tolerances used, by their build, with row of place and of the tolerances.
+
+        What makes no drive is left out.
+        """
+        yield from self.builds([self.drive_at(at) for at in places])
+
+    def builds(
+        self, drives: Sequence[Drive | None], places: Sequence[Array] | None = None
+    ) -> Iterator[tuple[tuple[Array, Array], Lines]]:
+        """Yield the same of drives; places: parts of the tolerances, each (k,), instead of their corners."""
+        every = self.sides if places is None else places
+        found: dict[tuple[object, ...], list[tuple[int, int, Drive, TorsionalTrain]]] = {}
+        for k, drawn in enumerate(drives):
+            made = []
+            for v, sides in enumerate(every):
+                drive = None if drawn is None else drive_off(drawn, self.off, sides)
+                try:
+                    train = None if drive is None else train_at(drive, self.middle)
+                except InputError:
+                    train = None
+                if drive is None or train is None or len(train.model.elements) != self.count:
+                    self.infeasible += 1  # also where stations meet and are one
+                    break
+                made.append((k, v, drive, train))
+            for one in made if len(made) == len(every) else ():
+                found.setdefault(built(one[-1]), []).append(one)
         for members in found.values():
-            rows, drives, trains = zip(*members, strict=True)
-            yield np.asarray(rows), Lines(drives=drives, trains=trains, speed=self.middle)
+            rows, which, own, trains = zip(*members, strict=True)
+            yield (np.asarray(rows), np.asarray(which)), Lines(drives=own, trains=trains, speed=self.middle)
 
     def speeds(self, line: Lines) -> Array:
         """Return the speeds at which designs are looked at, array (D, S) [rad/s]."""
@@ -204,11 +232,12 @@ class Designs:
     def cost(self, places: Array, beat: Array) -> Array:
         """Return the largest swing of designs over the band, array (D,) [N·m]; unstable ones beyond all others.
 
-        Stability is asked for only where a design would beat the cost it competes with.
+        With tolerances that at the worst of their corners. Stability and limits are asked for only where a design would
+        beat the cost it competes with.
         """
-        cost = np.full(len(places), np.inf)
+        every = np.full((len(places), len(self.sides)), np.inf)
         self.asked += len(places)
-        for rows, line in self.groups(places):
+        for (rows, which), line in self.groups(places):
             speed = self.speeds(line)
             found = line.swings(speed)
             peak = self._peaks(found, len(rows), self.peak)
@@ -216,14 +245,27 @@ class Designs:
             if np.any(better):
                 grown = np.where(better, growth(found, speed, line.omega, better), 0.0)
                 peak = np.where(grown > 0.0, WORST * self.peak * (1.0 + grown), peak)
-            cost[rows] = peak
+            every[rows, which] = peak
+        cost: Array = np.max(every, axis=-1)
+        for k in np.flatnonzero(cost < beat) if self.used is not None else ():
+            share = self.share_used(self.drive_at(places[k]))
+            if share > 1.0:
+                cost[k] = WORST * self.peak * (1.0 + share)
         return cost
 
+    def share_used(self, drive: Drive | None) -> float:
+        """Return the largest share of a limit that a drive uses at the corners of its tolerances."""
+        if self.used is None or drive is None:
+            return 0.0
+        made = [drive_off(drive, self.off, sides) for sides in self.sides]
+        return max(np.inf if one is None else self.used(one) for one in made)
+
     def swings(self, places: Array, speed: Array) -> Array:
-        """Return the swings of designs at the same speeds, array (D, S, E) [N·m]."""
-        whole = np.full((len(places), len(speed), len(self.elements)), LOST * self.peak)
-        for rows, line in self.groups(places):
+        """Return the swings of designs at the same speeds, array (D, S, E·V) [N·m], V times at their tolerances."""
+        shape = len(places), len(self.sides), len(speed), len(self.elements)
+        whole = np.full(shape, LOST * self.peak)
+        for (rows, which), line in self.groups(places):
             found = line.swings(np.broadcast_to(speed, (len(rows), len(speed)))).swing[:, self.elements]
             swing = found.reshape(len(rows), len(speed), -1)
-            whole[rows] = np.where(np.isfinite(swing), swing, LOST * self.peak)
-        return whole
+            whole[rows, which] = np.where(np.isfinite(swing), swing, LOST * self.peak)
+        return np.moveaxis(whole, 1, -1).reshape(len(places), len(speed), -1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
@@ -18,14 +18,18 @@ from cardan.maths.arrays import Array
 from cardan.maths.curves.search import Evolution, Evolved, evolve
 from cardan.questions.torsion.absorber.absorber_search import highest
 from cardan.questions.torsion.absorber.band import (
+    FINE,
+    FINER,
     LeastSwing,
     Lines,
     Stopped,
     Watch,
     Watched,
     about_peaks,
+    band_speeds,
     element_problems,
     fine_speeds,
+    growth,
     lines,
     unstable_speeds,
     wanted_band,
@@ -35,6 +39,7 @@ from cardan.texts import _
 
 from .designs import Designs, Free, free_quantities
 from .modal_excitation import NodeRule, node_rules
+from .spread import Spread, spreads
 
 SHARES = (0.8, 0.92)
 """Shares of the work when the search everywhere ends, and when the last steps do."""
@@ -82,6 +87,13 @@ class OptimisedTorsion:
         Whether the drive has play: it counts as closed here.
     assumed : tuple of str
         Paths of what the drive does not say.
+    off : tuple of Spread
+        Tolerances for which it was searched.
+    worst_before, worst_after : Worst or None
+        The worst within them as built and with the best values; None without tolerances.
+    limited : (float, float) or None
+        Largest share of a limit used as built and with the best values, at the worst of the tolerances; None where no
+        limits were given.
     """
 
     drive: Drive
@@ -107,6 +119,10 @@ class OptimisedTorsion:
     cancelled: bool
     play: bool
     assumed: tuple[str, ...]
+    off: tuple[Spread, ...] = ()
+    worst_before: Worst | None = None
+    worst_after: Worst | None = None
+    limited: tuple[float, float] | None = None
 
     @property
     def reduction(self) -> float:
@@ -140,6 +156,8 @@ def optimise_torsion(
     speeds: tuple[float, float] | None = None,
     elements: Sequence[int] | None = None,
     method: Method | None = None,
+    tolerances: Mapping[str, float | str] | None = None,
+    used: Callable[[Drive], float] | None = None,
     progress: Progress | None = None,
 ) -> OptimisedTorsion:
     """Return the values of a drive with which its largest swing of a torque over a band of speeds is smallest.
@@ -160,6 +178,11 @@ def optimise_torsion(
         Elements of the drive whose torque is judged, from 0; all by default.
     method : Evolution or Grid, optional
         How to search everywhere; differential evolution by default.
+    tolerances : mapping of str to float or str, optional
+        Path -> how far its value may be off to either side as made, in the unit of the path or as a share ``"5%"``:
+        stiffness, damping, angles. Every design then counts as the worst that it may be.
+    used : function, optional
+        The largest share of a limit that a drive uses; a design that uses more than 1 counts as worse than any other.
     progress : function, optional
         Told the share done; when it answers "stop" the best so far is returned as cancelled.
 
@@ -181,8 +204,10 @@ def optimise_torsion(
     -----
     Every design runs on the exact equations at evenly spread speeds and about its own resonances, many designs in one
     harmonic balance; one that would be the best but is unstable amid a zone of parametric resonance counts as worse
-    than any stable one. From the best, values without steps are refined by sequential quadratic programming, peaks
-    between the speeds met on the way.
+    than any stable one. With tolerances the worst of the drive as drawn and of all corners counts; a place within them
+    that turns out worse joins these, and the search is done again: J. W. Blankenship and J. E. Falk, Journal of
+    Optimization Theory and Applications 19 (1976). From the best, values without steps are refined by sequential
+    quadratic programming, peaks between the speeds met on the way.
 
     Examples
     --------
@@ -203,23 +228,34 @@ def optimise_torsion(
     how = method or Evolution()
     quantities = free_quantities(asked, free)
     check([*method_problems(how, quantities), *element_problems(lines([asked], 0.5 * (band[0] + band[1])), elements)])
-    designs = Designs(asked, quantities, band, None if elements is None else np.asarray(elements, dtype=int))
+    judged = None if elements is None else np.asarray(elements, dtype=int)
+    designs = Designs(asked, quantities, band, judged, spreads(asked, tolerances), used)
     watch = Watch(progress)
-    everywhere_told = watch.part(0.0, SHARES[0])
-    if isinstance(how, Grid):
-        found = everywhere(designs, how, everywhere_told)
-    else:
-        found = evolve(designs.cost, len(quantities), start=designs.start, method=how, progress=everywhere_told)
-    places, costs = found.run_places, found.run_costs
-    if not watch.stopped:
-        places, costs = all_refined(designs, found, watch.part(*SHARES))
-    best = places[int(np.argmin(costs))]
+    for done in range(EXCHANGES):
+        rounds = EXCHANGES if designs.off else 1
+        start, end = done / rounds, (done + 1) / rounds
+        everywhere_told = watch.part(start, start + SHARES[0] * (end - start))
+        if isinstance(how, Grid):
+            found = everywhere(designs, how, everywhere_told)
+        else:
+            found = evolve(designs.cost, len(quantities), start=designs.start, method=how, progress=everywhere_told)
+        places, costs = found.run_places, found.run_costs
+        if not watch.stopped:
+            told = watch.part(*(start + one * (end - start) for one in SHARES))
+            places, costs = all_refined(designs, found, told)
+        best = places[int(np.argmin(costs))]
+        if watch.stopped or not designs.off or not _worse_within(designs, best):
+            break
     chosen = designs.drive_at(best, made=True) if np.min(costs) < np.inf else asked
     chosen = asked if chosen is None else chosen
     curves = Curves(designs, chosen)
-    if not curves.calmer:  # as built it runs calmest
+    worst = (worst_of(designs, asked), worst_of(designs, chosen)) if designs.off else None
+    limited = None if used is None else (designs.share_used(asked), designs.share_used(chosen))
+    if not _calmer(curves, worst, limited):  # as built it runs calmest
         chosen, best = asked, None
         curves = Curves(designs, chosen)
+        worst = None if worst is None else (worst[0], worst[0])
+        limited = None if limited is None else (limited[0], limited[0])
     watch.share(1.0)
     rules = [_rules(one, band) for one in (designs.built, lines([chosen], designs.middle))]
     return OptimisedTorsion(
@@ -246,7 +282,36 @@ def optimise_torsion(
         cancelled=watch.stopped,
         play=designs.built.play,
         assumed=designs.built.trains[0].assumed,
+        off=designs.off,
+        worst_before=None if worst is None else worst[0],
+        worst_after=None if worst is None else worst[1],
+        limited=limited,
     )
+
+
+def _calmer(curves: Curves, worst: tuple[Worst, Worst] | None, limited: tuple[float, float] | None) -> bool:
+    """Tell whether another drive than the one as built keeps its limits better, or as well and runs calmer."""
+    over = (0.0, 0.0) if limited is None else tuple(max(one, 1.0) for one in limited)
+    if over[0] != over[1]:
+        return over[1] < over[0]
+    if worst is None:
+        return curves.calmer
+    before, after = ((one.unstable, one.torque) for one in worst)
+    return after < before
+
+
+def _worse_within(designs: Designs, at: Array) -> bool:
+    """Tell whether a place (v,) is worse within its tolerances than at their corners; take what is to them."""
+    drive = designs.drive_at(at)
+    if drive is None:
+        return False
+    here = worst_of(designs, drive)
+    within = np.random.default_rng(0).uniform(-1.0, 1.0, (WITHIN, len(designs.off)))
+    other = worst_of(designs, drive, sides=list(within))
+    if not (other.torque > here.torque * (1.0 + WORSE) or (other.unstable and not here.unstable)):
+        return False
+    designs.sides.append(np.asarray(other.sides))
+    return True
 
 
 def _rules(line: Lines, band: tuple[float, float]) -> tuple[NodeRule, ...]:
@@ -260,6 +325,10 @@ def _rules(line: Lines, band: tuple[float, float]) -> tuple[NodeRule, ...]:
 
 MOST = 200_000
 """Designs that an exhaustive search may have at most."""
+
+EXCHANGES, WITHIN, WORSE = 3, 64, 0.01
+"""Searches at most until no place within the tolerances is worse than those that the search counts, the places that are
+looked at, and by how much worse one must be."""
 
 PART = 64
 """Designs of an exhaustive search that are solved at once."""
@@ -291,6 +360,38 @@ class Peak:
     torque: float  # [N·m]: half of highest less lowest
     speed: float  # [rad/s]
     element: int  # from 0 in `Calm.elements`
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Worst:
+    """The worst that a drive may be within its tolerances."""
+
+    torque: float  # [N·m]: half of highest less lowest
+    speed: float  # [rad/s]
+    element: int  # from 0
+    sides: tuple[float, ...]  # by how much of each tolerance it is off there, from -1 to 1
+    unstable: bool  # whether a small disturbance grows anywhere within them
+
+
+def worst_of(designs: Designs, drive: Drive, *, sides: Sequence[Array] | None = None) -> Worst:
+    """Return the worst of a drive at the corners of its tolerances, or at places within them, each of (k,)."""
+    places = list(designs.sides) if sides is None else list(sides)
+    found = Worst(torque=0.0, speed=designs.middle, element=0, sides=(0.0,) * len(designs.off), unstable=False)
+    for (_rows, which), line in designs.builds([drive], places):
+        speed = band_speeds(*designs.band, line.omega, designs.orders, count=FINE, beside=FINER)
+        run = line.swings(speed)
+        grown = growth(run, speed, line.omega, np.ones(len(which), dtype=bool))
+        table = run.swing.reshape(*speed.shape, -1)
+        peaks = [highest(one, at, designs.elements) for one, at in zip(table, speed, strict=True)]
+        k = int(np.argmax([torque for torque, _at, _element in peaks]))
+        torque, at, element = peaks[k]
+        unstable = found.unstable or bool(np.any(grown > 0.0))
+        if torque > found.torque:
+            off = tuple(float(one) for one in places[int(which[k])])
+            found = Worst(torque=torque, speed=at, element=element, sides=off, unstable=unstable)
+        else:
+            found = replace(found, unstable=unstable)
+    return found
 
 
 def method_problems(method: Method, free: tuple[Free, ...]) -> list[Problem]:
@@ -366,10 +467,10 @@ def _refined(designs: Designs, start: Array, least: float, progress: Progress) -
         return designs.swings(whole(places), speed)
 
     def closer(at: Array) -> Array:
-        here = designs.drive_at(whole(at[None])[0])
-        return fine_speeds(designs.band, [designs.built if here is None else lines([here], designs.middle)])
+        here = [one for _rows, one in designs.builds([designs.drive_at(whole(at[None])[0])])]
+        return np.unique(np.concatenate([fine_speeds(designs.band, [one]) for one in here or [designs.built]]))
 
-    first = designs.speeds(lines([drive], designs.middle))[0]
+    first = np.unique(np.concatenate([np.ravel(designs.speeds(one)) for _rows, one in designs.builds([drive])]))
     watched = Watched(progress=progress, expected=EXPECTED * int(np.sum(loose)))
     search = LeastSwing(swings, first, closer if len(first) > 1 else None, watched)
     with contextlib.suppress(Stopped):
