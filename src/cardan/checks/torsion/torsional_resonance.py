@@ -28,6 +28,9 @@ APART = 0.1
 LEAST = 1e-9
 """Alternating torque that a shaft bears where it bears none [N·m]."""
 
+STRONG = 0.2
+"""Share of a torque from which the torque that its side band makes with the joints in resonance counts."""
+
 STEEP = math.radians(35.0)
 """Joint angle from which order 4 is a twentieth of order 2: below, it shakes too little to count."""
 
@@ -48,6 +51,7 @@ def _apart(design: Design) -> Iterator[Verdict]:
     assert not isinstance(found, tuple)
     bent = bool(np.any(given_chain(design.drive).joint_angle > STEEP))
     met = [one for one in found.crossings if bent or one.order != 4.0 or "," in one.cause]
+    met = [one for one in met if one.share is None or one.share >= STRONG]
     if not met:
         return
     used = [(one, nearest_used(design.drive, one.speed)) for one in met]

@@ -68,6 +68,7 @@ def test_a_drive_that_runs_elsewhere_is_told_so(found):
 
 def test_lost_motions_are_told():
     found = SimpleNamespace(
+        drive=DRIVE,
         after=np.asarray([[1.0, 2.0], [np.nan, np.nan], [3.0, 1.0]]),
         unstable_after=[],
         unstable_before=[],

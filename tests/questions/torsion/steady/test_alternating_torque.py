@@ -13,7 +13,8 @@ from cardan.questions.torsion.model.torsional_model import Torque, torsional_lin
 from cardan.questions.torsion.model.torsional_modes import straight_waves
 from cardan.questions.torsion.steady.alternating_torque import some_motions, torque_swings
 from cardan.questions.torsion.steady.run_stability import floquet
-from cardan.questions.torsion.steady.steady import periodic_response
+from cardan.questions.torsion.steady.steady import periodic_response, steady_orbits
+from cardan.questions.torsion.steady.two_frequencies import grouped, side_bands
 
 LINE = torsional_line(
     [[1.0, 0.02], [0.03, 0.4]],
@@ -45,12 +46,36 @@ def test_backlash_goes_the_full_way() -> None:
     np.testing.assert_allclose(found.swing, 0.5 * wanted.peak_to_peak)
 
 
-def test_an_order_that_no_turns_hold_is_added() -> None:
+@pytest.mark.parametrize("orders", [(3.3,), (3.3, 1.65), (3.3, 2.2)])
+@pytest.mark.parametrize("free", [False, True])
+def test_an_order_that_no_turns_hold_has_side_bands(orders: tuple[float, ...], *, free: bool) -> None:
+    """As the motion of both frequencies, to first order in that torque; far from what the straight line adds."""
+    speeds = np.asarray([28.0, 40.0, 75.0])
+    others = tuple(Torque(station=3, law=Swinging(amplitude=0.7, frequency=one, phase=one)) for one in orders)
+    bare = replace(LINE, input_speed=None) if free else LINE
+    found = torque_swings(replace(bare, torques=(*bare.torques, *others)), speeds).swing
+    orbit, _status = steady_orbits(bare, speed=speeds)
+    alone = periodic_response(bare, speed=speeds)
+    wanted = 0.5 * alone.peak_to_peak
+    for base, group in grouped(others):
+        band = side_bands(orbit, base, group)
+        assert band.found.all()
+        wanted = wanted + 0.5 * (band.highest - band.lowest - alone.peak_to_peak)
+    added = np.max(wanted - 0.5 * alone.peak_to_peak)
+    # the second order, of several torques the tops that never meet, and samples of both phases
+    np.testing.assert_allclose(found, wanted, atol=(0.02 if len(orders) == 1 else 0.05) * added)
+    waves = sum(np.abs(straight_waves(bare, 3, 0.7, one * speeds).torque) for one in orders)
+    assert np.max(np.abs(0.5 * alone.peak_to_peak + waves - wanted) / (wanted - 0.5 * alone.peak_to_peak)) > 0.03
+
+
+def test_with_backlash_the_straight_line_is_added() -> None:
+    loose = replace(LINE, backlash=np.asarray([0.0, 1e-6]))
     other = Torque(station=3, law=Swinging(amplitude=7.0, frequency=3.3))
-    more = replace(LINE, torques=(*LINE.torques, other))
-    waves = straight_waves(LINE, 3, 7.0, 3.3 * 40.0)
-    difference = torque_swings(more, [40.0]).swing - torque_swings(LINE, [40.0]).swing
-    np.testing.assert_allclose(difference[0], np.abs(waves.torque))
+    waves = straight_waves(loose, 3, 7.0, 3.3 * 40.0)
+    both, alone = (
+        torque_swings(replace(loose, torques=(*loose.torques, *one)), [40.0]).swing for one in ((other,), ())
+    )
+    np.testing.assert_allclose((both - alone)[0], np.abs(waves.torque))
 
 
 def test_some_of_the_motions_keep_their_stability() -> None:

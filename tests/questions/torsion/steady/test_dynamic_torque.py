@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from cardan import Drive
+from cardan import Drive, torsion_response
 from cardan.drive.conditions import LoadCase
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
 from cardan.drive.joint_parts import Needles
 from cardan.drive.joints import Hooke
+from cardan.drive.machine import HarmonicTorque
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
 from cardan.formulas.joint_rating import POWER
@@ -121,6 +122,17 @@ def test_the_life_counts_the_torque_as_it_runs(course):
     assert found.vibration[0] > 1.0
     still = life(replace(drive(), stations=(), shafts=()))
     assert found.driving[0, 0] < 0.1 * still.driving[0, 0]
+
+
+@pytest.mark.slow
+def test_an_order_that_does_not_repeat_counts_as_in_the_response():
+    """With its side bands, in the extremes of every shaft: strength must not say less than the response."""
+    shaken = replace(drive().duty, torques=(HarmonicTorque(amplitude=40.0, order=3.3, station="output"),))
+    asked = replace(drive(), duty=shaken)
+    found, runs = steady_torque(asked), torsion_response(asked)
+    assert found.high[0, 1] == pytest.approx(float(runs.torque_highest[0]), rel=1e-3)
+    assert found.low[0, 1] == pytest.approx(float(runs.torque_lowest[0]), rel=1e-3)
+    assert found.high[0, 1] - steady_torque(drive()).high[0, 1] == pytest.approx(float(found.beside[0, 1]), rel=0.05)
 
 
 def test_without_masses_the_torques_are_those_of_statics():

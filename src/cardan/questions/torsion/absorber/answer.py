@@ -17,6 +17,7 @@ from cardan.drive.yokes import yokes_estimated
 from cardan.formulas.damping import LOSS, SHAFT_SOURCE
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
+from cardan.questions.torsion.model.answer import nonsynchronous
 from cardan.texts import _
 from cardan.units import deg
 
@@ -371,6 +372,13 @@ def cautions(found: Any) -> Iterator[Remark]:
     if found.play:
         text = _("Backlash counts as closed here; cardan torsion response tells whether the torque changes its sign.")
         yield Remark(text=text, tone="warning")
+    loose = nonsynchronous(found.drive)
+    if loose is not None:
+        text = _(
+            "Orders that do not repeat within two turns ({orders}) count to first order here, with their side bands; "
+            "cardan torsion response has them exactly."
+        )
+        yield Remark(text=say(text, orders=loose))
     if found.cancelled:
         yield Remark(text=_("Warning: the search was stopped; this is the best so far."), tone="warning")
     elif not found.converged:

@@ -14,6 +14,7 @@ from cardan.drive.duty import Duty
 from cardan.errors import Problem, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.curves.search import least_peak
+from cardan.questions.torsion.model.inputs import base_period
 from cardan.questions.torsion.model.torsion import orders
 from cardan.questions.torsion.model.torsional_layouts import chosen
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
@@ -249,8 +250,13 @@ def built(train: TorsionalTrain) -> tuple[object, ...]:
 
 
 def excited(drive: Drive, duty: Duty) -> tuple[float, ...]:
-    """Return the orders of the input shaft that excite a drive, rising; those of a joint where nothing does."""
-    return tuple(order for order, _cause in orders(drive, duty)) or (2.0, 4.0)
+    """Return the orders of the input shaft that excite a drive, rising; those of a joint where nothing does.
+
+    Orders that no two turns hold a whole number of times have their first side bands among them.
+    """
+    found = [order for order, _cause in orders(drive, duty)] or [2.0, 4.0]
+    loose = [order for order in found if base_period((order,)) is None]
+    return tuple(sorted({*found, *(abs(order + beside) for order in loose for beside in (-2.0, 2.0))}))
 
 
 def zone_speeds(omega: Array) -> Array:

@@ -19,7 +19,8 @@ from cardan.maths.ties import alike
 from cardan.texts import _, plural
 
 from .figure import modes_figures
-from .torsion import Crossing, Node, TorsionModes
+from .inputs import base_period
+from .torsion import Crossing, Node, TorsionModes, orders
 from .torsion import torsion_modes as ask
 from .torsional_train import TorsionalTrain
 
@@ -259,6 +260,19 @@ def _crossing_table(found: TorsionModes) -> Table:
             Column(key="", heading=_("order"), values=[_order(one.order) for one in shown]),
             Column(key="", heading=_("mode"), values=[one.mode for one in shown]),
             Column(key="", heading=_("in use"), values=[one.inside for one in shown]),
+            *(
+                [
+                    Column(
+                        key="",
+                        heading=_("± torque"),
+                        values=[one.torque for one in shown],
+                        dimension="torque",
+                        digits=3,
+                    )
+                ]
+                if any(one.torque is not None for one in shown)
+                else []
+            ),
             Column(key="", heading=_("excited by"), values=[one.cause for one in shown], left=True, wrap=True),
         ),
         tones=["warning" if one.inside else "plain" for one in shown],
@@ -440,6 +454,7 @@ def _crossing(one: Crossing) -> dict[str, Any]:
         "order": one.order,
         "mode": one.mode,
         "cause": one.cause,
+        "side_band_torque": None if one.torque is None else Quantity(one.torque, "torque"),
         "in_use": one.inside,
     }
 
@@ -506,6 +521,12 @@ def assumptions(train: TorsionalTrain, *, wide: bool = False) -> Iterator[Remark
         texts.append(_("driven by a constant torque that equals what resists at the start"))
     if texts:
         yield Remark(text=_("Assumed: {what}.").format(what="; ".join(texts)))
+
+
+def nonsynchronous(drive: Drive) -> Joined | None:
+    """Return the orders of a drive that no two turns hold a whole number of times, None where there are none."""
+    found = [_order(order) for order, _cause in orders(drive, drive.duty) if base_period((order,)) is None]
+    return Joined(found) if found else None
 
 
 def ranges(values: ArrayLike, mask: ArrayLike, dimension: str = "", unit: str = "") -> Joined:

@@ -126,7 +126,7 @@ def _campbell(found: TorsionModes, top: float, high: float) -> Iterator[Series]:
     if found.speed:
         yield Rule(value=found.speed / rpm, upright=True, role="accent")
         yield Note(text=_("duty"), x=found.speed / rpm, y=0.1 * high, role="accent", side="left", shift=(4.0, 0.0))
-    orders = sorted({one.order: one.cause for one in found.crossings}.items())[:RAYS]
+    orders = sorted({one.order: one.cause for one in found.crossings if one.torque is None}.items())[:RAYS]
     for order, _cause in [(1.0, ""), *orders]:
         end = min(top, 60.0 * high / order)
         ends = np.asarray([0.0, end])
@@ -136,6 +136,7 @@ def _campbell(found: TorsionModes, top: float, high: float) -> Iterator[Series]:
         yield Curve(x=ends, y=order * ends / 60.0, role="muted", width=0.9, dash=dash, text=word)
         share = _clear(found, end, top, len(word)) if plain else 0.94
         yield Note(text=word, x=share * end, y=share * order * end / 60.0, role="muted", side="left", shift=(5.0, -5.0))
+    yield from _side_rays(found, top, high)
     speeds = np.linspace(0.0, top, POINTS if found.train.pendulums else 2)[1 if found.train.pendulums else 0 :]
     curves = found.at(speeds * rpm) / (2.0 * math.pi)
     for k in range(min(MODES, curves.shape[-1])):
@@ -148,6 +149,19 @@ def _campbell(found: TorsionModes, top: float, high: float) -> Iterator[Series]:
             role = "failed" if met.inside else "ink"
             text = _("order {order:g} meets mode {mode}").format(order=met.order, mode=met.mode)
             yield Curve(x=_at(met.speed / rpm), y=_at(place), role=role, width=0.0, marker=5.0, text=text)
+
+
+def _side_rays(found: TorsionModes, top: float, high: float) -> Iterator[Series]:
+    """Yield the orders of side bands with the largest torque that each makes where it meets a mode."""
+    sides = [one for one in found.crossings if one.torque is not None and one.speed / rpm <= top]
+    for order in sorted({one.order for one in sides})[:RAYS]:
+        end = min(top, 60.0 * high / order)
+        torque = max(float(one.torque or 0.0) for one in sides if one.order == order)
+        text = _("order {order}, side band: ±{torque}")
+        word = say(text, order=Quantity(order, digits=4, trim=True), torque=Quantity(torque, "torque", 2))
+        ends = np.asarray([0.0, end])
+        yield Curve(x=ends, y=order * ends / 60.0, role="muted", width=0.7, dash="dotted", text=word)
+        yield Note(text=word, x=0.8 * end, y=0.8 * order * end / 60.0, role="muted", side="left", shift=(5.0, -5.0))
 
 
 def _clear(found: TorsionModes, end: float, top: float, letters: int) -> float:

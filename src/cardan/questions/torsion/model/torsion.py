@@ -13,13 +13,26 @@ from cardan.drive.machine import HarmonicTorque
 from cardan.drive.models.kinematics_model import given_chain, turning
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.curves.extremes import series_at
+from cardan.maths.periodic.harmonics import HarmonicBalance, Status, harmonic_balance
 from cardan.texts import _
 
+from .inputs import Swinging
+from .side_bands import side_waves
+from .torsional_layouts import Turning, chosen
+from .torsional_model import Torque
 from .torsional_modes import meeting_speeds, modulation, straight_modes
-from .torsional_train import TorsionalTrain, torsional_train
+from .torsional_train import TorsionalTrain, in_time, torsional_train
 
 STRAIGHT = 1e-9
 """Joints that bend less [rad] excite nothing."""
+
+BESIDE, SIDES, LEAST = (-4.0, -2.0, 2.0, 4.0), 6, 0.05
+"""Distances of the side bands from the order of a torque, harmonics of half a turn by which they are found, and the
+share of that torque from which one counts."""
+
+MODES = 4
+"""Modes that side bands are asked for."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -41,6 +54,9 @@ class Crossing:
     cause: str  # what swings so
     speed: float  # [rad/s]: of the input
     inside: bool | None  # whether it lies in the speed range of the duty; None where that gives none
+    # [N·m]: of a side band of a torque with the joints: the largest torque it makes there, to first order; else None
+    torque: float | None = None
+    share: float | None = None  # that over the torque that it is a side band of
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -273,4 +289,57 @@ def _crossings(drive: Drive, duty: Duty, train: TorsionalTrain) -> list[Crossing
         for mode, speed in enumerate(found.tolist(), start=1):
             inside = None if between is None else between[0] <= speed <= between[1]
             rows.append(Crossing(mode=mode, order=order, cause=cause, speed=speed, inside=inside))
+    rows += _side_crossings(duty, train, [one.order for one in rows])
     return sorted(rows, key=lambda one: (one.speed, one.order))
+
+
+def _side_crossings(duty: Duty, train: TorsionalTrain, known: list[float]) -> Iterator[Crossing]:
+    """Yield where side bands of torques with the joints meet a mode, those that make some torque there."""
+    loose = [one for one in train.model.torques if isinstance(one.law, Swinging) and np.all(one.law.amplitude != 0.0)]
+    between = duty.speed_range
+    for torque in loose if duty.speed else ():
+        assert isinstance(torque.law, Swinging)
+        for beside in BESIDE:
+            order = abs(torque.law.frequency + beside)
+            if order < STRAIGHT or any(abs(order - one) < STRAIGHT for one in known):
+                continue
+            found = meeting_speeds(train.model, order, train.pendulums, abs(duty.speed or 1.0))[:MODES]
+            sizes = side_torques(train, torque, beside, found, abs(duty.speed or 1.0)) if len(found) else np.zeros(0)
+            share = sizes / abs(float(np.max(np.abs(torque.law.amplitude))))
+            for mode, speed in enumerate(found.tolist(), start=1):
+                if share[mode - 1] >= LEAST:
+                    text = _("side band {beside} of order {order:g} with the joints")
+                    yield Crossing(
+                        mode=mode,
+                        order=order,
+                        cause=text.format(beside=f"{beside:+g}", order=torque.law.frequency),
+                        speed=speed,
+                        inside=None if between is None else between[0] <= speed <= between[1],
+                        torque=float(sizes[mode - 1]),
+                        share=float(share[mode - 1]),
+                    )
+
+
+def side_torques(train: TorsionalTrain, torque: Torque, beside: float, speed: Array, taken: float) -> Array:
+    """Return the largest torque in a drive of one side band of a torque at speeds (s,) [rad/s], array (s,) [N·m].
+
+    beside: by how much its order differs; taken [rad/s]: speed at which the model is. About the motion that the joints
+    make without any torque; nan where there is none.
+    """
+    model = replace(train.model, backlash=np.zeros_like(train.model.backlash), torques=())
+    model = in_time(model if model.free else replace(model, input_speed=speed), 2.0 * speed)
+    own = np.arange(len(speed))
+    drives = chosen(model, (len(speed),), own, moments=False)
+    if train.pendulums:
+        stiffness, at = drives.stiffness.copy(), list(train.pendulums)
+        stiffness[:, at] *= (speed[:, None] / taken) ** 2
+        drives = replace(drives, stiffness=stiffness)
+    turns = Turning(drives, (len(speed),), speed, np.pi)
+    how = HarmonicBalance(harmonics=SIDES, most=SIDES)
+    waves = harmonic_balance(turns, turns.frequency, turns.coordinates, free=model.free, method=how)
+    phase, rate = 2.0 * np.pi * np.arange(4 * SIDES + 4) / (4 * SIDES + 4), turns.frequency[:, None, None]
+    x, v, a = series_at(waves.coefficient, phase)
+    motion = turns.motion(own, phase, x, rate * v, rate**2 * a)
+    found = side_waves(turns.drives(own), motion, speed, np.pi, (torque,), SIDES)[0]
+    size = np.max(np.abs(np.fft.fft(found, axis=-1)[..., round(0.5 * beside)]), axis=-1) / len(phase)
+    return np.where(waves.status == Status.NO_CONVERGENCE, np.nan, size)

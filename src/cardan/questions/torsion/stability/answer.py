@@ -17,7 +17,7 @@ from cardan.drive.models.kinematics_model import given_chain
 from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.formulas.damping import LOSS
-from cardan.questions.torsion.model.answer import assumptions, ranges
+from cardan.questions.torsion.model.answer import assumptions, nonsynchronous, ranges
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.steady.run_stability import Kind, Verdict, verdict_words
@@ -94,7 +94,7 @@ def answer(drive: Drive, result: Stability, *, signs: bool = False) -> Answer:
         tone=tone,
         figures=lambda: stability_figures(result) if drawn else (),
         tables=(_picture(result, axes),) if signs and len(axes) == 2 else (),
-        remarks=(*_remarks(result, axes, signs=signs), *yokes_estimated(drive)),
+        remarks=(*_remarks(drive, result, axes, signs=signs), *yokes_estimated(drive)),
         facts=_facts(result),
         full=lambda: _everything(result, axes),
         code=1 if not axes and tone == "failed" else 0,
@@ -267,7 +267,7 @@ def _picture(found: Stability, axes: tuple[MapAxis, ...]) -> Table:
     )
 
 
-def _remarks(found: Stability, axes: tuple[MapAxis, ...], *, signs: bool) -> Iterator[Remark]:
+def _remarks(drive: Drive, found: Stability, axes: tuple[MapAxis, ...], *, signs: bool) -> Iterator[Remark]:
     if found.cancelled:
         text = _("Warning: stopped; {done} of {all} points are done.")
         done = int(np.sum(found.verdict != Verdict.UNKNOWN))
@@ -293,6 +293,13 @@ def _remarks(found: Stability, axes: tuple[MapAxis, ...], *, signs: bool) -> Ite
             "What helps: another speed, smaller joint angles, a joint nearer to the node of the mode, more damping."
         )
         yield Remark(text=text)
+    loose = nonsynchronous(drive)
+    if loose is not None:
+        text = _(
+            "Judged without the orders that do not repeat within two turns ({orders}): to first order they do not "
+            "change how a small disturbance grows."
+        )
+        yield Remark(text=say(text, orders=loose))
     if found.train.model.free:
         yield Remark(text=_("Rigid-body rotation is left out: a free drive may shift in time."))
     yield from assumptions(found.train)

@@ -8,9 +8,10 @@ import numpy as np
 
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.maths.curves.extremes import extremes, sampled_series
+from cardan.maths.curves.extremes import extremes, sampled_series, tops
 from cardan.maths.periodic.harmonics import HarmonicBalance, Status, harmonic_balance
 from cardan.questions.torsion.model.inputs import Swinging
+from cardan.questions.torsion.model.side_bands import side_waves
 from cardan.questions.torsion.model.torsional_balance import element_torques
 from cardan.questions.torsion.model.torsional_layouts import Turning, chosen, leading, period_of
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
@@ -20,6 +21,7 @@ from cardan.texts import _
 from .orbit import Orbit, at_rest
 from .steady import Progress, periodic_response
 from .torsion_response import parted
+from .two_frequencies import envelope, of_drives
 
 FEW, MOST = 4, 24
 """Harmonics of half a turn to begin with, and at most."""
@@ -29,6 +31,9 @@ TAIL = 1e-6
 
 STEPS = 25
 """Newton steps at most; a motion that takes more is not worth the wait in a search."""
+
+BANDS = 6
+"""Side bands of torques of other orders, either way, for half a turn."""
 
 CHUNK = 512
 """Motions found at once."""
@@ -55,7 +60,7 @@ def torque_swings(model: TorsionalModel, speed: ArrayLike, *, progress: Progress
     progress: told the share done; when it answers "stop" the remaining motions are left out.
     Harmonic balance of the exact equations, as `periodic_response` but with fewer harmonics and without what a search
     does not ask for. With backlash it is `periodic_response`. Torques of orders that no two turns hold are answered by
-    the straight line and added by their amplitudes.
+    the drive as it turns, to first order in them, side bands and all; with backlash by the straight line.
     """
     omega = np.asarray(speed, dtype=float)
     if not np.all(np.isfinite(omega) & (omega != 0.0)):
@@ -67,14 +72,17 @@ def torque_swings(model: TorsionalModel, speed: ArrayLike, *, progress: Progress
         steady = replace(steady, input_speed=omega)
     if np.any(steady.backlash > 0.0):
         found = periodic_response(steady, speed=omega, progress=progress)
-        orbit, swing = found.orbit, 0.5 * found.peak_to_peak
-    else:
-        orbit, swing = _quick(steady, outer, omega, progress)
-    return TorqueSwings(orbit=orbit, swing=swing + _beside(steady, loose, omega))
+        return TorqueSwings(orbit=found.orbit, swing=0.5 * found.peak_to_peak + _beside(steady, loose, omega))
+    orbit, swing = _quick(steady, loose, outer, omega, progress)
+    return TorqueSwings(orbit=orbit, swing=swing)
 
 
 def _quick(
-    model: TorsionalModel, outer: tuple[int, ...], omega: Array, progress: Progress | None
+    model: TorsionalModel,
+    loose: tuple[Torque, ...],
+    outer: tuple[int, ...],
+    omega: Array,
+    progress: Progress | None,
 ) -> tuple[Orbit, Array]:
     turning = Turning(model, outer, omega.reshape(-1), period_of(model))
     half_turns = round(turning.period / np.pi)
@@ -96,7 +104,7 @@ def _quick(
         whole[rows] = 0.0
         whole[rows, :, : found.shape[-1]] = found
         force[rows] = np.where(lost, np.nan, waves.force)
-        swing[rows] = np.where(lost[:, None], np.nan, _read(part, found))
+        swing[rows] = np.where(lost[:, None], np.nan, _read(part, found, of_drives(model, outer, rows, loose)))
         if progress is not None and progress((int(rows[-1]) + 1) / count) == "stop":
             break
     orbit = Orbit(
@@ -109,8 +117,11 @@ def _quick(
     return orbit, swing.reshape(*outer, -1)
 
 
-def _read(part: Turning, coefficient: Array) -> Array:
-    """Return how far the torques of motions swing, array (b, E)."""
+def _read(part: Turning, coefficient: Array, loose: tuple[Torque, ...]) -> Array:
+    """Return how far the torques of motions swing, array (b, E).
+
+    loose: torques of other orders, ready for moments in a second axis.
+    """
     rows = np.arange(len(part.speed))
     harmonics = coefficient.shape[-1]
     alone = Orbit(
@@ -120,12 +131,23 @@ def _read(part: Turning, coefficient: Array) -> Array:
         coefficient=np.nan_to_num(coefficient),
         force=np.zeros(len(rows)),
     )
-    samples = 4 * (harmonics + 2)
-    q, rate, _acceleration = alone.of(rows, part.period * np.arange(samples) / samples)
-    torque = sampled_series(element_torques(part.drives(rows), q, rate).swapaxes(1, 2))
+    own = BANDS * round(part.period / np.pi)
+    samples = 4 * (max(harmonics, own if loose else 0) + 2)
+    drives, motion = part.drives(rows), alone.of(rows, part.period * np.arange(samples) / samples)
+    curves = element_torques(drives, *motion[:2]).swapaxes(1, 2)
+    if loose:
+        fall, rise = envelope(side_waves(drives, motion, part.speed, part.period, loose, own), loose)
+        both: Array = 0.5 * (_top(curves + rise) + _top(fall - curves))
+        return both
+    torque = sampled_series(curves)
     low, high = extremes(torque[..., : harmonics + 4])
     found: Array = 0.5 * (high - low)
     return found
+
+
+def _top(values: Array) -> Array:
+    """Return the largest of values (..., S) that repeat."""
+    return np.max(tops(np.concatenate([values[..., -1:], values, values[..., :1]], axis=-1))[..., 1:-1], axis=-1)
 
 
 def _beside(model: TorsionalModel, loose: tuple[Torque, ...], omega: Array) -> Array:

@@ -13,15 +13,16 @@ from cardan.errors import InputError
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import peak
 from cardan.maths.periodic.harmonics import Status
-from cardan.questions.torsion.model.inputs import Swinging
+from cardan.questions.torsion.model.inputs import Law, Swinging
 from cardan.questions.torsion.model.torsional_balance import element_torques, joint_torques
-from cardan.questions.torsion.model.torsional_model import TorsionalModel
+from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
 from cardan.questions.torsion.model.torsional_modes import straight_waves
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
 
 from .orbit import Orbit
 from .steady import steady_orbits
 from .torsion_response import loaded_model, parted
+from .two_frequencies import grouped, side_bands
 
 LOOK = 120
 """Places in half a turn at which torques are looked at."""
@@ -36,7 +37,7 @@ class DynamicTorque:
     found: Array  # (s,) of bool: whether a motion was found
     low: Array  # low, high (s, n+1) [N·m]: least and largest torque of every shaft; nan where no motion was found
     high: Array
-    # (s, n) [N·m]: amplitude at every joint of torques that do not repeat within two turns, by the straight line
+    # (s, n) [N·m]: by how much torques that do not repeat within two turns raise or lower those at every joint
     beside: Array
 
     @property
@@ -71,13 +72,14 @@ def dynamic_torque(drive: Drive, duty: Duty | None = None, *, speed: ArrayLike, 
     model, loose = parted(replace(whole, backlash=0.0 * whole.backlash) if closed else whole)
     orbit, status = steady_orbits(model, speed=speeds)
     found = (status == Status.CONVERGED) | (status == Status.COARSE)
-    waves = [_amplitudes(model, one.station, one.law, speeds) for one in loose if isinstance(one.law, Swinging)]
-    beside: Array = sum(waves, start=np.zeros((len(speeds), len(model.elements))))
-    part = DynamicTorque(train=train, orbit=orbit, found=found, low=beside, high=beside, beside=beside)
+    nothing = np.zeros((len(speeds), len(model.elements)))
+    part = DynamicTorque(train=train, orbit=orbit, found=found, low=nothing, high=nothing, beside=nothing)
     q, rate, _acceleration = orbit.at(part.angle)
     drives = orbit.drives(np.arange(orbit.count))
     torque = np.moveaxis(element_torques(drives, q, rate), -1, -2)
-    lowest, highest = -peak(-torque) - beside, peak(torque) + beside
+    alone = -peak(-torque), peak(torque)
+    lowest, highest = _with_bands(orbit, loose, *alone)
+    beside: Array = np.maximum(alone[0] - lowest, highest - alone[1])
     shafts = len(drive.joints) + 1
     at_joints = np.stack([_of_shafts(model, beside, k, shafts) for k in range(shafts)], axis=-1)
     at_ends = np.maximum(at_joints[:, :-1], at_joints[:, 1:])
@@ -114,8 +116,22 @@ def steady_torque(drive: Drive) -> DynamicTorque | None:
     return found if bool(found.found[0]) else None
 
 
-def _amplitudes(model: TorsionalModel, station: int, law: Swinging, speeds: Array) -> Array:
+def _with_bands(orbit: Orbit, loose: tuple[Torque, ...], lowest: Array, highest: Array) -> tuple[Array, Array]:
+    """Return extremes (s, E) [N·m] with torques that do not repeat; by the straight line where no motion holds both."""
+    more, less = highest.copy(), lowest.copy()
+    for base, group in grouped(loose):
+        band = side_bands(orbit, base, group)
+        waves = [_amplitudes(orbit.model, one.station, one.law, orbit.speed) for one in group]
+        straight = np.sum(waves, axis=0)
+        there = band.found[:, None]
+        more += np.where(there, band.highest - highest, straight)
+        less += np.where(there, band.lowest - lowest, -straight)
+    return less, more
+
+
+def _amplitudes(model: TorsionalModel, station: int, law: Law, speeds: Array) -> Array:
     """Return how far a torque that does not repeat swings every element, array (s, E) [N·m]."""
+    assert isinstance(law, Swinging)
     return np.abs(straight_waves(model, station, law.amplitude, law.frequency * np.abs(speeds)).torque)
 
 
