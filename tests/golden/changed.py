@@ -53,6 +53,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         r"((joints|limits|shafts|tried|torsional_vibration)\..*|rated_torque_Nm|torque_factor|utilisation)",
         BANDS,
     ),
+    (r"torsion (absorber|calm) examples/truck-power-unit\.toml", r".*", BANDS),
     (r"check examples/truck-power-unit\.toml", r"verdicts\.(utilisation|value)", BANDS),
     (
         r"torsion modes examples/truck-power-unit\.toml",
