@@ -301,3 +301,14 @@ def test_what_an_answer_lacks_is_offered_as_fields_and_then_it_is_there(page_of:
     drive = loads(text_of(page))
     assert drive.duty.torque == 800.0
     assert len(drive.supports) == 1
+
+
+def test_the_geometry_stands_in_its_views_and_as_numbers(page: Any) -> None:
+    mark(page, "way-geometry").click()
+    page.locator(".drag-views circle").first.wait_for()
+    assert page.locator(".drag-views circle").count() == 2 * 6  # four joints and two ends, from the side and from above
+    before = mark(page, "answer").first.inner_text()
+    field = page.locator(".centres").get_by_label("centre mm y", exact=True).first
+    field.fill("40")
+    field.press("Enter")
+    changed(page, before)

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import tomllib
+from pathlib import Path
 from typing import Any
 
 import pytest
 
-from cardan.app.state.form import Entry, converted, parts, problems_of, section, shown, tree_of, written
+from cardan.app.state.document import read
+from cardan.app.state.form import Entry, converted, geometry_form, parts, problems_of, section, shown, tree_of, written
 from cardan.errors import Problem
+from cardan.files import Enclosed
 from cardan.io import example_names, example_text, loads
 from cardan.io.amend import amend
 from cardan.io.examples import example_file
@@ -115,3 +118,32 @@ def test_a_text_with_something_else_for_tables_has_a_form(text: str) -> None:
     assert tree is not None
     for path, _title in parts(tree):
         assert section(tree, path).entries
+
+
+OTHERS = {
+    "points": {"joints[0]": ("joint_angle", "plane_twist"), "shafts[0]": ("side_slope", "plan_slope")},
+    "angles": {"joints[0]": ("centre",), "input": ("point",), "shafts[0]": ("side_slope",)},
+    "slopes": {"joints[0]": ("centre", "joint_angle"), "output": ("point",)},
+}
+
+
+@pytest.mark.parametrize("name", ["car-propshaft", "truck-power-unit", "w-arrangement"])
+def test_keys_that_the_loader_would_refuse_for_the_form_of_the_geometry_are_not_offered(name: str) -> None:
+    text = example_text(name)
+    tree = tree_of(text)
+    assert tree is not None
+    for path, names in OTHERS[geometry_form(tree)].items():
+        assert not {one.name for one in section(tree, path).entries} & set(names)
+        free = {one.name: one for one in section({}, path).entries}  # of a file that gives no geometry yet
+        for other in names:
+            value = [0, 0, 0] if free[other].size == 3 else 5
+            assert not read(amend(text, {free[other].key(): value}), Enclosed(Path())).valid
+
+
+def test_a_key_of_another_form_that_stands_in_the_file_is_shown_and_common_ones_are_offered_first() -> None:
+    tree = tree_of(example_text("car-propshaft").replace("[[joints]]", "[[joints]]\njoint_angle_deg = 5", 1))
+    assert tree is not None
+    assert "joint_angle" in {one.name for one in section(tree, "joints[0]").given}
+    bare = tree_of("format = 1\n[[joints]]\njoint_angle_deg = 5\n[[shafts]]\nnumber = 2\n")
+    assert bare is not None
+    assert [one.name for one in section(bare, "shafts[1]").possible][:2] == ["yoke_angle", "outer"]

@@ -10,7 +10,6 @@ from typing import Any
 
 from nicegui import background_tasks, ui
 
-from cardan.answers.question import Lacking
 from cardan.app.state.jobs import Job, Jobs, own_fault
 from cardan.app.state.question import Question, asked
 from cardan.app.state.session import Session
@@ -119,12 +118,20 @@ class Answers:
         self.sheets[self.shown].follow()
 
     def _mark(self) -> None:
-        """Mark the tabs on which nothing can be answered yet."""
-        for name, tab in self._marked.items():
-            bare = all(self.sheets[one].lacking for one in groups()[name])
-            tab.classes(**{"add" if bare else "remove": "bare"})
+        """Mark the tabs on which nothing can be answered yet, beside the page's own work: some count a mobility."""
+        drive = self.session.drive
+        if drive is not None:
+            background_tasks.create(self._marked_beside(drive), name="tabs that lack keys")
+
+    async def _marked_beside(self, drive: Drive) -> None:
+        bare = await asyncio.to_thread(_bare, drive)
+        if drive is not self.session.drive or self._bodies.is_deleted:
+            return
+        with self._bodies, self.session.speaking():
             told = _("the drive file lacks keys for this")
-            tab.props(f'title="{told}"' if bare else "", remove="" if bare else "title")
+            for title, tab in self._marked.items():
+                tab.classes(**{"add" if title in bare else "remove": "bare"})
+                tab.props(f'title="{told}"' if title in bare else "", remove="" if title in bare else "title")
 
     def _judge(self) -> None:
         self._bodies.classes(**{"remove" if self.session.document.valid else "add": "unsound"})
@@ -133,6 +140,11 @@ class Answers:
         for sheet in self.sheets.values():
             sheet.about = None
         self._follow()
+
+
+def _bare(drive: Drive) -> set[str]:
+    """Return the headings of the tabs on which nothing can be answered for want of keys."""
+    return {title for title, names in groups().items() if all(QUESTIONS[name].lacking(drive) for name in names)}
 
 
 class Sheet:
@@ -165,12 +177,6 @@ class Sheet:
         """Whether it is there at once."""
         return QUESTIONS[self.name].quick and not self.session.heavy
 
-    @property
-    def lacking(self) -> Lacking:
-        """What the drive lacks for it."""
-        drive = self.session.drive
-        return () if drive is None or self.name not in QUESTIONS else QUESTIONS[self.name].lacking(drive)
-
     def wake(self) -> None:
         """Come up to date: it is looked at now."""
         if self.about is not self.session.drive:
@@ -201,7 +207,8 @@ class Sheet:
         self._hold()
         self._asked += 1
         self.about = question.drive
-        self._offer_keys.show(self.lacking)
+        if self.name in QUESTIONS:
+            background_tasks.create(self._offered(question.drive), name=f"what {self.name} lacks")
         if self.name == "selection":
             self._offer(question.drive)
         if self.name in AT_ONCE and self.quick:
@@ -223,6 +230,12 @@ class Sheet:
         """Give up a long answer."""
         self._jobs_end()
         self._look()
+
+    async def _offered(self, drive: Drive) -> None:
+        """Offer the keys that the drive lacks for it."""
+        lacking = await asyncio.to_thread(QUESTIONS[self.name].lacking, drive)
+        if drive is self.session.drive and not self.body.is_deleted:
+            self._offer_keys.show(lacking)
 
     async def _beside(self, question: Question, number: int) -> None:
         """Answer beside the page's own work."""

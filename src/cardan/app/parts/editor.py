@@ -9,7 +9,7 @@ from typing import Any
 from nicegui import events, ui
 from nicegui.element import Element
 
-from cardan.app.state.form import Entry, parts, section, tables
+from cardan.app.state.form import Entry, geometry_form, parts, section
 from cardan.app.state.session import Session
 from cardan.io.amend import amend
 from cardan.texts import _
@@ -33,9 +33,10 @@ class Editor:
             with ui.tab_panel(form):
                 Form(session)
             with ui.tab_panel(lies):
-                Centres(session)
+                centres = Centres(session)
             with ui.tab_panel(text):
                 Source(session)
+        tabs.on_value_change(lambda event: centres.wake() if event.value == "geometry" else None)
         self._judge()
         session.listen("text", self._judge)
 
@@ -136,25 +137,32 @@ class DragViews(Element, component="drag.js"):
 
 
 class Centres:
-    """The geometry as a table, and the views to drag it in."""
+    """The geometry as a table, and the views to drag it in; it is built when it is looked at first."""
 
     def __init__(self, session: Session) -> None:
         self.session = session
         self.fields: dict[str, KeyField] = {}
         self._shape: tuple[str, ...] = ()
+        self._awake = False
         self.views = DragViews((_("Side view"), _("Plan")))
         self.views.on("moving", lambda event: self._moved(event, last=False))
         self.views.on("moved", lambda event: self._moved(event, last=True))
         self.views.on("touched", lambda event: session.select(event.args["path"]))
         self.hint = ui.label(_("Drag a point or move it with the arrow keys: 1 mm, with shift 10 mm.")).classes("hint")
         self.body = ui.element("div").classes("centres")
-        self._follow()
         session.listen("text", self._follow)
         session.listen("selection", self._draw)
 
+    def wake(self) -> None:
+        """Come up to date: it is looked at now."""
+        if not self._awake:
+            self._awake = True
+            with self.session.speaking():
+                self._follow()
+
     def _follow(self) -> None:
         tree = self.session.document.tree
-        if tree is None:
+        if tree is None or not self._awake:
             return
         found = list(_geometry(tree))
         shape = tuple(entry.key() for _title, entry in found)
@@ -177,6 +185,8 @@ class Centres:
                 self.fields[entry.key()] = KeyField(self.session, entry, removable=False)
 
     def _draw(self) -> None:
+        if not self._awake:
+            return
         drive = self.session.drive
         points = [] if drive is None else list(_points(self.session.document.tree or {}, drive))
         self.views.set_visibility(bool(points))
@@ -201,18 +211,9 @@ def _sound(at: Any) -> bool:
     return isinstance(at, list) and len(at) == 3 and all(isinstance(x, int | float) and abs(x) < 1e9 for x in at)
 
 
-def _form(tree: Mapping[str, Any]) -> str:
-    """Return in which form a file gives the geometry, also one that is not sound yet."""
-    if any(str(key).startswith("joint_angle_") for one in tables(tree, "joints") for key in one):
-        return "angles"
-    if any(str(key).startswith(("side_slope", "plan_slope")) for one in tables(tree, "shafts") for key in one):
-        return "slopes"
-    return "points"
-
-
 def _geometry(tree: Mapping[str, Any]) -> list[tuple[str, Entry]]:
     """Return the keys that say where the drive lies, each with the title of its table."""
-    wanted = COLUMNS[_form(tree)]
+    wanted = COLUMNS[geometry_form(tree) or "points"]
     found: list[tuple[str, Entry]] = []
     for path, title in parts(tree):
         names = wanted.get(path.partition("[")[0], ())

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import asyncio
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from nicegui import ui
+from nicegui import background_tasks, ui
 
 from cardan.app.state.form import LONG, Entry, Section, converted, parts, problems_of, section, shown, tables, written
 from cardan.app.state.session import Session
@@ -17,6 +18,9 @@ from cardan.units import label
 
 from . import widgets as toasts
 from .widgets import drop_down
+
+SLICE = 30  # tables that are built at a time
+PAUSE = 0.02  # seconds between them
 
 NEW: dict[str, Mapping[str, Any]] = {
     "supports": {"shaft": 1, "position_mm": -100},
@@ -33,7 +37,9 @@ class Form:
     def __init__(self, session: Session) -> None:
         self.session = session
         self.tables: dict[str, Table] = {}
-        self.body = ui.element("div").classes("form")
+        with ui.element("div").classes("form"):
+            self.body = ui.element("div")
+            self._adders()
         self._paths: tuple[str, ...] = ()
         self._fill()
         session.listen("text", self._follow)
@@ -44,13 +50,28 @@ class Form:
         if tree is None:
             return
         opened = {path for path, table in self.tables.items() if table.opened} or {"joints[0]"}
+        found = list(parts(tree))
+        self._paths = tuple(path for path, _title in found)
         self.tables = {}
         self.body.clear()
+        self._build(found[:SLICE], opened)
+        if found[SLICE:]:
+            background_tasks.create(self._rest(self._paths, found[SLICE:], opened), name="tables of a long form")
+
+    def _build(self, found: Sequence[tuple[str, str]], opened: set[str]) -> None:
         with self.body:
-            for path, title in parts(tree):
+            for path, title in found:
                 self.tables[path] = Table(self.session, path, title, opened=path in opened)
-            self._adders()
-        self._paths = tuple(self.tables)
+
+    async def _rest(self, paths: tuple[str, ...], found: Sequence[tuple[str, str]], opened: set[str]) -> None:
+        """Build the rest of a long form a few tables at a time, so that other windows need not wait for it."""
+        for k in range(0, len(found), SLICE):
+            await asyncio.sleep(PAUSE)
+            if self.body.is_deleted or self._paths is not paths:
+                return
+            with self.session.speaking():
+                self._build(found[k : k + SLICE], opened)
+        self._selected()
 
     def _follow(self) -> None:
         tree = self.session.document.tree
@@ -60,22 +81,30 @@ class Form:
         if tuple(found) != self._paths:
             self._fill()
             return
-        for path, title in found.items():
-            self.tables[path].follow(tree, title)
+        for path, table in self.tables.items():
+            table.follow(tree, found[path])
 
     def _selected(self) -> None:
         wanted = self.session.selected
+        if not wanted:
+            return
         path = next((one for one in (wanted, wanted.partition(".")[0]) if one in self.tables), None)
         if path is not None:
             self.tables[path].open(wanted)
 
     def _adders(self) -> None:
         with ui.element("div").classes("adders"):
-            names = {"supports": _("support"), "stations": _("station"), "movements": _("movement"), "poses": _("pose")}
+            names = {
+                "supports": _("support"),
+                "joints": _("joint"),
+                "stations": _("station"),
+                "movements": _("movement"),
+                "poses": _("pose"),
+            }
             with drop_down(_("add"), "add", icon="add"):
-                ui.item(_("joint"), on_click=lambda: self._add_joint())
                 for name, title in names.items():
-                    ui.item(title, on_click=lambda name=name: self._add(name))
+                    add = self._add_joint if name == "joints" else partial(self._add, name)
+                    ui.item(title, on_click=lambda add=add: add()).props(f'data-mark="add-{name}"')
 
     def _add_joint(self) -> None:
         tree = self.session.document.tree or {}
@@ -196,7 +225,7 @@ class Table:
         possible = [one for one in now.possible if one.sort != "changes"]
         if not possible:
             return
-        options = {one.name: f"{one.name.replace('_', ' ')} – {one.doc}" for one in possible}
+        options = {one.name: f"{one.doc} ({one.name.replace('_', ' ')})" for one in possible}
         chosen = ui.select(options, with_input=True, label=_("add a key …"), value=None)
         chosen.props("dense borderless options-dense clearable").classes("more").props(
             'data-mark="more-' + (self.path or "drive") + '"'

@@ -28,6 +28,16 @@ OFFERED = {"type": "joint_types", "size": "joint_sizes", "grade": "materials", "
 """Field -> table of the catalogue whose rows it may name."""
 
 
+GEOMETRY = {
+    "angles": ("joint_angle", "plane_twist"),
+    "slopes": ("side_slope", "plan_slope"),
+    "points": ("centre", "point"),
+}
+"""Form of the geometry -> the keys that no other form has."""
+
+OFTEN = ("yoke_angle", "outer", "inner", "wall", "grade", "mass", "size", "friction")  # keys that are offered first
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Entry:
     """A key of a table: what it means, what it takes, what stands there."""
@@ -75,8 +85,9 @@ class Section:
 
     @property
     def possible(self) -> tuple[Entry, ...]:
-        """The keys that it may have beside those."""
-        return tuple(one for one in self.entries if not one.given and not one.required)
+        """The keys that it may have beside those, the ones that drives have most first."""
+        free = [one for one in self.entries if not one.given and not one.required]
+        return tuple(sorted(free, key=lambda one: OFTEN.index(one.name) if one.name in OFTEN else len(OFTEN)))
 
 
 def tree_of(text: str) -> dict[str, Any] | None:
@@ -125,13 +136,32 @@ def section(tree: Mapping[str, Any], path: str, title: str = "") -> Section:
         known, default = KINDS[base]
         kinds, kind = tuple(known), str(table.get("kind", default or ""))
     skipped = {"number", "joints", "shafts", "supports", "stations", "movements", "poses"} if path else set()
+    unfit = _unfit(tree) if path.partition("[")[0] in ("input", "joints", "shafts", "output") else set()
     entries = tuple(
         _entry(one, table, path)
         for one in fields_of(cls).values()
-        if not (path == "" and _holds_tables(one)) and not (path.startswith("shafts") and one.name in skipped)
+        if not (path == "" and _holds_tables(one))
+        and not (path.startswith("shafts") and one.name in skipped)
+        and not (one.name in unfit and not any(key in table for key in one.spellings))
     )
     removable = path if (path.endswith("]") and not path.startswith(("joints[", "shafts["))) or "." in path else ""
     return Section(path=path, title=title, kind=kind, kinds=kinds, entries=entries, removable=removable)
+
+
+def geometry_form(tree: Mapping[str, Any]) -> str:
+    """Return in which form a file gives the geometry, also one that is not sound yet; empty where it gives none."""
+    ends = [one for one in (tree.get("input"), tree.get("output")) if isinstance(one, Mapping)]
+    given = {str(key) for one in (*ends, *tables(tree, "joints"), *tables(tree, "shafts")) for key in one}
+    for form in ("angles", "slopes", "points"):
+        if any(key.startswith(tuple(f"{name}_" for name in GEOMETRY[form])) for key in given):
+            return form
+    return ""
+
+
+def _unfit(tree: Mapping[str, Any]) -> set[str]:
+    """Return the keys of the other forms of geometry: a file may have those of one."""
+    form = geometry_form(tree)
+    return {name for other, names in GEOMETRY.items() if form and other != form for name in names}
 
 
 def written(entry: Entry, text: str) -> Any:
