@@ -179,6 +179,10 @@ def test_the_fastest_ramp_through_a_resonance_costs_least() -> None:
     told = answer(drive, ask(drive))
     names = {table.name for table in told.tables}
     assert {"events", "ramps"} <= names
+    short = strength(drive).shafts[1].fatigue_life < drive.duty.life
+    (verdict,) = check(drive, only=["start_fatigue"])
+    assert short == (verdict.state == "failed") == (told.code == 1) == ("asked" in str(told.sentence))
+    assert short
 
 
 def test_events_need_a_speed_and_a_torque() -> None:

@@ -24,6 +24,7 @@ from cardan.texts import _, mark, plural
 from .event_damage import cheapest, event_damages, ramp_damages
 from .figure import strength_figures
 from .omitted import LeftOut, Vibration
+from .part_strength import ShaftStrength
 from .strength import LITTLE, Strength, left_out, strength
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
@@ -62,7 +63,7 @@ def ask(drive: Drive, *, known: Catalogue | None = None) -> Strength | None:
     found = strength(drive, known=known)
     if not found.binding or not found.torque > 0.0:
         return None
-    return replace(found, left_out=left_out(drive, found), events=event_damages(drive), ramps=ramp_damages(drive))
+    return with_events(drive, replace(found, left_out=left_out(drive, found)))
 
 
 def otherwise(drive: Drive) -> str:
@@ -76,18 +77,19 @@ def otherwise(drive: Drive) -> str:
 def answer(drive: Drive, result: Strength) -> Answer:
     """Return what there is to say of the strength of a drive."""
     close = any(float(one.utilisation) >= AMBER or not one.sure for one in result.binding)
-    enough = result.enough
+    tired = [one for one in result.shafts if result.events and one.fatigue_life < (drive.duty.life or 0.0)]
+    enough = False if tired else result.enough
     tone: Tone = "plain" if enough is None else "failed" if not enough else "warning" if close else "good"
     return Answer(
         name="strength",
         title=_("Strength"),
-        sentence=_sentence(result),
+        sentence=_sentence(result) if not tired else _ending(drive, result, tired),
         tone=tone,
         figures=lambda: strength_figures(result),
         tables=tuple(_tables(drive, result)),
         remarks=(*_remarks(result), *(yokes_estimated(drive) if has_torsion(drive) else ())),
         keys=tuple(_keys(result)),
-        facts=_facts(result),
+        facts=_facts(result) | {"enough": enough},
         full=lambda: verdict_records(result.verdicts, "", torque=result.torque, flat=True),
         code=1 if enough is False else 0,
     )
@@ -108,6 +110,22 @@ def _sentence(result: Strength) -> Say | str:
     if result.case:
         torque = say("{torque} ({case})", torque=torque, case=result.case)
     return say(text, torque=torque, rated=_torque(result.rated_torque), title=first.title)
+
+
+def _ending(drive: Drive, result: Strength, tired: Sequence[ShaftStrength]) -> Say:
+    """Return that starts and events use up a shaft before the life asked for."""
+    first = min(tired, key=lambda one: one.fatigue_life)
+    text = _(
+        "shaft {number} lasts {life} of the {asked} asked, with its starts and events; torque rating without them "
+        "{rated}."
+    )
+    life, asked = Quantity(first.fatigue_life, "duration"), Quantity(drive.duty.life or 0.0, "duration")
+    return say(text, number=first.number, life=life, asked=asked, rated=_torque(result.rated_torque))
+
+
+def with_events(drive: Drive, found: Strength) -> Strength:
+    """Return a strength with what starts and events cost."""
+    return replace(found, events=event_damages(drive), ramps=ramp_damages(drive))
 
 
 def _tables(drive: Drive, result: Strength) -> Iterator[Table]:
@@ -209,7 +227,6 @@ def _events(result: Strength) -> Iterator[Table]:
             note=_("Each in time, its cycles by rainflow; of the shaft that it tires most.")
             if best is None
             else _("A faster run-up asks more of what drives it; at no damage the least torque counts."),
-            depth="brief" if best is None else "full",
         )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
-from cardan.checks.strength.answer import answer
+from cardan.checks.strength.answer import answer, with_events
 from cardan.checks.strength.strength import strength as ask
 from cardan.choices import sizing_answer
 from cardan.choices.size_search import Sizing
@@ -79,7 +79,7 @@ def strength(
     known = known_to(drive, folder, files)
     if part is None:
         with keys_of(file):
-            said = answer(drive, ask(drive, known=known))
+            said = answer(drive, with_events(drive, ask(drive, known=known)))
         return tell(said, file, drive, json=json, csv=csv, plot=plot)
     with keys_of(file), watching(_("searching sizes")):
         try:
