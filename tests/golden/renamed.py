@@ -89,6 +89,8 @@ ANSWERED: tuple[str, ...] = (
     r"(forces|assembly) examples/truck-duty-cycle",
     r"torsion stability examples/pto-flywheel\.toml --speeds 300:1500:6",
     r"tolerance examples/overconstrained-pump\.toml",
+    r"(forces|losses|assembly|accuracy|tolerance|articulation) "
+    r"examples/(front-halfshaft|propshaft-with-rzeppa|double-cardan-propshaft|tracta-steered-axle)\.toml",
 )
 """Command lines, by a pattern of their start, that were refused and are answered now."""
 

@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError, articulation, example, forces, losses, moving_forces
-from cardan.drive.joints import JOINTS
+from cardan.drive.joints import JOINTS, Tripod
 from cardan.io.drive_file import loads
 from cardan.questions.accuracy.tolerance import tolerance
 from cardan.questions.forces.assembly import assembly
 from cardan.questions.life.life import life
+from cardan.questions.motion.joint_mechanism import joint_carried, rubbed_share
 from cardan.questions.motion.motion import motion
 
 SIZES = {
@@ -198,6 +199,44 @@ def test_the_tables_of_a_torque_that_passes_a_joint_are_one():
         )
         found, other = losses(bare), forces(bare, angle=losses(bare).angle)
         assert np.abs(found.input_torque - other.input_torque).max() < 1e-8 * 300.0
+
+
+RUBBING = [kind for kind in JOINTS if JOINTS[kind].rubbing]
+
+
+@pytest.mark.parametrize("kind", RUBBING)
+@pytest.mark.parametrize("torque", [300.0, -300.0])
+def test_what_rubs_in_a_joint_without_a_cross_is_counted(kind, torque):
+    """Against the inner mechanism at single places, torque for torque; and the powers balance."""
+    grooves = "driving_offset_mm = 4\ndriven_offset_mm = 4\ngroove_radius_mm = 30"
+    pins = "driving_distance_mm = 50\ndriven_distance_mm = 50"
+    sizes = {"rzeppa": grooves, "weiss": grooves, "pin_coupling": pins}.get(kind, SIZES[kind])
+    text = f"""format = 1
+[[joints]]
+kind = "{kind}"
+joint_angle_deg = 15
+friction = 0.02
+{sizes}
+[duty]
+speed_rpm = 1200
+torque_Nm = {torque}
+"""
+    drive = loads(text)
+    found = losses(drive)
+    assert found.uncounted == () or all(one.part != "joints" for one in found.uncounted)
+    assert found.residual < 1e-9
+    assert 0.98 < found.efficiency < 1.0
+    places = np.arange(0, 360, 45)
+    exact = joint_carried(drive.joints[0], np.radians(15.0), found.angle[places], friction=0.02, fed=torque > 0.0)
+    # the table is straight between its places; where it has been taken, every fifth degree, it is exact
+    assert found.input_torque[places] / torque == pytest.approx(np.abs(exact.input_torque), rel=1e-9)
+
+
+def test_a_moving_joint_rubs_by_its_joint_angle():
+    joint = Tripod(track_radius=0.02, friction=0.02)
+    angle = np.arange(0.0, 6.0, 0.3)
+    near = rubbed_share(joint, 0.123, angle, many=True)[0]
+    assert near == pytest.approx(rubbed_share(joint, 0.123, angle)[0], rel=1e-5)
 
 
 def test_a_half_shaft_of_a_car_answers():

@@ -19,6 +19,7 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``twist_spring``     none: it does not give under torque
 ``inside``           nothing else moves in it
 ``inner``            pins of a cross, a contact, a slide or two axes in the bisecting plane, as the marks above say
+``rubbing``          no: what rubs in it is not counted
 ``mechanism``        the same as ``inner``: it has no more links inside
 ``carried``          a driven shaft that keeps its direction, of a loose joint one in a bearing
 ``push``             no force goes with its couple
@@ -117,6 +118,9 @@ class Joint:
     loose: ClassVar[bool] = False
     """Whether it holds nothing of its shafts but the turn: no force acts in its centre."""
 
+    rubbing: ClassVar[tuple[str, ...]] = ()
+    """Keys of the sizes that tell, with `friction`, what rubs in a joint without a cross; none where nothing does."""
+
     slides: ClassVar[bool] = False
     """Whether it lets its shafts slide along each other."""
 
@@ -142,7 +146,10 @@ class Joint:
         "length", None, doc="box [[x0, x1], [y0, y1], [z0, z1]] in which layout synthesis may put the centre"
     )
     friction: float | None = plain(
-        None, doc="reduced coefficient of friction of the journals in their bearings", low=0.0
+        None,
+        doc="reduced coefficient of friction of the journals in their bearings, or of rollers, balls and pins on their "
+        "tracks",
+        low=0.0,
     )
     material_friction: float | None = plain(
         None,
@@ -231,7 +238,8 @@ class Joint:
         question : str
             A key of `REFUSALS`.
         """
-        return "" if question == "forces" and self.told else _(self.refusals.get(question, ""))
+        known = (question == "forces" and self.told) or (question == "losses" and bool(self.rubbing))
+        return "" if known else _(self.refusals.get(question, ""))
 
     @property
     def told(self) -> bool:
@@ -286,6 +294,11 @@ class Joint:
     def half_length(self, apart: float) -> float:
         """Return how far its yokes swing off its centre [m], ``apart`` where it has two crosses that stand so."""
         return 0.0
+
+    @property
+    def alike(self) -> int:
+        """How many parts alike it has around its axis, after each of which it stands as before."""
+        return 1
 
     @property
     def span(self) -> float | None:

@@ -19,7 +19,7 @@ from cardan.units import deg, quantity
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
 from .common.laws import contact_push
 from .common.site import Site, about
-from .joint import REFUSALS, Inside, Joint, both_or_none
+from .joint import CROSS_ONLY, REFUSALS, Inside, Joint, both_or_none
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -29,6 +29,8 @@ class PinCoupling(Joint):
     kind: ClassVar[str] = "pin_coupling"
     title: ClassVar[str] = mark("pin coupling")
     types: ClassVar[tuple[str, ...]] = ("pin_ball",)
+    foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
+    rubbing: ClassVar[tuple[str, ...]] = ("driving_distance", "driven_distance")
     loose: ClassVar[bool] = True
     steepest: ClassVar[float] = 0.5 * math.pi
     refusals: ClassVar[Mapping[str, str]] = {

@@ -18,7 +18,7 @@ from .common import laws as tilted_plane
 from .common import site as drawn
 from .common.inner import InnerPair, Stance
 from .common.site import Site
-from .joint import Inside, Joint, both_or_none
+from .joint import CROSS_ONLY, Inside, Joint, both_or_none
 from .weiss import ball_places, balls_inside, groove_course, groove_inside, groove_mechanism
 
 LEVER = ("lever_b", "lever_c")
@@ -32,6 +32,8 @@ class Rzeppa(Joint):
     kind: ClassVar[str] = "rzeppa"
     title: ClassVar[str] = mark("Rzeppa")
     types: ClassVar[tuple[str, ...]] = ("rzeppa_lever", "rzeppa_offset", "rzeppa_fixed_modern", "plunging_ball_modern")
+    foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
+    rubbing: ClassVar[tuple[str, ...]] = GROOVES
     fixed: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(47.0)
 
@@ -68,6 +70,11 @@ class Rzeppa(Joint):
         return groove_course(
             angle, joint_angle, self.driving_offset, self.driven_offset, self.groove_radius, self.balls
         )
+
+    @property
+    def alike(self) -> int:
+        """Its balls."""
+        return self.balls
 
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield its grooves with the balls; what holds as much where the grooves are not given."""

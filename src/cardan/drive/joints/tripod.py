@@ -18,7 +18,7 @@ from cardan.units import quantity
 
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
 from .common.site import Side, Site, about
-from .joint import Inside, Joint
+from .joint import CROSS_ONLY, Inside, Joint
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -28,6 +28,8 @@ class Tripod(Joint):
     kind: ClassVar[str] = "tripod"
     title: ClassVar[str] = mark("tripod")
     types: ClassVar[tuple[str, ...]] = ("tripod_plunging",)
+    foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
+    rubbing: ClassVar[tuple[str, ...]] = ("track_radius",)
     fixed: ClassVar[bool] = True
     slides: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(26.0)
@@ -56,6 +58,11 @@ class Tripod(Joint):
                 yield Inside(key="nutation", meaning=text, value=float(shaft_tilt(*own)))
                 text = _("angle error of 3rd order, ±, because its shaft pivots there")
                 yield Inside(key="pivot_error", meaning=text, value=float(pivot_error(*own)))
+
+    @property
+    def alike(self) -> int:
+        """Its three arms."""
+        return 3
 
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield its three tracks and the arms on which its rollers slide; nothing but a slide without its size."""

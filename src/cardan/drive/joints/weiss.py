@@ -19,7 +19,7 @@ from cardan.units import deg, plain, quantity
 from .common import site as drawn
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance, carried
 from .common.site import Site
-from .joint import Inside, Joint, both_or_none, missed
+from .joint import CROSS_ONLY, Inside, Joint, both_or_none, missed
 
 
 def groove_course(
@@ -107,6 +107,8 @@ class Weiss(Joint):
     kind: ClassVar[str] = "weiss"
     title: ClassVar[str] = mark("Weiss")
     types: ClassVar[tuple[str, ...]] = ("weiss_curved", "weiss_straight")
+    foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
+    rubbing: ClassVar[tuple[str, ...]] = ("driving_offset", "driven_offset", "groove_radius")
     fixed: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(40.0)
 
@@ -132,6 +134,11 @@ class Weiss(Joint):
         return groove_course(
             angle, joint_angle, self.driving_offset, self.driven_offset, self.groove_radius, self.balls
         )
+
+    @property
+    def alike(self) -> int:
+        """Its balls."""
+        return self.balls
 
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield its grooves with the balls that carry; what holds as much where the grooves are not given."""

@@ -351,8 +351,18 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
         yield Remark(
             text=_("Journals carry the couples alone here; supports would tell the forces between the shafts.")
         )
+    others = [i for i, joint in enumerate(drive.joints, 1) if joint.rubbing and joint.friction]
+    if others:
+        text = plural(
+            "Friction within joint {numbers} does not count in the forces; losses count it.",
+            "Friction within joints {numbers} does not count in the forces; losses count it.",
+            len(others),
+        )
+        yield Remark(text=say(text, numbers=together(names, [i - 1 for i in others])))
     loose = [
-        i for i, joint in enumerate(drive.joints, 1) if not rubs(joint) and (joint.friction or joint.material_friction)
+        i
+        for i, joint in enumerate(drive.joints, 1)
+        if not joint.rubbing and not rubs(joint) and (joint.friction or joint.material_friction)
     ]
     if loose:
         text = plural(

@@ -159,7 +159,8 @@ def _parts(drive: Drive, result: Losses) -> Table:
     parts = loss_parts(result, drive)
     counted = [part.loss if part.counted else None for part in parts]
     sides = [
-        [float(one) for one in side] + [None] * (len(parts) - len(side))
+        [float(one) if joint.single_cross else None for one, joint in zip(side, drive.joints, strict=True)]
+        + [None] * (len(parts) - len(side))
         for side in (result.driving_pins, result.driven_pins)
     ]
     names: list[Value] = [Cell(value=part.named, chip=colour(part.role)) for part in parts]
@@ -231,12 +232,13 @@ def _remarks(drive: Drive, result: Losses, over: LossMap | None) -> Iterator[Rem
         return
     yield from _gathered(drive, result, over)
     yield from _uncounted(result.uncounted)
-    text = _(
-        "By the usual formulas, for the journals alone, the efficiency is {first} to first order and {small} by the "
-        "rule for small joint angles."
-    )
-    rules = {"first": result.first_order, "small": result.small_angle}
-    yield Remark(text=say(text, **{name: Quantity(value, "share", 5) for name, value in rules.items()}))
+    if any(joint.single_cross for joint in drive.joints):
+        text = _(
+            "By the usual formulas, for the journals alone, the efficiency is {first} to first order and {small} by "
+            "the rule for small joint angles."
+        )
+        rules = {"first": result.first_order, "small": result.small_angle}
+        yield Remark(text=say(text, **{name: Quantity(value, "share", 5) for name, value in rules.items()}))
     taken = float(np.sum(result.resisting))
     if taken:
         yield Remark(text=say(_("Resisting torques of the shafts take another {power}."), power=power(taken)))

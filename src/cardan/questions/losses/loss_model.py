@@ -65,6 +65,9 @@ class Model:
     holding: Callable[[Array], Holding] | None = None
     grip: Array  # grip, slide (n+1,) [1/m, m/s]: 2 μ/D and the mean sliding speed of the spline of each shaft
     slide: Array  # (n+1,) [m/s]
+    # from the motion to what joints without a cross rub away over the power of their driving shafts (..., n, p), while
+    # power flows forwards and backwards; None where none does
+    rubbing: Callable[[Motion], tuple[Array, Array]] | None = None
 
     @property
     def turns(self) -> int:
@@ -117,9 +120,10 @@ def flowing(model: Model, moved: Motion) -> tuple[TorqueFlow, Array]:
     load = _load(model, moved)
 
     def flow(drawn: Array) -> TorqueFlow:
-        return torque_flow(moved, model.drag, load, drawn=drawn, sense=sense, torque_at=model.torque_at)
+        return torque_flow(moved, model.drag, load, drawn=drawn, sense=sense, torque_at=model.torque_at, rubbed=rubbed)
 
     sense = np.sign(np.asarray(model.speed))
+    rubbed = None if model.rubbing is None else model.rubbing(moved)
     found = flow(own)
     rubbing = np.zeros((*found.entering.shape[:-2], model.rub.size, found.entering.shape[-1]))
     if model.holding is None:
@@ -247,6 +251,7 @@ def torque_flow(
     drawn: Array | None = None,
     sense: ArrayLike = 1.0,
     torque_at: str = "output",
+    rubbed: tuple[Array, Array] | None = None,
 ) -> TorqueFlow:
     """Return the torque that passes each joint and shaft, friction of the journals acting on itself.
 
@@ -256,6 +261,7 @@ def torque_flow(
     torque at the input.
     drawn (..., n+1, p) [N·m]: what each shaft takes for itself: inertia, resisting torques, friction of its bearings.
     sense (...): 1 or -1: sign of the input speed; torque_at: where ``torque`` is given, ``output`` or ``input``.
+    rubbed, two arrays (..., n, p): what joints without a cross rub away, see `Model`.
 
     The cross gives its driven yoke the couple K = T n - κ|T| sgn(p) u + κ|T| sgn(q̇) v, whose parts about
     the two shafts are T cos θ_1 (1 ± κ tan θ_1) and T cos θ_2 (1 ∓ κ tan θ_2), upper signs where power flows
@@ -274,6 +280,15 @@ def torque_flow(
     way = sense if isinstance(sense, float | int) else xp.asarray(sense)[..., None]
     own = xp.zeros_like(moved.shaft_ratio) if drawn is None else drawn
     n = moved.yoke_rotation.shape[-2]
+    shares: dict[int, Array] = {}
+
+    def lost(i: int, flow: Array) -> Array:
+        """Return by which share friction on the driven side of joint i lessens or raises its torque."""
+        shares[i] = driven[..., i, :]
+        if rubbed is not None:
+            shares[i] = shares[i] + xp.where(flow < 0.0, rubbed[1][..., i, :], rubbed[0][..., i, :])
+        return shares[i]
+
     entering, leaving, couples = [], [], []
     if torque_at == "output":
         leaving.append(torque)
@@ -281,7 +296,7 @@ def torque_flow(
             entering.append(leaving[-1] + own[..., i, :])
             if i:
                 flow = way * xp.sign(entering[-1])
-                couple = entering[-1] / (cos_driven[..., i - 1, :] * (1.0 - flow * driven[..., i - 1, :]))
+                couple = entering[-1] / (cos_driven[..., i - 1, :] * (1.0 - flow * lost(i - 1, flow)))
                 couples.append(couple)
                 leaving.append(couple * cos_driving[..., i - 1, :] * (1.0 + flow * driving[..., i - 1, :]))
         entering, leaving, couples = entering[::-1], leaving[::-1], couples[::-1]
@@ -293,14 +308,14 @@ def torque_flow(
                 flow = way * xp.sign(leaving[-1])
                 couple = leaving[-1] / (cos_driving[..., i, :] * (1.0 + flow * driving[..., i, :]))
                 couples.append(couple)
-                entering.append(couple * cos_driven[..., i, :] * (1.0 - flow * driven[..., i, :]))
+                entering.append(couple * cos_driven[..., i, :] * (1.0 - flow * lost(i, flow)))
     cross = _stacked(couples, xp)
     load = xp.abs(cross)
     return TorqueFlow(
         entering=_stacked(entering, xp),
         leaving=_stacked(leaving, xp),
         couple=cross,
-        driving_loss=load * cos_driven * driven * moved.shaft_ratio[..., 1:, :],
+        driving_loss=load * cos_driven * _stacked([shares[i] for i in range(n)], xp) * moved.shaft_ratio[..., 1:, :],
         driven_loss=load * cos_driving * driving * moved.shaft_ratio[..., :-1, :],
     )
 

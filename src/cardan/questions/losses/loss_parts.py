@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
+from cardan.drive.joints import Joint
 from cardan.drive.models.dynamics_model import Train, place_of, train
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
@@ -17,6 +18,8 @@ from cardan.maths.kernel import frames
 from cardan.questions.forces.kinetostatics import KinematicState, standing
 from cardan.questions.forces.reactions import Frame, Load, forces_of, frame, push_of, right_side, solved, weights
 from cardan.questions.motion.articulation import articulation
+from cardan.questions.motion.joint_mechanism import rubbed_share
+from cardan.questions.motion.motion import Motion
 from cardan.texts import _
 
 from .loss_model import Holding, Model
@@ -87,7 +90,12 @@ def _joints(drive: Drive) -> Iterator[Uncounted]:
             message = text.format(number=i + 1, why=why)
             yield Uncounted(field=f"joints[{i}].kind", message=message, part="joints", number=i + 1, missing=False)
             continue
-        if joint.friction is None and joint.material_friction is None:
+        sizes = lacks(joint)
+        if joint.rubbing and joint.friction is not None and not sizes:
+            continue
+        if joint.rubbing:
+            key = "friction" if joint.friction is None else sizes[0]
+        elif joint.friction is None and joint.material_friction is None:
             key = "friction"
         elif joint.cross is None or joint.cross.span is None:
             key = "cross.span"
@@ -149,6 +157,11 @@ def model_of(drive: Drive, duty: Duty, parts: Parts) -> Model:
     n = len(drive.joints)
     none = np.zeros(n + 1)
     machine = parts.train
+    rub = [bool(joint.rubbing and joint.friction) and not lacks(joint) for joint in drive.joints]
+
+    def rubbing(moved: Motion) -> tuple[Array, Array]:
+        return rubbed(drive.joints, rub, moved, many=bool(drive.movements))
+
     drag = np.zeros(n) if machine.drag is None else machine.drag
 
     def holding(angle: Array) -> Holding:
@@ -170,7 +183,24 @@ def model_of(drive: Drive, duty: Duty, parts: Parts) -> Model:
         holding=holding if np.any(parts.rub) else None,
         grip=parts.grip,
         slide=parts.slide,
+        rubbing=rubbing if any(rub) else None,
     )
+
+
+def lacks(joint: Joint) -> list[str]:
+    """Return the sizes that a joint without a cross lacks to tell what rubs in it."""
+    return [name for name in joint.rubbing if getattr(joint, name) is None]
+
+
+def rubbed(joints: Sequence[Joint], rub: Sequence[bool], moved: Motion, *, many: bool) -> tuple[Array, Array]:
+    """Return what joints rub away over the power of their driving shafts, forwards and backwards, (..., n, p)."""
+    theta = np.asarray(moved.yoke_rotation)
+    found = np.zeros((2, *theta.shape))
+    for i, joint in enumerate(joints):
+        if rub[i]:
+            alpha = float(np.asarray(moved.joint_angle)[..., i].flat[0])
+            found[:, ..., i, :] = rubbed_share(joint, alpha, theta[..., i, :], many=many)
+    return found[0], found[1]
 
 
 # What holds a drive while its journals rub: the forces on its supports, for the friction in them.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -19,6 +20,10 @@ from cardan.texts import _
 
 BEFORE, ASIDE, NORMAL = np.eye(3)
 """Driving shaft, direction in the plane of the shafts across it toward the driven one, and normal of that plane."""
+
+
+STRAIGHT = 1e-6
+"""Joint angle [rad] up to which nothing in a joint rubs."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -133,3 +138,46 @@ def joint_carried(
 def link_of(pair: InnerPair, end: int) -> str:
     """Return the name of the first or second link of a pair, of several alike each with its number."""
     return pair.links[end].replace("{count}", str(pair.count))
+
+
+# What a joint rubs away, as a table over its turn.
+
+PLACES = 72
+"""Places of a turn at which what a joint rubs away is taken; its curve has kinks, between them it is straight."""
+
+NODE = np.radians(1.0)
+"""Step of the joint angles at which it is taken where many are asked."""
+
+
+def rubbed_share(joint: Joint, joint_angle: float, angle: Array, *, many: bool = False) -> tuple[Array, Array]:
+    """Return what a joint rubs away over the power of its driving shaft, while this drives and while the other does.
+
+    joint_angle [rad]; angle (...) [rad]: of its driving mark from the plane of the shafts.
+    many: whether many joint angles are asked: by a cubic through those at full degrees, each solved once.
+    Returns two arrays (...).
+    """
+    if many:
+        first = max(int(joint_angle / NODE) - 1, 0)
+        nodes = [(first + k) * NODE for k in range(4)]
+        tables = np.stack([_shares(joint, one) for one in nodes])
+        weights = [np.prod([(joint_angle - b) / (a - b) for b in nodes if b != a]) for a in nodes]
+        table = np.maximum(np.tensordot(np.asarray(weights), tables, axes=1), 0.0)
+    else:
+        table = _shares(joint, joint_angle)
+    places = np.arange(PLACES + 1) * (2.0 * np.pi / PLACES)
+    turn = np.remainder(angle, 2.0 * np.pi)
+    fed, back = (np.interp(turn, places, np.append(row, row[0])) for row in table)
+    return fed, back
+
+
+@lru_cache(maxsize=512)
+def _shares(joint: Joint, joint_angle: float) -> Array:
+    """Return both shares of `rubbed_share` at even places of a turn, array (2, `PLACES`)."""
+    if joint_angle < STRAIGHT:
+        return np.zeros((2, PLACES))
+    repeats = joint.alike if PLACES % joint.alike == 0 else 1
+    angle = np.arange(PLACES // repeats) * (2.0 * np.pi / PLACES)
+    rows = [
+        joint_carried(joint, joint_angle, angle, friction=joint.friction or 0.0, fed=fed).loss for fed in (True, False)
+    ]
+    return np.tile(np.stack(rows), repeats)
