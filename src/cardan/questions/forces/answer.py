@@ -351,14 +351,14 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
         yield Remark(
             text=_("Journals carry the couples alone here; supports would tell the forces between the shafts.")
         )
-    others = [i for i, joint in enumerate(drive.joints, 1) if joint.rubbing and joint.friction]
-    if others:
+    within = [i for i, joint in enumerate(drive.joints, 1) if joint.rubbing and joint.friction]
+    if within:
         text = plural(
             "Friction within joint {numbers} does not count in the forces; losses count it.",
             "Friction within joints {numbers} does not count in the forces; losses count it.",
-            len(others),
+            len(within),
         )
-        yield Remark(text=say(text, numbers=together(names, [i - 1 for i in others])))
+        yield Remark(text=say(text, numbers=together(names, [i - 1 for i in within])))
     loose = [
         i
         for i, joint in enumerate(drive.joints, 1)
