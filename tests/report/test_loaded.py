@@ -30,27 +30,39 @@ from cardan.units import arcmin
 from .test_report import of_example, parsed
 
 WITH = {
-    "truck-supports": {"mobility", "forces", "losses", "bending", "balance"},
-    "two-piece-rubber-bearing": {"assembly", "mobility", "bending", "balance"},
+    "truck-supports": {"mobility", "forces", "losses", "bending", "line", "balance"},
+    "two-piece-rubber-bearing": {"assembly", "mobility", "bending", "line", "balance"},
     "pto-spline-thrust": {"mobility", "forces", "losses"},
     "instrument-joint": {"mobility", "forces", "losses", "accuracy"},
-    "overconstrained-pump": {"accuracy", "mobility", "forces", "losses", "assembly", "bending"},
+    "overconstrained-pump": {"accuracy", "mobility", "forces", "losses", "assembly", "bending", "line"},
     "truck-power-unit": {"torsion", "balance"},
-    "pto-flywheel": {"torsion", "run-up", "bending", "balance"},
-    "pto-flywheel-absorber": {"torsion", "run-up", "bending", "balance"},
+    "pto-flywheel": {"torsion", "run-up", "bending", "line", "balance"},
+    "pto-flywheel-absorber": {"torsion", "run-up", "bending", "line", "balance"},
     "unstable-drive": {"torsion"},
     "cured-drive": {"torsion"},
-    "car-propshaft": {"bending", "rotor", "balance"},
-    "composite-propshaft": {"bending", "balance"},
-    "mill-spindle": {"bending", "balance"},
-    "pto-drive": {"bending", "balance"},
-    "truck-duty-cycle": {"forces", "mobility", "bending", "balance"},
-    "double-cardan-propshaft": {"bending", "balance"},
-    "propshaft-with-rzeppa": {"mobility", "forces", "bending", "balance"},
+    "car-propshaft": {"bending", "line", "rotor", "balance"},
+    "composite-propshaft": {"bending", "line", "balance"},
+    "mill-spindle": {"bending", "line", "balance"},
+    "pto-drive": {"bending", "line", "balance"},
+    "truck-duty-cycle": {"forces", "mobility", "bending", "line", "balance"},
+    "double-cardan-propshaft": {"bending", "line", "balance"},
+    "propshaft-with-rzeppa": {"mobility", "forces", "bending", "line", "balance"},
 }
 """Examples with parts of their own."""
 
-PARTS = {"forces", "losses", "accuracy", "mobility", "assembly", "torsion", "run-up", "bending", "rotor", "balance"}
+PARTS = {
+    "forces",
+    "losses",
+    "accuracy",
+    "mobility",
+    "assembly",
+    "torsion",
+    "run-up",
+    "bending",
+    "line",
+    "rotor",
+    "balance",
+}
 
 
 @cache
