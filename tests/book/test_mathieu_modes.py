@@ -65,6 +65,15 @@ def test_the_engineering_method_meets_the_exact_torque_far_from_resonance():
     assert found.most == pytest.approx(found.exact, rel=0.01)
 
 
+def test_what_neglecting_the_parametric_term_costs_is_told_where_the_motion_is_stable():
+    """Within its zone nothing bounds the motion; far from it the costs are those of `validity`."""
+    grows = answer(STAND, mathieu_modes(STAND)).remarks[0].text
+    assert grows == "The parametric term must not be neglected: without damping the vibration grows."
+    found = mathieu_modes(at(900.0))
+    worst = float(np.max(found.validity[0].error))
+    assert answer(STAND, found).remarks[0].text.values["error"].value == pytest.approx(worst)
+
+
 def test_many_modes_have_no_engineering_method_and_say_so():
     drive = example("truck-power-unit")
     found = mathieu_modes(drive)

@@ -126,7 +126,8 @@ def _remarks(result: MathieuModes) -> Iterator[Remark]:
     k = result.nearest
     told = result.validity[k]
     if told is not None:
-        yield Remark(text=_neglected(told.rule, told.too_far, told.error))
+        text = _("The parametric term must not be neglected: without damping the vibration grows.")
+        yield Remark(text=_neglected(told.rule, told.too_far, told.error) if told.stable else text)
     if result.sizing is None:
         yield Remark(text=result.without)
     left = len(result.modes.omega) - len(result.number)
