@@ -252,7 +252,9 @@ def test_the_first_page_has_the_key_figures_of_forces_and_losses():
 def test_the_first_page_has_the_key_figures_of_accuracy_and_assembly():
     instrument = example("instrument-joint")
     most = tolerance(instrument).output.largest / arcmin
-    assert f"angle error of the output, root of squares {significant(most, 3)} ′" in front(instrument)
+    assert f"angle error of the output by the joints as made, root of squares {significant(most, 3)} ′" in front(
+        instrument
+    )
     pump = example("overconstrained-pump")
     text = front(pump)
     assert f"{plain(significant(assembly(pump).joint_peak[0].value))} N" in text

@@ -390,13 +390,13 @@ def _keys(drive: Drive, result: Accuracy) -> Iterator[KeyFigure]:
         return
     if result.band is None or result.worst is None:
         largest = _largest(_curve(result.known, ANGLE))
-        title, place = _("angle error of the output"), _("against the perfect drive")
-        yield KeyFigure(name="angle_error", title=title, place=place, value=ANGLE.quantity(largest, 4))
+        title, place = _("angle error of the output by the joints as made"), _("against the perfect drive")
+        yield KeyFigure(name="error_of_joints", title=title, place=place, value=ANGLE.quantity(largest, 4))
         return
-    ways = {"angle_error": result.band, "angle_error_worst": result.worst}
+    ways = {"error_of_joints": result.band, "error_of_joints_worst": result.worst}
     for name, found in ways.items():
-        if found.output.largest > 0.0 and not (name != "angle_error" and found is result.band):
-            title, way = _("angle error of the output"), _way(found.method)
+        if found.output.largest > 0.0 and not (name != "error_of_joints" and found is result.band):
+            title, way = _("angle error of the output by the joints as made"), _way(found.method)
             yield KeyFigure(name=name, title=title, place=way, value=ANGLE.quantity(found.output.largest))
 
 
