@@ -2,6 +2,9 @@
 
 import pytest
 
+from cardan.answers.data import as_csv
+from cardan.answers.reader import USUAL
+from cardan.catalogue.answer import answer_of_table
 from cardan.catalogue.catalogue import Catalogue, catalogue, found, with_files
 from cardan.catalogue.rows import JointSize
 from cardan.errors import InputError
@@ -70,3 +73,11 @@ def test_what_is_wrong_is_told_with_row_and_key(tmp_path):
 def test_rows_are_found_by_words():
     assert {type(row) for row in found(catalogue(), "gwb")["joint_sizes"]} == {JointSize}
     assert found(catalogue(), "gwb 687.15", "materials") == {}
+
+
+@pytest.mark.parametrize("table", ["joint_sizes", "materials", "laminae", "joint_types"])
+def test_what_is_told_as_csv_is_read_again(tmp_path, table):
+    told = answer_of_table(catalogue(), table).full()
+    (tmp_path / f"{table}.csv").write_text("\n".join(as_csv(told, USUAL)), encoding="utf-8")
+    again = with_files(Catalogue(tables={}), [tmp_path / f"{table}.csv"]).tables[table]
+    assert list(again) == list(catalogue().tables[table])

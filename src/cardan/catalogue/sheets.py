@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import is_dataclass
@@ -27,7 +28,8 @@ WORDS = {"true": True, "yes": True, "false": False, "no": False}
 def tree_of(path: Path) -> dict[str, list[dict[str, Any]]]:
     """Return the tables of a CSV file, named as the table, or of a workbook, whose sheets are named so.
 
-    A key of an inner table stands in the head after a point, ``rating.torque_Nm``; parts of a list are parted by ``;``.
+    A key of an inner table stands in the head after a point, ``rating.torque_Nm``; parts of a list are parted by ``;``
+    or by a comma and a blank.
     """
     check_size(path.stat().st_size, str(path))
     if path.suffix.lower() == ".csv":
@@ -81,15 +83,15 @@ def _types(cls: Any, before: str) -> Iterator[tuple[str, Any]]:
 def _value(cell: Any, wanted: Any) -> Any:
     """Return what a cell holds: words stay words, numbers may have a decimal comma; what does not fit stays."""
     if get_origin(wanted) is tuple:
-        parts = cell.split(";") if isinstance(cell, str) else [cell]
+        parts = re.split(";|, ", cell) if isinstance(cell, str) else [cell]
         return [_value(part, get_args(wanted)[0]) for part in parts]
-    if wanted is str:
-        return f"{cell:g}" if isinstance(cell, float) else str(cell).strip()
     if not isinstance(cell, str):
-        return cell
+        return f"{cell:g}" if wanted is str and isinstance(cell, float) else str(cell) if wanted is str else cell
     word = cell.strip()
-    if wanted is bool:
+    if wanted is bool or (wanted is not float and word.casefold() in ("true", "false")):
         return WORDS.get(word.casefold(), word)
+    if wanted is str:
+        return word
     try:
         number = float(word.replace(",", "."))
     except ValueError:
