@@ -219,6 +219,9 @@ def verdict_records(
     return Table(name=name, columns=columns, records=True, depth="data")
 
 
+MISSING = "missing"  # name of the table of checks not run
+
+
 def missing_table(verdicts: Sequence[Verdict], depth: Any = "full") -> Table:
     """Return what could not be judged for want of which keys, joints and shafts alike in one row."""
     groups: dict[tuple[str, ...], list[Verdict]] = {}
@@ -229,6 +232,7 @@ def missing_table(verdicts: Sequence[Verdict], depth: Any = "full") -> Table:
     counted = any("[" in path for one in verdicts for path in one.missing)
     note = _("Keys count from 0: joints[0] is joint 1, shafts[0] is shaft 1.")
     return Table(
+        name=MISSING,
         title=_("Checks not run, and the keys they need"),
         columns=(
             Column(

@@ -101,16 +101,16 @@ def content(
     logo, who = logo_of(drive, folder), Noting(units=reader().units, decimal=reader().decimal)
     with reading(who):
         on = replace(asked(drive, duty, progress), known=known)
-        said = _said(on)
+        limits = judged(on) if on.complete else Judged()
+        said = _said(on, limits)
         if full:
-            said = replace(said, appendix=tuple(_appendix(on, source_text)))
+            said = replace(said, appendix=tuple(_appendix(on, limits, source_text)))
     return replace(said, head=Head(rows=tuple(rows(drive.report)), units=who.line(), logo=logo))
 
 
-def _said(on: Subject) -> Content:
+def _said(on: Subject, limits: Judged) -> Content:
     """Return what a report says, without its head and its appendix."""
     pages: list[Page] = [description(on), moved(on.drive), phased(on), *_articulated(on), *loaded(on)]
-    limits = judged(on) if on.complete else Judged()
     if limits.page is not None:
         pages.append(limits.page)
     keys = key_figures([*(one.keys for one in pages), limits.keys])
@@ -153,8 +153,10 @@ def phased(on: Subject) -> Page:
     return page(replace(said, remarks=remarks, figures=lambda: drawn), reader())
 
 
-def _appendix(on: Subject, source_text: str | None) -> Iterator[Page]:
-    """Yield what few ask for: the polygon of the yokes, classical approximations, the method with the drive file."""
+def _appendix(on: Subject, limits: Judged, source_text: str | None) -> Iterator[Page]:
+    """Yield what few ask for: checks not run, polygon of the yokes, classical approximations, method, drive file."""
+    if limits.missing is not None:
+        yield limits.missing
     if not on.by_laws:
         drawn = [Picture(figure=one) for one in yokes.answer(on.drive, on.phasing).figures() if one.name == POLYGON]
         proof = yokes.proof(on.drive, on.phasing)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cardan.answers.answer import KeyFigure
 from cardan.answers.reader import reader
 from cardan.checks.key_figures import key_figures
+from cardan.checks.verdict_table import MISSING
 from cardan.choices.check_answer import answer, ask, remedy_table, urgent
 from cardan.errors import InputError
 from cardan.questions.gathering import gather
@@ -15,7 +16,7 @@ from cardan.register import QUESTIONS
 from cardan.texts import _, plural
 
 from .answers import refused
-from .block import Page, Table, page, row, table, verdict_columns
+from .block import Page, Table, Words, page, row, table, verdict_columns
 from .subject import Subject
 
 
@@ -28,6 +29,7 @@ class Judged:
     urgent: Sequence[KeyFigure] = ()  # the same as figures with their limits
     changes: Table | None = None  # the changes that help most, for the first page; None where nothing fails
     keys: Sequence[KeyFigure] = ()  # key figures with their limits
+    missing: Page | None = None  # the checks not run and the keys they need, for the appendix; None where all were
 
 
 def judged(on: Subject) -> Judged:
@@ -44,4 +46,26 @@ def judged(on: Subject) -> Judged:
     rows = [row(one, reader()) for one in shown]
     lights = Table(columns=verdict_columns(), rows=rows, title=_("Limits"), note=note) if rows else None
     changes = table(remedy_table(on.drive, result, helpful=True)) if result.remedies else None
-    return Judged(page=page(said, reader()), keys=said.keys, lights=lights, urgent=shown, changes=changes)
+    lacking = [table(one) for one in said.tables if one.name == MISSING]
+    count = sum(bool(one.missing) for one in result.verdicts)
+    text = plural(
+        "One check was not run for want of keys; `cardan check --missing` and the appendix name them.",
+        "{count} checks were not run for want of keys; `cardan check --missing` and the appendix name them.",
+        count,
+    ).format(count=count)
+    shorter = page(replace(said, tables=[one for one in said.tables if one.name != MISSING]), reader())
+    return Judged(
+        page=replace(shorter, blocks=[*shorter.blocks, *([Words(text=text)] if lacking else [])]),
+        keys=said.keys,
+        lights=lights,
+        urgent=shown,
+        changes=changes,
+        missing=Page(
+            name=MISSING,
+            title=_("Checks not run"),
+            answer=_("Each is run where the drive file has these keys."),
+            blocks=lacking,
+        )
+        if lacking
+        else None,
+    )
