@@ -12,6 +12,7 @@ from cardan.drive.fields.keys import key_of
 from cardan.drive.fields.paths import place
 from cardan.errors import InputError
 from cardan.io import example, example_names, example_text, loads
+from cardan.io.amend import amend
 from cardan.io.edit import edit
 from cardan.questions.gathering import principal
 from cardan.register import QUESTIONS, groups
@@ -155,3 +156,15 @@ def test_lights_tell_what_check_tells():
 
 def test_a_run_up_without_a_course_of_the_speed_names_the_key():
     assert "duty.run_up" in answered("run-up", subject(example("truck-power-unit"))).answer
+
+
+def test_making_it_synchronous_keeps_to_the_teeth_of_the_splines():
+    text = example_text("two-piece-rear-drive")  # 24 teeth on shaft 3: multiples of 15°; shaft 2 has none
+    best = synchronous(subject(loads(text)))
+    assert best.values["shafts[2].yoke_angle_deg"] == pytest.approx(15.0)
+    assert best.effect == "leaves 0.0597 %, the best that exists on these splines"
+    after = subject(loads(edit(text, best.values)))
+    assert after.fluctuation == pytest.approx(5.969e-4, rel=1e-3)  # as the row of the table of settings says
+    assert "do not exist on these splines" in synchronous(after)
+    bare = amend(text, {"shafts[2].spline": None})
+    assert subject(loads(edit(bare, synchronous(subject(loads(bare))).values))).even

@@ -169,7 +169,10 @@ def settings(on: Subject) -> tuple[Applicable, ...]:
 
 
 def synchronous(on: Subject) -> Applicable | str:
-    """Return the setting that makes the drive synchronous, or in a sentence why there is none to apply."""
+    """Return the setting that makes the drive synchronous, or as nearly as the teeth of its splines allow.
+
+    Where there is none to apply, a sentence says why.
+    """
     if on.joints == 1:
         return _("A single joint has no second one to undo it.")
     try:
@@ -184,7 +187,15 @@ def synchronous(on: Subject) -> Applicable | str:
     exact = [one for one in found.settings if one.speed_fluctuation < SYNCHRONOUS]
     if not exact:
         return _why_not(on, found)
-    return _of(exact[0], on)
+    if not found.spline_settings:
+        return _of(exact[0], on)
+    best = found.spline_settings[0]
+    if best.speed_fluctuation < SYNCHRONOUS:
+        return _of(best, on)
+    if not best.speed_fluctuation < found.as_built.speed_fluctuation - SYNCHRONOUS:
+        return _("The angles for a uniform output do not exist on these splines; on the teeth the yokes stand best.")
+    told = _of(best, on)
+    return replace(told, effect=_("{leaves}, the best that exists on these splines").format(leaves=told.effect))
 
 
 def _phasing(on: Subject) -> Phasing | None:

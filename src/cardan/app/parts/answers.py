@@ -376,7 +376,7 @@ def applied(session: Session, change: Applicable) -> None:
     except InputError as error:
         widgets.refused(error)
     else:
-        widgets.done(_("{change}: applied").format(change=change.label))
+        widgets.done(", ".join(filter(None, [_("{change}: applied").format(change=change.label), change.effect])))
 
 
 def _answer(question: Question) -> tuple[Page, tuple[Applicable, ...]] | str:
