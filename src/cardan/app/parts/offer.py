@@ -47,7 +47,7 @@ class Offer:
         entry = entries[chosen]
         if entry is not None and chosen in single:
             field = KeyField(self.session, entry, removable=False)
-            like = _like(chosen)
+            like = _like(chosen, entry.unit)
             if like and hasattr(field.widget, "_props"):
                 field.widget.props["placeholder"] = like
         else:
@@ -75,10 +75,14 @@ class Offer:
             self.session.select(path.rpartition(".")[0])
 
 
-def _like(path: str) -> str:
-    """Return a value that a shipped example gives the key of a path, with its unit where it has several."""
+def _like(path: str, beside: str) -> str:
+    """Return a value that a shipped example gives the key of a path, with its unit where another one stands beside."""
     for key in file_keys(path)[:1]:
         name, _sign, value = written_in_examples(key).partition(" = ")
         unit = next((unit for unit in key.units if name.endswith(f"_{unit}")), "")
-        return _("such as {value}").format(value=f"{value} {label(unit)}".strip()) if value else ""
+        return (
+            _("such as {value}").format(value=f"{value} {'' if unit == beside else label(unit)}".strip())
+            if value
+            else ""
+        )
     return ""
