@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -23,9 +23,6 @@ from .inputs import base_period
 from .torsion import Crossing, Node, TorsionModes, orders
 from .torsion import torsion_modes as ask
 from .torsional_train import TorsionalTrain
-
-if TYPE_CHECKING:
-    from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
 
 __all__ = ["answer", "ask", "lacking"]
 
@@ -48,13 +45,51 @@ AT = 0.005
 """Share of an element within which a node counts as at its end."""
 
 
+class Zoned(Protocol):
+    """Zones of parametric resonance, as `cardan.questions.torsion.steady.run_stability.Zone`."""
+
+    @property
+    def modes(self) -> Array:
+        """Numbers of the two modes of each, (k, 2)."""
+
+    def name(self, index: tuple[int, ...]) -> str:
+        """Return the name of one of them."""
+
+
+class Exact(Protocol):
+    """What exact equations say of ranges of speed: `cardan.questions.torsion.stability.proved_speeds.ProvedSpeeds`."""
+
+    @property
+    def lowest(self) -> Array:
+        """Begin of each unstable range, (k,) [rad/s]."""
+
+    @property
+    def highest(self) -> Array:
+        """End of each, (k,) [rad/s]."""
+
+    @property
+    def zone(self) -> Zoned:
+        """Zone of each."""
+
+    @property
+    def unproved(self) -> Array:
+        """Stretches of which nothing was shown, (j, 2) [rad/s]."""
+
+    @property
+    def looked_at(self) -> bool:
+        """Whether anything was shown."""
+
+    def overlapping(self, low: float, high: float) -> Array:
+        """Return the unstable ranges that overlap some speeds [rad/s], those that grow fastest first."""
+
+
 def lacking(drive: Drive) -> Lacking:
     """Return what the drive file lacks for torsional vibration."""
     some = bool(drive.stations) or any(shaft.stiffness is not None for shaft in drive.shafts)
     return absent((some, "stations", "shafts[1].stiffness"))
 
 
-def answer(drive: Drive, result: TorsionModes, *, exact: ProvedSpeeds | None = None) -> Answer:
+def answer(drive: Drive, result: TorsionModes, *, exact: Exact | None = None) -> Answer:
     """Return what there is to say of the torsional modes of a drive.
 
     exact: what its exact equations say of the speeds in use and about them: they overrule the zones of first order.
@@ -75,7 +110,7 @@ def answer(drive: Drive, result: TorsionModes, *, exact: ProvedSpeeds | None = N
     )
 
 
-def modes_said(drive: Drive, found: TorsionModes, *, exact: ProvedSpeeds | None = None) -> tuple[Tone, Text]:
+def modes_said(drive: Drive, found: TorsionModes, *, exact: Exact | None = None) -> tuple[Tone, Text]:
     """Return what the modes come to, without the full stop, and how good that is."""
     text = _(
         "the first torsional natural frequency is {frequency}; joints excite it at {second} (order 2) and at "
@@ -91,7 +126,7 @@ def modes_said(drive: Drive, found: TorsionModes, *, exact: ProvedSpeeds | None 
     return tone, Joined([first, more], between="; ")
 
 
-def _judged(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> tuple[Tone, Text]:
+def _judged(drive: Drive, found: TorsionModes, exact: Exact | None) -> tuple[Tone, Text]:
     """Return what that means for the operating range, nothing where there is none."""
     used = used_speeds(drive.duty)
     if used is None:
@@ -110,7 +145,7 @@ def _judged(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> tu
     return "good", _("no Campbell crossing in the operating range")
 
 
-def _exactly(exact: ProvedSpeeds, used: tuple[float, float], reach: tuple[float, float]) -> tuple[Tone, Text] | None:
+def _exactly(exact: Exact, used: tuple[float, float], reach: tuple[float, float]) -> tuple[Tone, Text] | None:
     """Return what the exact equations say of parametric resonance, None where they are proved to be stable."""
     inside = exact.overlapping(*used)
     for k in (*inside, *exact.overlapping(*reach))[:1]:
@@ -169,7 +204,7 @@ def _undecided(found: TorsionModes, used: tuple[float, float]) -> list[int]:
     return [k for k in _unstable(found.zone_perhaps, used) if k not in sure]
 
 
-def _tables(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> Iterator[Table]:
+def _tables(drive: Drive, found: TorsionModes, exact: Exact | None) -> Iterator[Table]:
     yield _mode_table(drive, found, exact)
     yield _joint_table(drive, found)
     yield _shape_table(found)
@@ -177,7 +212,7 @@ def _tables(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> It
         yield _crossing_table(found)
 
 
-def _growing(found: TorsionModes, used: tuple[float, float], exact: ProvedSpeeds | None) -> list[int]:
+def _growing(found: TorsionModes, used: tuple[float, float], exact: Exact | None) -> list[int]:
     """Return the modes that grow at some speeds [rad/s] in a zone of their own."""
     if exact is None:
         return _unstable(found.zone_surely, used)
@@ -185,7 +220,7 @@ def _growing(found: TorsionModes, used: tuple[float, float], exact: ProvedSpeeds
     return sorted({one - 1 for one, other in pairs if one == other and one > 0})
 
 
-def _mode_table(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> Table:
+def _mode_table(drive: Drive, found: TorsionModes, exact: Exact | None) -> Table:
     count, used = min(SHOWN, len(found.omega)), used_speeds(drive.duty)
     grows = [] if used is None else _growing(found, used, exact)
     open_ = [] if used is None or exact is not None else _undecided(found, used)
@@ -283,7 +318,7 @@ def _order(order: float) -> Quantity:
     return Quantity(order, trim=True)
 
 
-def _remarks(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> Iterator[Remark]:
+def _remarks(drive: Drive, found: TorsionModes, exact: Exact | None) -> Iterator[Remark]:
     yield from _alarms(found, exact)
     yield from (Remark(text=_node(found, node)) for node in found.nodes[0])
     if found.joint_weight.shape[-1] > 1:
@@ -306,7 +341,7 @@ def _remarks(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> I
     )
 
 
-def _enough(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> Iterator[Remark]:
+def _enough(drive: Drive, found: TorsionModes, exact: Exact | None) -> Iterator[Remark]:
     """Yield the least damping of modes that it alone keeps stable in the operating range."""
     used = used_speeds(drive.duty)
     if used is None:
@@ -318,7 +353,7 @@ def _enough(drive: Drive, found: TorsionModes, exact: ProvedSpeeds | None) -> It
             yield Remark(text=say(text, mode=k + 1, least=_share(least[k]), own=_share(own_loss[k])))
 
 
-def _alarms(found: TorsionModes, exact: ProvedSpeeds | None) -> Iterator[Remark]:
+def _alarms(found: TorsionModes, exact: Exact | None) -> Iterator[Remark]:
     """Yield what must not be overlooked on the first page; the tables of the answer say it too."""
     if found.speed_range is None:
         return
@@ -389,7 +424,7 @@ def _everything(found: TorsionModes) -> Table:
     )
 
 
-def _facts(found: TorsionModes, used: tuple[float, float] | None, exact: ProvedSpeeds | None) -> dict[str, Any]:
+def _facts(found: TorsionModes, used: tuple[float, float] | None, exact: Exact | None) -> dict[str, Any]:
     train, model = found.train, found.train.model
     stations, springs = train.station_names, np.asarray(model.stiffness)
     return {
