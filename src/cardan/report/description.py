@@ -11,7 +11,7 @@ from cardan.answers.answer import Cell, Column
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.reader import half_turn
 from cardan.drive.body import body_length
-from cardan.drive.conditions import held_speeds
+from cardan.drive.conditions import held_speeds, used_speeds
 from cardan.drive.joints.joint import Inside
 from cardan.figures.drive import space_figure, views_figure, yoke_figure
 from cardan.figures.palette import colour, shaft
@@ -182,9 +182,9 @@ def _assumed(on: Subject) -> Iterator[Text]:
             "Start phase 0° (the default): at the start the driving yoke of joint 1 lies in the plane of the joint."
         )
     speed = on.drive.duty.speed
-    if speed is None:
+    if used_speeds(on.drive.duty) is None:
         yield _("No input speed: accelerations are given over its square.")
-    elif on.drive.duty.acceleration == 0.0 and len(held_speeds(on.drive.duty)) < 2:
+    elif speed is not None and on.drive.duty.acceleration == 0.0 and len(held_speeds(on.drive.duty)) < 2:
         yield say(_("The input turns at a constant {speed}."), speed=Quantity(speed, "angular_speed"))
     if on.drive.input.point is None and any(body_length(on.drive.shafts[k], None) is None for k in (0, -1)):
         yield _("Sizes of yokes, crosses and tubes, and lengths of the end shafts, in the drawings.")

@@ -11,6 +11,7 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone, heads
 from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking
+from cardan.drive.conditions import held_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.models.kinematics_model import given_chain, mixed, unmapped
 from cardan.figures.figure import Figure
@@ -386,10 +387,10 @@ def _keys(drive: Drive, result: Turning) -> Iterator[KeyFigure]:
         angle = Quantity(0.0 if even else float(values[-1]), "angle")
         yield KeyFigure(name=name, title=title, value=angle, check=check)
     steep = 0.0 if even else float(_largest(result)[-1])
-    if speed is None:
+    if speed is None and not held_speeds(drive.duty):
         title = _("largest acceleration of the output over ω₁²")
         yield KeyFigure(name="relative_acceleration", title=title, value=Quantity(steep))
-    else:
+    elif speed is not None:
         yield KeyFigure(
             name="acceleration",
             title=_("largest acceleration of the output"),

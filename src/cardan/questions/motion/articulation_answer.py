@@ -197,8 +197,8 @@ def _worst_instants(found: Articulation) -> Table:
         "joint_angle": _("angle of joint {number}"),
         "speed_fluctuation": _("speed fluctuation of the output if it stopped there"),
         "moving_speed_fluctuation": _("speed fluctuation of the output while moving, peak to peak"),
-        "speed_error": _("speed error of the output"),
-        "acceleration": _("acceleration of the output"),
+        "speed_error": _("speed error of the output while moving"),
+        "acceleration": _("acceleration of the output while moving"),
         "length_max": _("longest shaft {number}"),
         "length_min": _("shortest shaft {number}"),
     }
