@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cardan import Drive, InputError, articulation, example, forces, losses, moving_forces
+from cardan import Drive, InputError, articulation, check, example, forces, losses, moving_forces
 from cardan.drive.joints import JOINTS, Tripod
 from cardan.io.drive_file import loads
 from cardan.questions.accuracy.tolerance import tolerance
@@ -246,3 +246,11 @@ def test_a_half_shaft_of_a_car_answers():
     assert found.input_torque == pytest.approx(600.0)
     bent = np.tan(0.5 * np.radians([6.0, 30.0])) * 600.0
     assert np.asarray(found.bending_couple)[[0, 2], 0] == pytest.approx(bent)
+
+
+def test_answers_about_the_half_shaft_agree():
+    """Losses count what rubs in its joints, forces say that they do not: no two of them contradict each other."""
+    drive = example("front-halfshaft")
+    drive = replace(drive, duty=replace(drive.duty, torque=600.0))
+    assert losses(drive).heat > 1000.0
+    assert all(one.state != "failed" for one in check(drive))

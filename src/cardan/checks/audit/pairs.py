@@ -237,6 +237,8 @@ def _rubs(asked: Asked) -> bool:
         return False
     if whole is None or whole.cross_inertia is not None:
         return False
+    if any(joint.rubbing and joint.friction for joint in asked.drive.joints):  # forces say that they leave it out
+        return False
     return float(np.sum(found.supports) + np.sum(found.splines)) <= RUBBING * SAMPLED * abs(found.input_power)
 
 
