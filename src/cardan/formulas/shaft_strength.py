@@ -382,7 +382,7 @@ def ply_exposure(
     >>> layup = Layup(angles=(math.pi / 4, -math.pi / 4), ply_thickness=1e-3, ply=ply)
     >>> found = ply_exposure(layup, 0.09, 1e-3, 2000.0)
     >>> print(f"{found.exposure:.3f}")
-    0.245
+    0.252
     """
     strength = {name: getattr(layup.ply, name) for name in PLY_STRENGTHS}
     lacking = [name for name, value in strength.items() if value is None]
@@ -436,7 +436,7 @@ def bond_shear(bond: Bond, layup: Layup, outer: ArrayLike, ply_thickness: ArrayL
     >>> layup = Layup(angles=(math.pi / 4, -math.pi / 4), ply_thickness=1e-3, ply=ply)
     >>> bond = Bond(length=0.05, thickness=0.2e-3, shear=1e9, strength=30e6)
     >>> print(f"{bond_shear(bond, layup, 0.092, 1e-3, 1000.0) / 1e6:.2f} MPa")
-    9.65 MPa
+    21.25 MPa
     """
     plies = len(layup.angles)
     _along, _around, shear = laminate_moduli(layup.angles, [layup.ply_thickness] * plies, layup.ply.stiffness)

@@ -45,8 +45,8 @@ def ply_stresses(angles: ArrayLike, thickness: ArrayLike, ply: PlyStiffness) -> 
     >>> ply = PlyStiffness(135e9, 10e9, 5e9, 0.3)
     >>> shear = ply_stresses(np.radians([45, -45]), [1e-3, 1e-3], ply)[:, :, 2]
     >>> print(shear.round(1))
-    [[ 923.9   76.1    0. ]
-     [-923.9  -76.1   -0. ]]
+    [[ 949.6  -50.4    0. ]
+     [-949.6   50.4    0. ]]
     """
     sizes = np.asarray(thickness, dtype=float)
     turns = np.asarray(angles, dtype=float)
