@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError, equivalent_joint, forces, motion
+from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import geometry, in_form
 from cardan.drive.pose import Pose
@@ -51,11 +52,33 @@ def test_slopes_read_as_a_technician_measures_them() -> None:
     assert np.rad2deg(drive.shafts[1].plan_slope) == pytest.approx(45)  # to the left
 
 
-def test_a_shaft_that_does_not_run_forwards_has_no_slopes() -> None:
-    drive = Drive.from_points([(0, 0, 0), (0, 1, 0), (0.1, 2, 0)])
-    with pytest.raises(InputError, match="does not run along") as caught:
+def test_a_shaft_that_runs_against_the_others_has_no_slopes() -> None:
+    drive = Drive.from_points([(0, 0, 0), (1, 0, 0), (1.5, 0.8, 0), (1, 1.6, 0), (0, 1.6, 0)])
+    with pytest.raises(InputError, match="no side and plan slope") as caught:
         in_form(drive, "slopes")
-    assert [problem.field for problem in caught.value.problems] == ["shafts[0]"]
+    assert [problem.field for problem in caught.value.problems] == ["shafts[0]", "shafts[3]"]
+
+
+@pytest.mark.parametrize(
+    ("points", "upright"),
+    [
+        ([(0, 0, 0), (-1, 0.2, 0.1), (-2, 0.5, 0), (-3, 0.6, 0.4)], True),
+        ([(0, 0, 0), (0.1, 1, 0), (0, 2, 0.3), (0.4, 3, 0.4)], True),
+        ([(0, 0, 0), (0, 0, 1), (0.3, 0, 2), (0.4, 0.1, 3)], False),
+        ([(0, 0, 0), (0.1, 0, -1), (0.4, 0.2, -2), (0.3, 0, -3)], False),
+    ],
+)
+def test_drives_backwards_sideways_and_upright_have_slopes(points, upright) -> None:
+    heavy = Cross(mass=2.0)
+    drive = Drive.from_points(points, yoke_angles=[0.3])
+    drive = replace(drive, joints=tuple(replace(one, cross=heavy) for one in drive.joints))
+    turned = in_form(drive, "slopes")
+    assert np.max(np.abs(motion(turned).ratio - motion(drive).ratio)) < 1e-13
+    before, after = geometry(drive), geometry(turned)
+    assert np.allclose(after.length, before.length)
+    fall, fell = np.asarray(drive.settings.gravity), np.asarray(turned.settings.gravity)
+    assert np.allclose(after.axis @ fell, before.axis @ fall, atol=1e-12)
+    assert np.allclose(fell, fall) == upright
 
 
 def test_lengths_not_said_stay_unsaid() -> None:

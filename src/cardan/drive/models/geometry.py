@@ -271,6 +271,7 @@ def _over(a: Vector, size: Number) -> Vector:
 # From one form of geometry to another: joint centres, bends, slopes.
 
 UNTURNED = 1e-12  # a shaft whose direction differs by less runs along x
+LEVEL = 1e-3  # share of a direction in the ground plan below which it counts as upright
 STEEP = 1.57  # a shaft that rises or turns aside by more [rad] has no slope that a file could give
 
 GEOMETRY = ("centre", "joint_angle", "plane_twist", "move_within", "point", "length", "side_slope", "plan_slope")
@@ -281,19 +282,21 @@ def in_form(drive: Drive, form: Form) -> Drive:
     """Return the same drive with its geometry in another form; its motion does not change.
 
     form: the form wanted. Angles put joint 1 at the origin and shaft 1 along x, which turns the drive as a whole,
-    gravity with it; slopes put joint 1 at the origin. Movements are carried along where the drive is shifted but not
-    turned.
+    gravity with it; slopes put joint 1 at the origin, and where shafts do not run along +x they turn the drive as a
+    whole, about the upright where that will do. Movements are carried along where the drive is shifted but not turned.
     Returns Drive: where joint 1 is straight, its plane is a matter of the form, and the start phase is measured from
     the new one.
     """
     if form == drive.form:
         return drive
     here = geometry(drive)
+    ahead = _ahead(here) if form == "slopes" else here
     turned = form == "angles" and bool(np.any(np.abs(here.axis[0] - np.asarray([1.0, 0.0, 0.0])) > UNTURNED))
+    turned |= ahead is not here
     check(_tied_to_form(drive, form, turned=turned))
     if form == "points":
         return _phased(_to_points(drive, here), here)
-    other = _to_angles(drive, here) if form == "angles" else _phased(_to_slopes(drive, here), here)
+    other = _to_angles(drive, here) if form == "angles" else _phased(_to_slopes(drive, ahead), ahead)
     other = _with_vectors(other, here) if turned else other
     return replace(other, movements=tuple(_shifted(one, here.points[1]) for one in drive.movements))
 
@@ -385,14 +388,41 @@ def _first_twist(place: Geometry) -> float:
     return float(angle_about(axis, level, place.normal[0]))
 
 
+def _ahead(place: Geometry) -> Geometry:
+    """Return where a drive lies once its shafts run along +x, about the upright if they are not upright themselves."""
+    if not np.any(_steep(place.axis)):
+        return place
+    along = np.sum(place.axis, axis=0)
+    x, y, z = along / np.linalg.norm(along)
+    flat = math.hypot(x, y)
+    level = math.atan2(y, x) if flat > LEVEL else 0.0
+    turn = np.asarray(
+        [[math.cos(level), math.sin(level), 0.0], [-math.sin(level), math.cos(level), 0.0], [0.0, 0.0, 1.0]]
+    )
+    if np.any(_steep(place.axis @ turn.T)):
+        rise = math.atan2(z, flat if flat > LEVEL else x)
+        down = np.asarray(
+            [[math.cos(rise), 0.0, math.sin(rise)], [0.0, 1.0, 0.0], [-math.sin(rise), 0.0, math.cos(rise)]]
+        )
+        turn = down @ turn
+    return replace(place, points=place.points @ turn.T, axis=place.axis @ turn.T, normal=place.normal @ turn.T)
+
+
+def _steep(axis: Array) -> Array:
+    """Return which shafts have no slopes, array of bool (n+1)."""
+    side, plan = np.arctan2(axis[:, 2], axis[:, 0]), np.arctan2(axis[:, 1], axis[:, 0])
+    return np.maximum(np.abs(side), np.abs(plan)) >= STEEP
+
+
 def _to_slopes(drive: Drive, place: Geometry) -> Drive:
     check(
         Problem(
             f"shafts[{k}]",
-            _("shaft {number} does not run along +x, so it has no side and plan slope").format(number=k + 1),
+            _("shaft {number} runs across or against the others, so it has no side and plan slope along +x").format(
+                number=k + 1
+            ),
         )
-        for k, axis in enumerate(place.axis)
-        if max(abs(math.atan2(axis[1], axis[0])), abs(math.atan2(axis[2], axis[0]))) >= STEEP
+        for k in np.flatnonzero(_steep(place.axis)).tolist()
     )
     return replace(
         drive,
