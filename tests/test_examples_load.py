@@ -12,6 +12,7 @@ from cardan import apply_remedy, articulation, assembly, check, equivalent_joint
 from cardan.drive.fields.paths import pose_drives
 from cardan.drive.models.geometry import geometry
 from cardan.io import example_names, example_text, loads, starter
+from cardan.questions.motion.turning import each_shaft
 
 NAMES = example_names()
 SPINDLES = ("rolling-mill-lower-spindle", "rolling-mill-upper-spindle")
@@ -72,7 +73,9 @@ def speed_fluctuation(name: str) -> float:
 
 
 def test_joints_of_constant_velocity_are_even_as_far_as_they_are_made_so() -> None:
-    assert speed_fluctuation("front-halfshaft") == 0.0
+    wobbling = each_shaft(example("front-halfshaft"))  # its tripod makes the shaft nutate, three times a turn
+    assert 2e-4 < wobbling.speed_fluctuation[-1] < 2.2e-4
+    assert [order for order, _wave in wobbling.orders(1)] == [3]
     assert speed_fluctuation("tracta-steered-axle") == pytest.approx(0.0070045843794651706, rel=1e-12)
     same = equivalent_joint(example("tracta-steered-axle")).joint_angle
     assert math.degrees(same) == pytest.approx(4.8, abs=0.05)

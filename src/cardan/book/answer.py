@@ -8,7 +8,7 @@ from cardan.answers.answer import Answer, Cell, Column, Table
 from cardan.answers.quantity import Quantity, say
 from cardan.answers.question import Lacking
 from cardan.drive.drive import Drive
-from cardan.drive.models.kinematics_model import unmapped
+from cardan.drive.models.kinematics_model import unlike_hooke
 from cardan.questions.motion.equivalence import SYNCHRONOUS, each_uniform
 from cardan.texts import _
 
@@ -26,15 +26,15 @@ def lacking(drive: Drive) -> Lacking:
 
 def ask(drive: Drive) -> BookComparison | None:
     """Return the exact motion beside the classical approximations; None where there is nothing to compare."""
-    if unmapped(drive.joints) or each_uniform(drive):
+    if unlike_hooke(drive) or each_uniform(drive):
         return None
     return book_comparison(drive)
 
 
 def otherwise(drive: Drive) -> str:
     """Return why there is nothing to compare."""
-    if unmapped(drive.joints):
-        return _("The classical series know no joints that turn by laws of their own.")
+    if unlike_hooke(drive):
+        return _("The classical series know no joints that turn by laws of their own, and no shafts that wobble.")
     return _("Every joint turns uniformly by itself: there is nothing to approximate.")
 
 

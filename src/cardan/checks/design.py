@@ -19,7 +19,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.fields.paths import bare_path, place
 from cardan.drive.models.geometry import geometry, geometry_from_points, points_from_angles
-from cardan.drive.models.kinematics_model import Chain, given_chain, turning, unmapped
+from cardan.drive.models.kinematics_model import Chain, given_chain, turning, unlike_hooke
 from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames
@@ -119,7 +119,7 @@ class Design:
     @cached_property
     def swing(self) -> Swing | None:
         """How uneven the drive is as seen over a turn, where a joint turns by a law of its own; else None."""
-        return swing(self.drive) if unmapped(self.drive.joints) else None
+        return swing(self.drive) if unlike_hooke(self.drive) else None
 
     @cached_property
     def made(self) -> AsMade | None:

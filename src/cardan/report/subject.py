@@ -15,7 +15,7 @@ from cardan.drive.conditions import in_poses
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.kinematics_model import Chain, as_hooke, mixed, turning_chain, unmapped
+from cardan.drive.models.kinematics_model import Chain, as_hooke, mixed, turning_chain, unlike_hooke
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.questions.motion.articulation import Articulation
@@ -27,7 +27,7 @@ from cardan.questions.motion.equivalence import (
     equivalent_joint,
     is_rounding,
 )
-from cardan.questions.motion.motion import followed, initial_phases
+from cardan.questions.motion.motion import initial_phases, motion
 from cardan.questions.motion.turning import Evenness, swing
 from cardan.questions.phases.phases import Phasing, phases
 from cardan.questions.phases.setting import YokeSetting
@@ -85,7 +85,7 @@ class Subject:
     def phase(self) -> Array:
         """Phase angle of every joint, array (n) [rad]."""
         if self.by_laws:
-            return np.asarray(followed(self.drive, np.zeros(1))["yoke_rotation"][:, 0])
+            return np.asarray(motion(self.drive, [0.0]).yoke_rotation[:, 0])
         return np.asarray(initial_phases(self.drive))
 
     @cached_property
@@ -197,7 +197,7 @@ class Subject:
     @property
     def by_laws(self) -> bool:
         """Whether joints turn by laws of their own, so that no single joint and no polygon of yokes is like it."""
-        return bool(unmapped(self.drive.joints))
+        return unlike_hooke(self.drive)
 
     @property
     def joints(self) -> int:

@@ -5,16 +5,17 @@ import pytest
 
 from cardan import Drive, InputError, assembly, example
 from cardan.drive.cross import Cross
-from cardan.drive.joints import JOINTS
+from cardan.drive.joints import JOINTS, OffsetCross, PinCoupling
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.kinematics_model import chain
 from cardan.drive.models.machine_held import machine_held
+from cardan.drive.models.wobble import course
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.support import Support
 from cardan.io import example_names
 from cardan.questions.forces.kinetostatics import standing
 from cardan.questions.mobility.constraint_release import repairs
-from cardan.questions.mobility.drive_mechanism import marks, mechanism_of
+from cardan.questions.mobility.drive_mechanism import mechanism_of, unheld
 from cardan.questions.mobility.finite_mobility import mobility_over_turn
 from cardan.questions.mobility.mobility import mobility
 from cardan.reading.fields import fields_of
@@ -113,7 +114,8 @@ def test_housings_that_are_off_strain_what_is_held_too_much():
 def test_marks_are_those_by_which_forces_are_calculated():
     drive = Drive.from_angles([0.3, 0.5], plane_twists=[0.7], yoke_angles=[0.4], start_phase=0.2)
     place = geometry(drive)
-    driving, driven = marks(drive, place, 1.1)
+    lying = course(drive, np.asarray([1.1]))
+    driving, driven = lying.driving[:, 0], lying.driven[:, 0]
     stand = standing(chain(drive), place.axis, place.normal, np.asarray([1.1]), speed=1.0)
     np.testing.assert_allclose(driving, stand.driving_arm[0], atol=1e-14)  # rounding of two turns
     np.testing.assert_allclose(driven, stand.driven_arm[0], atol=1e-14)
@@ -127,9 +129,9 @@ def test_joints_of_every_kind_are_pairs(kind):
     joint = JOINTS[kind](joint_angle=0.2, **values)
     found = mobility(replace(two(FIRM), joints=(joint,)))
     assert found.agrees
-    assert found.driven == 1
     assert found.parasitic == 0
-    held = {"tripod": 2, "half_cardan": 2}
+    assert found.driven == (0 if kind == "offset_cross" else 1), "its shaft has to wobble"
+    held = {"tripod": 2, "half_cardan": 2, "offset_cross": 2}
     loose = ("elastic_half_cardan", "pin_coupling", "clemens")
     assert found.redundant == (0 if kind in loose else held.get(kind, 3))
 
@@ -155,3 +157,34 @@ def test_what_misses_is_named(drive, fields):
         mobility(drive)
     assert [one.field for one in caught.value.problems] == fields
     assert np.all([one.message.startswith("missing") for one in caught.value.problems])
+
+
+def offset(*supports):
+    joint = OffsetCross(joint_angle=0.4, offset=0.02, reach=0.3)
+    return replace(SINGLE, joints=(joint,), supports=supports)
+
+
+def test_an_offset_cross_turns_in_its_ball_and_locks_in_two_bearings():
+    motor = Support(shaft=1, position=-0.3, **FIRM)
+    ball = mobility_over_turn(offset(motor), positions=24)
+    assert ball.turns
+    assert (set(ball.mobility), ball.structural) == ({1}, 0)
+    assert "ball behind joint 1" in [one.id for one in mechanism_of(offset(motor)).joints]
+    pump = (Support(shaft=2, position=0.2), Support(shaft=2, position=0.4, axial=True))
+    firm = mobility_over_turn(offset(motor, *pump), positions=24)
+    assert not firm.turns
+    floating = mobility_over_turn(offset(motor, Support(shaft=2, position=0.3)), positions=24)
+    assert floating.turns
+
+
+def test_a_coupling_that_holds_nothing_but_the_torque_is_told_by_bending():
+    pins = replace(SINGLE, joints=(PinCoupling(joint_angle=0.4),))
+    assert unheld(pins) == (0,)
+    every = {kind: unheld(replace(SINGLE, joints=(one,))) for kind, one in KINDS.items()}
+    assert {kind for kind, found in every.items() if found} == {"pin_coupling", "clemens", "elastic_half_cardan"}
+
+
+KINDS = {
+    kind: made(joint_angle=0.2, **({"offset": 0.01, "reach": 0.3} if kind == "offset_cross" else {}))
+    for kind, made in JOINTS.items()
+}

@@ -100,5 +100,8 @@ def test_the_classical_approximations_are_told_where_they_differ():
     (table,) = classical.answer(truck, seen).tables
     # Book (80) as in the worked example: 12.335 % with mean phases.
     assert column(table, "speed_fluctuation").values[2] == pytest.approx(0.12335, abs=5e-6)
+    even = Drive.from_angles([0.0, 0.0])
+    assert classical.ask(even) is None
+    assert "nothing to approximate" in classical.otherwise(even)
     assert classical.ask(example("front-halfshaft")) is None
-    assert "nothing to approximate" in classical.otherwise(example("front-halfshaft"))
+    assert "laws of their own" in classical.otherwise(example("front-halfshaft"))

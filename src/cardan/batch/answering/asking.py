@@ -15,7 +15,7 @@ from cardan.batch.points.fields import TEXT_STATUS, Maker, VaryingField, spots_o
 from cardan.batch.work import STATUS, Column, Rows, Status
 from cardan.catalogue import Catalogue, catalogue
 from cardan.drive.drive import Drive
-from cardan.drive.models.kinematics_model import mixed, unmapped
+from cardan.drive.models.kinematics_model import mixed, unlike_hooke
 from cardan.errors import CardanError, InputError, MissingExtraError, Problem, check
 from cardan.later import later
 from cardan.maths.arrays import Array
@@ -128,7 +128,7 @@ class DriveEvaluator:
     @cached_property
     def fast(self) -> bool:
         """Whether all points are answered at once: motion is all that is asked, places and angles all that varies."""
-        alike = all(spot.moves for spot in self.spots) and not unmapped(self.drive.joints)
+        alike = all(spot.moves for spot in self.spots) and not unlike_hooke(self.drive)
         return alike and all(question.of_many for question in self._asked)
 
     @cached_property

@@ -13,7 +13,7 @@ from cardan.checks.angles.acceleration import swings
 from cardan.drive.drive import Drive
 from cardan.drive.fields.validity import COINCIDENT, TINY, axis_points
 from cardan.drive.models.geometry import Number, Vector, columns, geometry, polyline, table
-from cardan.drive.models.kinematics_model import Chain, given_chain, mixed, turning, unmapped
+from cardan.drive.models.kinematics_model import Chain, given_chain, mixed, turning, unlike_hooke
 from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.method import Method
@@ -97,7 +97,7 @@ class FollowedDrive(Many):
 
 def one(drive: Drive) -> Many:
     """Return a single drive, n = 1."""
-    if not unmapped(drive.joints):
+    if not unlike_hooke(drive):
         return many(drive, {}, 1)[0]
     given = given_chain(drive)
     rows = replace(

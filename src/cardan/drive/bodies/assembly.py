@@ -18,6 +18,7 @@ from cardan.drive.joints import ConstantVelocity
 from cardan.drive.joints.common.site import length_text
 from cardan.drive.models.geometry import Geometry, geometry, geometry_from_points
 from cardan.drive.models.kinematics_model import given_chain
+from cardan.drive.models.wobble import Course, course
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.shapes import ACROSS, bearing, bracket, disc, flange, floor_frame, ring, rubber, washer
 from cardan.drive.station import Station
@@ -47,8 +48,8 @@ def assembled(
     place = here if points is None else moved(here, points)
     drawn = here if drawn is None else drawn
     angle = np.arange(count) * (2.0 * np.pi / count)
-    found = standing(drive, here, place, angle)
-    build = Build(drive=drive, place=place, drawn=drawn, sizes=sizes(drive, drawn), arms=found)
+    found, lying = standing(drive, here, place, angle)
+    build = Build(drive=drive, place=place, drawn=drawn, sizes=sizes(drive, drawn), arms=found, lying=lying)
     still = np.zeros((count, 4))
     still[:, 3] = 1.0
     build.tracks.append(Track(origin=np.zeros(3), turn=still))
@@ -78,8 +79,10 @@ def moved(drawn: Geometry, points: Array) -> Geometry:
     return found
 
 
-def standing(drive: Drive, drawn: Geometry, place: Geometry, angle: Array) -> Arms:
-    """Return the directions of all arms at input angles; the first yoke stays where it was drawn while points move.
+def standing(drive: Drive, drawn: Geometry, place: Geometry, angle: Array) -> tuple[Arms, Course | None]:
+    """Return the directions of all arms at input angles, and where shafts lie if any wobbles.
+
+    The first yoke stays where it was drawn while points move.
 
     drawn, place: where it was drawn, and where it is; angle (p,) [rad].
     """
@@ -93,10 +96,14 @@ def standing(drive: Drive, drawn: Geometry, place: Geometry, angle: Array) -> Ar
             train, joint_angle=place.joint_angle, plane_twist=place.plane_twist, start_phase=np.asarray(phase)
         )
     with np.errstate(invalid="ignore", divide="ignore"):
+        if any(joint.wobbles for joint in drive.joints):
+            lying = course(drive, angle, place, phase=float(train.start_phase))
+            if np.all(np.isfinite(lying.driven)):
+                return Arms(driving=lying.driving, driven=lying.driven), lying
         found = arms(place, train, angle, drive.joints)
     if np.all(np.isfinite(found.driven)):
-        return found
-    return arms(place, train, angle, [joint if joint.crossed else ConstantVelocity() for joint in drive.joints])
+        return found, None
+    return arms(place, train, angle, [joint if joint.crossed else ConstantVelocity() for joint in drive.joints]), None
 
 
 def turns(drive: Drive, build: Build) -> Iterator[int]:
@@ -110,13 +117,15 @@ def turns(drive: Drive, build: Build) -> Iterator[int]:
 
 def _shaft_tracks(build: Build) -> None:
     """Add two tracks for each shaft between joints, of its start and of its end: in torsion they turn apart."""
+    lying = build.lying
     for k in range(1, build.count + 2):
-        axis = build.axis(k)
+        axis = build.axis(k) if lying is None else lying.axis[k - 1]
         if k > 1:
-            origin, along = build.drive.joints[k - 2].shaft_behind(build.stance(k - 2))
-            build.starts[k] = build.along(origin, along, build.arms.driven[k - 2])
+            origin = build.centre(k - 2) if lying is None else lying.start[k - 2]
+            build.starts[k] = build.along(origin, axis, build.arms.driven[k - 2])
         if k <= build.count:
-            build.ends[k] = build.along(build.centre(k - 1), axis, build.arms.driving[k - 1])
+            centre = build.centre(k - 1) if lying is None else lying.centre[k - 1]
+            build.ends[k] = build.along(centre, axis, build.arms.driving[k - 1])
 
 
 def extent(build: Build, k: int) -> tuple[float, float]:

@@ -14,6 +14,7 @@ from cardan.drive.joints import Joint
 from cardan.drive.joints.common.inner import Stance
 from cardan.drive.joints.common.site import BACK, JointSize, Side, Site, joint_size
 from cardan.drive.models.geometry import Geometry
+from cardan.drive.models.wobble import Course
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 from cardan.maths.arrays import Array
@@ -56,6 +57,7 @@ class Build:
     drawn: Geometry  # where its file puts it: rigid parts keep the lengths they have there
     sizes: Sizes
     arms: Arms  # directions of its yokes at every frame, arrays (n, p, 3)
+    lying: Course | None = None  # where its shafts lie, if any wobbles
     tracks: list[Track] = field(default_factory=list)  # the first stands still
     solids: list[Solid] = field(default_factory=list)
     # starts, ends, free, stations: tracks of the two ends of each shaft, of its free end, and of the stations by their

@@ -24,6 +24,9 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``carried``          a driven shaft that keeps its direction, of a loose joint one in a bearing
 ``push``             no force goes with its couple
 ``shaft_behind``     the driven shaft turns about its axis and does not wobble
+``wobbles``          no: the driven shaft keeps its place while it turns
+``head``             the driven shaft starts at the joint centre
+``held``             it is held where its next joint is
 ``solid``            yokes with a cross, else a bell with balls
 ``span``             from its cross or its rating
 ``types``            no rows of the catalogue
@@ -290,6 +293,22 @@ class Joint:
     def shaft_behind(self, stance: Stance) -> tuple[Array, Array]:
         """Return a point of the driven shaft [m] and its direction, as it moves: arrays (..., 3)."""
         return stance.centre, stance.after
+
+    @property
+    def wobbles(self) -> bool:
+        """Whether its driven shaft wobbles while it turns, by the sizes given."""
+        return False
+
+    def head(self, stance: Stance) -> Array:
+        """Return where its driven shaft starts, array (..., 3) [m]."""
+        return stance.centre
+
+    def held(self, length: float | None) -> float | None:
+        """Return how far from the joint centre its driven shaft is held and swivels [m]; None where nobody says.
+
+        length [m]: of that shaft up to the next joint; None where it is not known or there is none.
+        """
+        return length
 
     def half_length(self, apart: float) -> float:
         """Return how far its yokes swing off its centre [m], ``apart`` where it has two crosses that stand so."""

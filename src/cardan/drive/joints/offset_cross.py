@@ -15,7 +15,7 @@ from cardan.maths.arrays import Array, ArrayLike, floats, namespace, unit_comple
 from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import ball, placed
 from cardan.texts import _, mark
-from cardan.units import quantity
+from cardan.units import plain, quantity
 
 from .common import site as drawn
 from .common.inner import DRIVEN, FRAME, InnerPair, Stance, carried, crossed
@@ -41,6 +41,12 @@ class OffsetCross(Joint):
         "length", doc="from the pin on the driving shaft to the sliding ball that holds the driven shaft", above=0.0
     )
 
+    pin_side: str = plain(
+        "near",
+        doc="where the driven pin lies: near, toward the ball, or far, away from it",
+        choices=("near", "far"),
+    )
+
     def own_problems(self) -> Iterator[Problem]:
         """Yield a support within the cross."""
         if self.reach <= self.offset:
@@ -57,7 +63,7 @@ class OffsetCross(Joint):
 
     def inner(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield both pins, a distance apart."""
-        return crossed(stance, offset=self.offset)
+        return crossed(stance, offset=self._aside)
 
     def carried(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the bearing of its driving shaft, and the sliding ball that holds the driven one."""
@@ -68,15 +74,34 @@ class OffsetCross(Joint):
 
     def shaft_behind(self, stance: Stance) -> tuple[Array, Array]:
         """Return the driven pin and the line from it to the sliding ball."""
-        pin = stance.centre + self.offset * frames.cross(stance.driving, stance.driven)
+        pin = self.head(stance)
         held = stance.centre + self.reach * stance.after
         return pin, frames.unit(held - pin)
+
+    @property
+    def _aside(self) -> float:
+        """Offset of the driven pin along the vector product of both pins, which leans toward the ball [m]."""
+        return self.offset if self.pin_side == "near" else -self.offset
+
+    @property
+    def wobbles(self) -> bool:
+        """Whether its pins stand apart."""
+        return self.offset > 0.0
+
+    def head(self, stance: Stance) -> Array:
+        """Return where its driven pin meets the driven shaft."""
+        found: Array = stance.centre + self._aside * frames.cross(stance.driving, stance.driven)
+        return found
+
+    def held(self, length: float | None) -> float:
+        """Return where its sliding ball stands."""
+        return self.reach
 
     def solid(self, site: Site) -> None:
         """Add its cross, and the sliding ball that holds its driven shaft."""
         text = _("cross of {joint}: its pins stand {offset} apart")
         apart = say(text, joint=site.name, offset=drawn.length_text(self.offset))
-        drawn.yokes_and_cross(site, offset=self.offset, text=apart)
+        drawn.yokes_and_cross(site, offset=self._aside, text=apart)
         there = site.stance.centre + self.reach * site.stance.after
         frame = floor_frame(site.stance.after, np.asarray(site.gravity))
         radius = site.driven.thickest

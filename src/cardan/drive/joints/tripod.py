@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -79,13 +79,28 @@ class Tripod(Joint):
         """Yield the direction of each arm and the middle of its roller, arrays (..., 3)."""
         track = self.track_radius if track is None else track
         b, arm, theta = stance.after, stance.driven, stance.theta
-        x, y = (np.asarray(part) for part in spider_centre(theta, stance.joint_angle, track or 0.0))
-        centre = stance.centre + x[..., None] * frames.cross(stance.normal, b) + y[..., None] * stance.normal
+        centre = replace(self, track_radius=track).head(stance)
         for j in range(3):
             angle = j * 2.0 * np.pi / 3.0
             way = frames.rotate(arm, np.broadcast_to(b, arm.shape), np.full(arm.shape[:-1], angle))
             far = np.asarray(roller_reach(theta + angle, stance.joint_angle, track or 0.0))
             yield way, centre + far[..., None] * way
+
+    @property
+    def wobbles(self) -> bool:
+        """Whether it is known how far its spider orbits."""
+        return self.track_radius is not None
+
+    def head(self, stance: Stance) -> Array:
+        """Return the centre of its spider, which moves in its own plane."""
+        x, y = spider_centre(stance.theta, stance.joint_angle, self.track_radius or 0.0)
+        up = frames.cross(stance.normal, stance.after)
+        found: Array = stance.centre + x[..., None] * up + y[..., None] * stance.normal
+        return found
+
+    def held(self, length: float | None) -> float | None:
+        """Return where its shaft pivots."""
+        return length if self.pivot is None else self.pivot
 
     @property
     def own_span(self) -> float | None:
@@ -98,8 +113,7 @@ class Tripod(Joint):
         track = self.track_radius or 0.8 * site.size.radius
         joint_angle, theta, b = stance.joint_angle, stance.theta, stance.after
         site.add_to(one, "housing", site.said(_("housing of {joint}")), _tulip(track, one, joint_angle))
-        x, y = (np.asarray(part) for part in spider_centre(theta, joint_angle, track))
-        centre = stance.centre + x[:, None] * frames.cross(stance.normal, b) + y[:, None] * stance.normal
+        centre = replace(self, track_radius=track).head(stance)
         arm = stance.driven
         own = site.along(centre, b, arm)
         text = site.said(_("spider of {joint}"))

@@ -16,6 +16,7 @@ from cardan.maths.kernel import mobius
 from cardan.texts import _
 
 from .geometry import geometry, given_angles
+from .wobble import wobbling
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -70,6 +71,9 @@ def chain(drive: Drive) -> Chain:
 
 def turning_chain(drive: Drive) -> Chain:
     """Return the Hooke joints that turn like the joints of a drive, those of other kinds among them."""
+    felt = wobbling(drive)
+    text = _("its driven shaft wobbles, which the next joint feels: no chain of Hooke joints turns as this drive does")
+    check(Problem(f"joints[{i}].kind", text, "unknown_kind") for i in felt)
     return turning(given_chain(drive), drive.joints)
 
 
@@ -156,6 +160,14 @@ def mixed(joints: Sequence[Joint]) -> bool:
 def unmapped(joints: Sequence[Joint]) -> tuple[int, ...]:
     """Return the indices of joints whose motion is no Möbius map, so that no Hooke joint turns alike."""
     return tuple(i for i, joint in enumerate(joints) if not joint.has_map)
+
+
+def unlike_hooke(drive: Drive) -> bool:
+    """Tell whether no chain of Hooke joints turns as a drive does.
+
+    A joint has a law of its own, or a shaft wobbles so that the next joint feels it.
+    """
+    return bool(unmapped(drive.joints) or wobbling(drive))
 
 
 def left_over(joint: Joint, joint_angle: float) -> float:

@@ -17,6 +17,7 @@ from cardan.drive.fields.keys import spelled
 from cardan.drive.yokes import unweighed, yokes_estimated
 from cardan.formulas.critical_speed import CATALOGUE, PRACTICE
 from cardan.formulas.damping import LOSS
+from cardan.questions.mobility.drive_mechanism import unheld
 from cardan.texts import _, mark, plural
 
 from .bending import CriticalSpeedMap, CriticalSpeeds, Part, Running, over_movement
@@ -262,6 +263,21 @@ def _everything(result: CriticalSpeeds) -> Table:
     )
 
 
+def _unheld(drive: Drive) -> Iterator[Remark]:
+    """Yield the joints that do not hold a shaft across, although the calculation takes them to."""
+    if found := unheld(drive):
+        text = plural(
+            "Warning: joint {which} does not hold its shafts in line ({kinds}), as is assumed here: each shaft needs "
+            "bearings of its own.",
+            "Warning: joints {which} do not hold their shafts in line ({kinds}), as is assumed here: each shaft needs "
+            "bearings of its own.",
+            len(found),
+        )
+        kinds = dict.fromkeys(drive.joints[i].in_words() for i in found)
+        which = Joined([str(i + 1) for i in found], last=_(" and "))
+        yield Remark(text=say(text, which=which, kinds=", ".join(kinds)), tone="warning", alarm=True)
+
+
 def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
     yield from _judged(drive, result)
     yield from _held(drive, result)
@@ -274,6 +290,7 @@ def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
         )
         which = Joined([str(number) for number in result.held], last=_(" and "))
         yield Remark(text=say(text, which=which))
+    yield from _unheld(drive)
     for k, one in enumerate(drive.supports, 1):
         if one.side_stiffness is not None:
             text = _(

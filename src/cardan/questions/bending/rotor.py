@@ -15,6 +15,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.models.geometry import geometry
+from cardan.drive.models.kinematics_model import given_chain, turning
 from cardan.drive.shaft import Shaft
 from cardan.drive.yokes import with_yokes
 from cardan.errors import InputError, Problem, check, refuse
@@ -341,7 +342,9 @@ def rotor_response(
     )
     behind = None
     if one.shaft > 1:
-        before = float(abs(equivalent_joint(drive).vertex[one.shaft - 1]))
+        before = float(
+            abs(equivalent_joint(turning(given_chain(drive), drive.joints, near=True)).vertex[one.shaft - 1])
+        )
         behind = unbalance_behind_joint(2.0 * math.atan(math.sqrt(before)), reach=5)
     return RotorResponse(rotor=one, steady=steady, used=used, behind=behind)
 

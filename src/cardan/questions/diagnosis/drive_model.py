@@ -12,6 +12,7 @@ from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.models.geometry import geometry
+from cardan.drive.models.kinematics_model import given_chain, turning
 from cardan.drive.yokes import with_yokes
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
@@ -107,7 +108,7 @@ def plant(drive: Drive) -> DriveModel:
         length=np.asarray(length),
         inertia=inertia or float(np.sum(masses)) * 1e-3,
         joint_angle=np.asarray(place.joint_angle, dtype=float),
-        uneven=float(np.abs(equivalent_joint(drive).vertex[-1])),
+        uneven=float(np.abs(equivalent_joint(turning(given_chain(drive), drive.joints, near=True)).vertex[-1])),
         allowed=_allowed(drive, masses, high),
         critical=_critical(drive, assumed),
         damping=DAMPING,

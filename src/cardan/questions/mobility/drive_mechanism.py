@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,10 +12,12 @@ from cardan.drive.fields.parts import known_lengths
 from cardan.drive.joints.common.inner import DRIVEN, DRIVING, Stance
 from cardan.drive.models.geometry import Geometry, geometry
 from cardan.drive.models.machine_held import machine_held
+from cardan.drive.models.wobble import Course, course
 from cardan.drive.support import Support
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
-from cardan.maths.kernel import frames
+from cardan.maths.kernel import frames, screws
+from cardan.mechanism.constraints import constraints
 from cardan.mechanism.mechanism import Mechanism, Pair, Point
 from cardan.texts import _
 
@@ -31,6 +33,9 @@ SUPPORT: dict[tuple[bool, bool, bool], str] = {
 
 FRAME = "frame"
 
+ACROSS = 1e-7
+"""Share of a motion below which it is rounding."""
+
 
 def mechanism_of(drive: Drive, angle: float = 0.0) -> Mechanism:
     """Return a drive as a mechanism.
@@ -44,25 +49,53 @@ def mechanism_of(drive: Drive, angle: float = 0.0) -> Mechanism:
     pairs that turn about two axes of the bisecting plane, unless they slide as well or hold nothing but the torque.
     """
     check(_problems(drive))
-    drive = machine_held(drive)
-    place = geometry(drive)
-    driving, driven = marks(drive, place, angle)
-    joints = list(_joints(drive, place, driving, driven))
+    balls, drive = ball_held(drive), machine_held(drive)
+    place, known = geometry(drive), course(drive, np.asarray([angle]), still=True)
+    starts = (place.points[1], *known.start[:, 0])
+    lying = [_Line(start, axis) for start, axis in zip(starts, known.axis[:, 0], strict=True)]
+    joints = list(_joints(drive, place, known))
     for number, shaft in enumerate(drive.shafts, 1):
         if shaft.spline is not None:
-            at = _spline_place(drive, place, number)
-            point = _row(_start(place, number) + at * place.axis[number - 1])
+            along, at = lying[number - 1].axis, _spline_place(drive, place, number)
             name = _("spline of shaft {number}").format(number=number)
-            joints.append(_pair(name, "P", (_front(number), _rear(number)), point, place.axis[number - 1]))
+            joints.append(
+                _pair(name, "P", (_front(number), _rear(number)), _at(drive, place, lying, number, at), along)
+            )
+    for i, reach in balls.items():
+        along, slides = lying[i + 1].axis, drive.joints[i].slides
+        links = _(FRAME), _end_link(drive, i + 2, last=False)
+        name = _("ball behind joint {number}").format(number=i + 1)
+        point = _row(place.points[i + 1] + reach * place.axis[i + 1])
+        joints.append(_pair(name, "S" if slides else "SG", links if slides else links[::-1], point, along))
     for k, support in enumerate(drive.supports):
-        joints += _support(drive, place, support, k)
+        if support.shaft - 2 not in balls:
+            joints += _support(drive, place, lying, support, k)
     return Mechanism(
         name=drive.name,
         frame=_(FRAME),
-        input_link=_front(1) if _splined(drive, 1) else _whole(1),
+        input_link=_input_link(drive),
         output_link=_end_link(drive, len(drive.joints) + 1, last=True),
         joints=tuple(joints),
     )
+
+
+def ball_held(drive: Drive) -> dict[int, float]:
+    """Return joints, from 0, whose driven shaft stands in a place of their own, and how far behind them [m].
+
+    A shaft with supports is held by these.
+    """
+    stood = {one.shaft for one in drive.supports}
+    found = {i: joint.held(None) for i, joint in enumerate(drive.joints) if i + 2 not in stood}
+    return {i: reach for i, reach in found.items() if reach is not None}
+
+
+def _input_link(drive: Drive) -> str:
+    """Return the part of the first shaft that is driven: where a support holds it."""
+    if not _splined(drive, 1):
+        return _whole(1)
+    cut = _spline_place(drive, geometry(drive), 1)
+    front = any(one.position < cut for one in drive.supports if one.shaft == 1)
+    return _front(1) if front else _rear(1)
 
 
 def support_name(drive: Drive, index: int) -> str:
@@ -72,25 +105,16 @@ def support_name(drive: Drive, index: int) -> str:
     return f"{text} ({name})" if name else text
 
 
-def marks(drive: Drive, place: Geometry, angle: float) -> tuple[Array, Array]:
-    """Return the directions of the driving and the driven mark of every joint, arrays (n, 3).
+@dataclass(frozen=True, eq=False, slots=True)
+class _Line:
+    """Where a shaft lies."""
 
-    u_1 = rot(a_1, φ_1+ψ_1)(N_1 × a_1); a cross holds v = unit(a_{i+1} × u), any other joint carries its mark around the
-    normal of its plane by the joint angle; u_{i+1} = rot(a_{i+1}, -γ) v.
-    """
-    axis, normal = place.axis, place.normal
-    turn = np.asarray(angle + drive.input.start_phase)
-    mark = frames.rotate(frames.cross(normal[0], axis[0]), axis[0], turn)
-    driving, driven = [], []
-    for i, joint in enumerate(drive.joints):
-        driving.append(mark)
-        if joint.crossed:
-            arm = frames.unit(frames.cross(axis[i + 1], mark))
-        else:
-            arm = frames.rotate(mark, normal[i], np.asarray(place.joint_angle[i]))
-        driven.append(arm)
-        mark = frames.rotate(arm, axis[i + 1], np.asarray(-drive.shafts[i + 1].yoke_angle))
-    return np.asarray(driving), np.asarray(driven)
+    start: Array  # (3,) [m]
+    axis: Array  # (3,)
+
+    def nearest(self, point: Array) -> Point:
+        """Return the place on it that is nearest to a point (3,) [m]."""
+        return _row(self.start + ((point - self.start) @ self.axis) * self.axis)
 
 
 def _problems(drive: Drive) -> Iterator[Problem]:
@@ -127,9 +151,10 @@ def _end_link(drive: Drive, number: int, *, last: bool) -> str:
     return _rear(number) if last else _front(number)
 
 
-def _start(place: Geometry, number: int) -> Array:
-    """Return the point from which positions on a shaft count: the joint before it, on shaft 1 joint 1."""
-    return place.points[1] if number == 1 else place.points[number - 1]
+def _at(drive: Drive, place: Geometry, lying: Sequence[_Line], number: int, position: float) -> Point:
+    """Return the place on a shaft at a position from the joint before it, on shaft 1 from joint 1."""
+    start = place.points[1] if number == 1 else place.points[number - 1]
+    return lying[number - 1].nearest(start + position * place.axis[number - 1])
 
 
 def _spline_place(drive: Drive, place: Geometry, number: int) -> float:
@@ -156,31 +181,54 @@ def _pair(name: str, kind: str, links: tuple[str, str], point: Point, axis: Arra
     )
 
 
-def _joints(drive: Drive, place: Geometry, driving: Array, driven: Array) -> Iterator[Pair]:
+def _joints(drive: Drive, place: Geometry, known: Course) -> Iterator[Pair]:
     """Yield the pairs of all joints in the order of the power flow."""
-    for i, joint in enumerate(drive.joints):
+    for i in range(len(drive.joints)):
         ends = {DRIVING: _end_link(drive, i + 1, last=True), DRIVEN: _end_link(drive, i + 2, last=False)}
-        stance = Stance(
-            centre=place.points[i + 1],
-            before=place.axis[i],
-            after=place.axis[i + 1],
-            normal=place.normal[i],
-            joint_angle=float(place.joint_angle[i]),
-            driving=driving[i],
-            driven=driven[i],
-            length=float(place.length[i + 1]),
-        )
-        for one in joint.inner(stance):
-            first, second = (ends.get(link) or _(link).format(number=i + 1) for link in one.links)
-            name = _(one.name).format(number=i + 1)
-            yield _pair(name, one.type, (first, second), _row(one.point), one.axis, one.second)
+        yield from _inside(drive, place, known, i, ends)
 
 
-def _support(drive: Drive, place: Geometry, support: Support, index: int) -> Iterator[Pair]:
+def _inside(drive: Drive, place: Geometry, known: Course, i: int, ends: Mapping[str, str]) -> Iterator[Pair]:
+    """Yield the pairs of joint i, from 0; ends: its shafts -> names of links."""
+    stance = Stance(
+        centre=known.centre[i, 0],
+        before=known.axis[i, 0],
+        after=known.axis[i + 1, 0],
+        normal=place.normal[i],
+        joint_angle=float(known.joint_angle[i, 0]),
+        driving=known.driving[i, 0],
+        driven=known.driven[i, 0],
+        length=float(place.length[i + 1]),
+    )
+    for one in drive.joints[i].inner(stance):
+        first, second = (ends.get(link) or _(link).format(number=i + 1) for link in one.links)
+        name = _(one.name).format(number=i + 1)
+        yield _pair(name, one.type, (first, second), _row(one.point), one.axis, one.second)
+
+
+def unheld(drive: Drive) -> tuple[int, ...]:
+    """Return the joints, from 0, that let their driven shaft move across their driving one without turning it.
+
+    Such a shaft stands where its own bearings hold it, not where the joint is.
+    """
+    place, known = geometry(drive), course(drive, np.zeros(1), still=True)
+    found = []
+    for i in range(len(drive.joints)):
+        pairs = tuple(_inside(drive, place, known, i, {DRIVING: DRIVING, DRIVEN: DRIVEN}))
+        inner = Mechanism(frame=DRIVING, output_link=DRIVEN, joints=pairs)
+        motions = screws.null_spaces(constraints(inner).matrix())[2]
+        twists = motions.reshape(len(motions), -1, 6)[:, inner.links.index(DRIVEN)]
+        shifts = screws.null_spaces(twists[:, :3].T)[2] @ twists[:, 3:]
+        across = shifts - (shifts @ known.axis[i, 0])[:, None] * known.axis[i, 0]
+        if np.any(frames.norm(across) > ACROSS):
+            found.append(i)
+    return tuple(found)
+
+
+def _support(drive: Drive, place: Geometry, lying: Sequence[_Line], support: Support, index: int) -> Iterator[Pair]:
     """Yield the pair of a support; none where it holds nothing."""
     number = support.shaft
-    axis = place.axis[number - 1]
-    point = _row(_start(place, number) + support.position * axis)
+    axis, point = lying[number - 1].axis, _at(drive, place, lying, number, support.position)
     link = _whole(number)
     if _splined(drive, number):
         link = _front(number) if support.position < _spline_place(drive, place, number) else _rear(number)

@@ -13,7 +13,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking
 from cardan.drive.conditions import held_speeds
 from cardan.drive.drive import Drive
-from cardan.drive.models.kinematics_model import given_chain, mixed, unmapped
+from cardan.drive.models.kinematics_model import given_chain, mixed, unlike_hooke
 from cardan.figures.figure import Figure
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role
@@ -25,7 +25,7 @@ from cardan.units import deg
 from .columns import COLUMNS
 from .equivalence import SYNCHRONOUS, EquivalentJoint, each_uniform, equivalent_joint, is_rounding
 from .figures.motion import motion_figure, orders_figure, speed_fluctuation_figure
-from .kinds import beside_turning, steep_joints
+from .kinds import beside_turning, carried_on, steep_joints
 from .motion import Motion, motion
 from .standing import standing_chain
 from .turning import Evenness, Swing, Turning
@@ -68,7 +68,7 @@ def over_movement(drive: Drive) -> Callable[[Array], Array] | None:
     Returns a function of instants (t,) [s] to values (k, t), nan where it does not turn: speed fluctuation, that all
     others of the output grow with, and the joint angle nearest its limit.
     """
-    if unmapped(drive.joints):
+    if unlike_hooke(drive):
         return None
     steepest = np.asarray([one.steepest for one in drive.joints])
 
@@ -106,7 +106,7 @@ def sentence(drive: Drive, each: Evenness) -> Say:
         text = _("{count}; synchronous: the joints cancel each other, and the output turns exactly uniformly.")
     elif even:
         text = _("{count}; synchronous but for the rounding of the figures that describe the drive, δ = {share}.")
-    elif unmapped(drive.joints):
+    elif unlike_hooke(drive):
         text = _("{count}; speed fluctuation δ = {share}, as of one cross joint at {angle}.")
     elif len(drive.joints) == 1 and drive.joints[0].single_cross:
         text = _("one joint at a joint angle of {angle}, speed fluctuation δ = {share}.")
@@ -122,7 +122,7 @@ def sentence(drive: Drive, each: Evenness) -> Say:
 
 def _figures(drive: Drive, result: Turning) -> tuple[Figure, ...]:
     figures = [motion_figure(result.motion)]
-    if not unmapped(drive.joints) and not is_rounding(drive, result.fluctuation):
+    if not unlike_hooke(drive) and not is_rounding(drive, result.fluctuation):
         whole = equivalent_joint(drive)
         figures += [speed_fluctuation_figure(whole), orders_figure(whole)]
     return tuple(figures)
@@ -245,7 +245,7 @@ def _orders_table(drive: Drive, each: Evenness) -> Table:
         name="orders",
         title=_("Largest orders of the output's angle error"),
         records=True,
-        depth="full" if unmapped(drive.joints) else "data",
+        depth="full" if unlike_hooke(drive) else "data",
         columns=(
             Column(key="order", heading=_("order, times a turn"), values=[order for order, _wave in found]),
             Column(
@@ -320,7 +320,7 @@ def _largest(result: Turning) -> Array:
 
 def _remarks(drive: Drive, result: Turning) -> Iterator[Remark]:
     each, speed = result.each, result.motion.speed
-    even, alike = result.fluctuation < SYNCHRONOUS, not unmapped(drive.joints)
+    even, alike = result.fluctuation < SYNCHRONOUS, not unlike_hooke(drive)
     if not even:
         text = _("Output angle error ±{error}.")
         if speed is not None:
@@ -350,6 +350,7 @@ def _remarks(drive: Drive, result: Turning) -> Iterator[Remark]:
         angle = Quantity(float(equivalent_joint(drive).phase), "angle", decimals=2)
         yield Remark(text=say(text, angle=angle), depth="full")
     yield from (Remark(text=text) for text in beside_turning(drive))
+    yield from carried_on(drive)
     yield from steep_joints(drive)
     if not even and speed is None:
         yield Remark(text=_("--speed-rpm gives angular accelerations in rad/s²."), tone="next")

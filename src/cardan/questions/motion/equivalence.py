@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
-from cardan.drive.models.kinematics_model import Chain, turning_chain, unmapped
+from cardan.drive.models.kinematics_model import Chain, given_chain, turning, unlike_hooke
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import mobius
 
@@ -213,7 +213,7 @@ def closure(drive: Drive) -> Closure:
     Synchronous, exactly, if and only if L_max ≤ Σ of the others, cos α_max ≥ Π cos α of the others. Book (86) is its
     limit for small angles.
     """
-    length = -np.log(np.cos(np.asarray(turning_chain(drive).joint_angle)))
+    length = -np.log(np.cos(np.asarray(turning(given_chain(drive), drive.joints).joint_angle)))
     longest = int(np.argmax(length))
     others = float(np.sum(length) - length[longest])
     # cos x = e^-S, as 2 asin √((1 - e^-S)/2): accurate for small bends.
@@ -238,7 +238,7 @@ def is_rounding(drive: Drive, share: float, length: Array | None = None) -> bool
     >>> is_rounding(Drive.from_angles([0.2, 0.2 + 1e-6]), 1e-7), is_rounding(Drive.from_angles([1e-3]), 1e-7)
     (True, False)
     """
-    if unmapped(drive.joints):
+    if unlike_hooke(drive):
         return share < SYNCHRONOUS
     limit = drive.limits.speed_fluctuation
     sides = closure(drive).length if length is None else length
@@ -254,4 +254,4 @@ def each_uniform(drive: Drive) -> bool:
     >>> each_uniform(Drive.from_angles([0.0])), each_uniform(Drive.from_angles([0.2, 0.2]))
     (True, False)
     """
-    return not unmapped(drive.joints) and float(np.sum(closure(drive).length)) < SYNCHRONOUS
+    return not unlike_hooke(drive) and float(np.sum(closure(drive).length)) < SYNCHRONOUS

@@ -10,7 +10,10 @@ from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.joints.joint import Inside
 from cardan.drive.models.kinematics_model import given_chain
+from cardan.drive.models.wobble import wobbles
 from cardan.texts import _
+
+TINY = 1e-9  # way of a joint centre [m] that is rounding
 
 
 def kind_name(joint: Joint) -> str:
@@ -65,6 +68,33 @@ def beside_turning(drive: Drive) -> Iterator[Say]:
     for number, one in inside(drive):
         text = _("Joint {number}: {title}, {value}.")
         yield say(text, number=number, title=one.meaning, value=quantity_of(one, 3))
+
+
+def carried_on(drive: Drive) -> Iterator[Remark]:
+    """Yield what shafts that wobble do to the joints behind them."""
+    last = len(drive.joints) - 1
+    for one in wobbles(drive):
+        text = _("Shaft {shaft} wobbles behind joint {joint}, by ±{angle}.")
+        if one.joint < last:
+            text = _(
+                "Shaft {shaft} wobbles behind joint {joint}, by ±{angle}; joint {next} feels it, and it is counted."
+            )
+        yield Remark(
+            text=say(
+                text,
+                shaft=one.joint + 2,
+                joint=one.joint + 1,
+                next=one.joint + 2,
+                angle=Quantity(one.nutation, "angle", 3),
+            )
+        )
+        if one.way > TINY:
+            text = _(
+                "Joint {joint} is carried around, ±{way}: the bearings of shaft {shaft} must let it follow; a ball or "
+                "bearing at the joint itself would keep it in place."
+            )
+            said = say(text, joint=one.joint + 2, way=Quantity(one.way, "length", 3), shaft=one.joint + 3)
+            yield Remark(text=said, tone="warning")
 
 
 # What else moves inside a joint while it turns at a bend: wobble, orbits, strokes, play, planes that are missed.

@@ -10,8 +10,10 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
 from cardan.drive.models.kinematics_model import Chain, given_chain, unmapped
+from cardan.drive.models.wobble import SAMPLES, course, wobbling
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real, unit_complex
+from cardan.maths.curves.extremes import sampled_series, series_at
 from cardan.maths.kernel import mobius
 from cardan.texts import _
 
@@ -187,6 +189,8 @@ def motion(
         "speed": speed if speed is not None or duty is None else duty.speed,
         "acceleration": acceleration if acceleration is not None else duty.acceleration if duty else 0.0,
     }
+    if isinstance(drive, Drive) and wobbling(drive):
+        return Motion(**wobbled(drive, positions(angle, np)), **given)
     if isinstance(drive, Drive) and unmapped(drive.joints):
         return Motion(**followed(drive, positions(angle, np)), **given)
     chain = kinematics(drive)
@@ -284,9 +288,7 @@ def followed(drive: Drive, angle: Array) -> dict[str, Any]:
             angle_error, ratio, slope = joint.deviation(theta, joint_angle)
             start = joint.deviation(psi, joint_angle)[0]
         stuck = not all(bool(np.all(np.isfinite(part))) for part in (angle_error, ratio, slope, start))
-        text = _("a joint of kind {kind} with these sizes does not turn at its joint angle of {joint_angle:.6g}°")
-        said = text.format(kind=joint.kind, joint_angle=np.degrees(joint_angle))
-        check([Problem(f"joints[{i}].joint_angle", said, "out_of_range")] if stuck else [])
+        check([_not_turning(drive, i, float(joint_angle))] if stuck else [])
         slopes.append(slope * ratios[-1] ** 2 + ratio * slopes[-1])
         ratios.append(ratio * ratios[-1])
         turned, begun = theta + angle_error, psi + start
@@ -304,3 +306,38 @@ def followed(drive: Drive, angle: Array) -> dict[str, Any]:
         "followed": True,
         "crossed": tuple(joint.single_cross for joint in drive.joints),
     }
+
+
+def wobbled(drive: Drive, angle: Array) -> dict[str, Any]:
+    """Return how every shaft turns where shafts wobble: fields of `Motion` at input angles (p,) [rad].
+
+    Seen at `SAMPLES` places in a turn; derivatives by the harmonics of what each shaft runs ahead.
+    """
+    whole = given_chain(drive)
+    phi = np.asarray(angle, dtype=float)
+    turn = np.arange(SAMPLES) * (2.0 * np.pi / SAMPLES)
+    found = course(drive, turn)
+    stuck = np.flatnonzero(~np.all(np.isfinite(found.driven), axis=(1, 2)))
+    check([_not_turning(drive, int(stuck[0]), float(whole.joint_angle[stuck[0]]))] if stuck.size else [])
+    each = np.unwrap(np.concatenate((found.turned, found.theta)) - turn, axis=-1)
+    wave = sampled_series(each)
+    value, rate, second = (part.T for part in series_at(wave, phi))
+    start = series_at(wave, np.zeros(1))[0][0]
+    count = len(drive.shafts)
+    return {
+        "angle": phi,
+        "shaft_angle": phi + (value - start[:, None])[:count],
+        "shaft_ratio": 1.0 + rate[:count],
+        "shaft_slope": second[:count],
+        "yoke_rotation": phi + value[count:],
+        "joint_angle": np.asarray(whole.joint_angle),
+        "followed": True,
+        "crossed": tuple(joint.single_cross for joint in drive.joints),
+    }
+
+
+def _not_turning(drive: Drive, i: int, joint_angle: float) -> Problem:
+    """Return the problem that a joint, counted from 0, does not turn at its joint angle [rad]."""
+    text = _("a joint of kind {kind} with these sizes does not turn at its joint angle of {joint_angle:.6g}°")
+    said = text.format(kind=drive.joints[i].kind, joint_angle=np.degrees(joint_angle))
+    return Problem(f"joints[{i}].joint_angle", said, "out_of_range")

@@ -8,7 +8,7 @@ from typing import TypeAlias
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.drive.models.kinematics_model import unmapped
+from cardan.drive.models.kinematics_model import unlike_hooke
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import peak
 
@@ -54,6 +54,9 @@ def turning(
 
 # How uneven is every shaft of a drive whose joints turn by laws of their own? Seen over one turn.
 
+ROUNDED = 1e-9
+"""Orders below this share of the largest are rounding."""
+
 PLACES = 720
 """Places in a turn at which the motion is looked at; between them the largest values are found by a quartic."""
 
@@ -86,7 +89,7 @@ class Swing:
         """Return the largest orders of the output's angle error with their amplitudes, lowest first [1/turn, rad]."""
         row = self.amplitude[-1]
         largest = sorted(np.argsort(-row)[:count].tolist())
-        return [(k + 1, float(row[k])) for k in largest if row[k] > 0.0]
+        return [(k + 1, float(row[k])) for k in largest if row[k] > ROUNDED * np.max(row)]
 
 
 Evenness: TypeAlias = EquivalentJoint | Swing
@@ -139,4 +142,4 @@ def each_shaft(drive: Drive) -> Evenness:
     Returns EquivalentJoint or Swing: joint_angle, speed_fluctuation, ratio_min, ratio_max, max_angle_error,
     max_acceleration (n), for shafts 2 … n+1.
     """
-    return swing(drive) if unmapped(drive.joints) else after_each_joint(drive)
+    return swing(drive) if unlike_hooke(drive) else after_each_joint(drive)

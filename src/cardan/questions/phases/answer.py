@@ -15,6 +15,7 @@ from cardan.answers.question import Lacking
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.models.kinematics_model import given_chain, mixed, unmapped
+from cardan.drive.models.wobble import wobbling
 from cardan.errors import InputError
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role
@@ -121,6 +122,8 @@ def _sentence(drive: Drive, found: Phasing) -> Say:
             "{count}; speed fluctuation δ = {now} as specified, with other yoke angles uniform but for the errors of "
             "its joints as made."
         )
+    elif wobbling(drive) and now < SYNCHRONOUS:
+        text = _("{count}; the yokes are phased right: only what shafts do that wobble is left.")
     elif each_uniform(drive):
         text = _("{count}; every joint turns uniformly by itself, the yokes may stand anyhow.")
         elsewhere = drive.movements or drive.poses
@@ -309,6 +312,12 @@ def _remarks(drive: Drive, found: Phasing, fixed: Mapping[int, float], nearest: 
     if unmapped(drive.joints):
         text = _("What joints leave by laws of their own, below {most}, is not in these figures.")
         yield Remark(text=say(text, most=Quantity(1e-6, "angle", 1, unit="rad")))
+    if felt := wobbling(drive):
+        text = _(
+            "Shafts wobble behind joints {which}: what later joints make of that is not in these figures, only in:"
+        )
+        which = Joined([str(i + 1) for i in felt], last=_(" and "))
+        yield Remark(text=say(text, which=which), tone="warning", command=("cardan", "motion", FILE))
     if found.spline_refusal:
         yield Remark(text=_("Warning: splines: {reason}.").format(reason=found.spline_refusal), tone="warning")
     yield from steep_joints(drive)

@@ -20,13 +20,13 @@ from cardan.texts import mark
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Stance:
-    """A joint in space, at one place of a turn or at many (...)."""
+    """A joint in space, at one place of a turn or at many (...); where shafts wobble, all but its length are many."""
 
     centre: Array  # (3,) [m]: where its shafts meet
     before: Array  # before, after (3,): directions of the driving and the driven shaft, both along the power flow
     after: Array  # (3,)
     normal: Array  # (3,): normal of the plane of both
-    joint_angle: float  # [rad]: angle between them
+    joint_angle: float | Array  # [rad]: angle between them
     # driving, driven (..., 3): directions of its marks: the arms of its cross in the driving and the driven yoke, where
     # it has one
     driving: Array
@@ -37,7 +37,7 @@ class Stance:
     def theta(self) -> Array:
         """Angle of the driving mark from the plane of the shafts, array (...) [rad]."""
         across = frames.cross(self.normal, self.before)
-        found: Array = np.arctan2(self.driving @ self.normal, self.driving @ across)
+        found: Array = np.arctan2(frames.dot(self.driving, self.normal), frames.dot(self.driving, across))
         return found
 
     @property

@@ -17,7 +17,7 @@ from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
-from cardan.questions.motion.equivalence import equivalent_joint
+from cardan.questions.motion.turning import each_shaft
 from cardan.questions.torsion.model.answer import assumptions, left_out, ranges
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.excitation import engine_torque
@@ -346,7 +346,7 @@ def _from_yokes(drive: Drive, found: TorsionResponse) -> bool:
     swing = np.nan_to_num(found.swing)
     at = np.unravel_index(int(foremost(swing.ravel())), swing.shape)
     second = found.steady.torque.amplitude[at][np.flatnonzero(found.steady.order == 2.0)[0]]
-    return bool(second > 0.5 * swing[at]) and float(equivalent_joint(drive).speed_fluctuation) > UNEVEN
+    return bool(second > 0.5 * swing[at]) and float(each_shaft(drive).speed_fluctuation[-1]) > UNEVEN
 
 
 def _key(found: TorsionResponse) -> KeyFigure:
