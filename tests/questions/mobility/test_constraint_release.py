@@ -9,8 +9,10 @@ from cardan import Drive
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 from cardan.io import example_mechanism, mechanism_names
-from cardan.questions.mobility.constraint_release import advice, repaired, repairs
+from cardan.mechanism.mechanism import Mechanism, Pair
+from cardan.questions.mobility.constraint_release import advice, repaired, repairs, working
 from cardan.questions.mobility.drive_mechanism import mechanism_of
+from cardan.questions.mobility.finite_mobility import finite_mobility
 from cardan.questions.mobility.mobility import mobility
 from tests.builders.mechanisms import anyhow, crank_slider, hooke
 
@@ -87,3 +89,34 @@ def test_the_name_of_a_link_is_told_once():
 
 def test_nothing_to_repair_is_nothing():
     assert repairs(hooke(kinds="RRRSG")) == ()
+
+
+@pytest.mark.slow
+def test_only_changes_with_which_it_turns_all_round_are_told():
+    mechanism = example_mechanism("maize-drive-offset")
+    tried, found = repairs(mechanism, most=12), working(mechanism)
+    assert found
+    assert set(found) < set(tried)
+    for one in tried:
+        moved = finite_mobility(repaired(mechanism, one))
+        assert moved.closes == (one in found)
+
+
+def parallelogram(reach):
+    """Return a parallelogram with a third crank, whose bearing stands ``reach`` from the first."""
+    ends = {"1": (0.0, 0.0), "3": (0.3, 0.0), "4": (reach, 0.0)}
+    hinges = [
+        Pair(
+            id=f"{link}{end}", type="R", links=(link, end), point=(x + rise, y + 2.0 * rise, 0.0), axis=(0.0, 0.0, 1.0)
+        )
+        for link, (x, y) in ends.items()
+        for end, rise in (("0", 0.0), ("2", 0.05))
+    ]
+    wrong = [replace(one, point=(0.13, 0.0, 0.0)) if one.id == "40" else one for one in hinges]
+    return Mechanism(frame="0", input_link="1", joints=tuple(wrong))
+
+
+def test_no_change_of_a_bearing_frees_a_parallelogram_with_a_wrong_link():
+    mechanism = parallelogram(0.12)
+    assert repairs(mechanism)
+    assert working(mechanism) == ()

@@ -20,8 +20,8 @@ from cardan.mechanism.counting import Partition, joins, partition
 from cardan.mechanism.mechanism import PAIRS, Mechanism
 from cardan.texts import _, mark, plural
 
-from .constraint_release import Repair, advice, repairs, strain
-from .drive_mechanism import SUPPORT, support_name
+from .constraint_release import Repair, advice, strain, working
+from .drive_mechanism import SUPPORT, ball_held, mechanism_of, support_name
 from .figure import closure_figures, mobility_figures, turn_figures
 from .finite_mobility import FiniteMobility, MobilityTurn, finite_mobility, mobility_over_turn
 from .mobility import JointHold, Mobility, mobility
@@ -68,8 +68,8 @@ def otherwise(drive: Drive) -> str:
 
 def turned(thing: Drive | Mechanism, progress: Callable[[float], object] | None = None) -> Turned:
     """Return what a turn of the input shows."""
-    if not isinstance(thing, Mechanism):
-        return Turned(positions=mobility_over_turn(thing, progress=progress))
+    if isinstance(thing, Drive):
+        thing = mechanism_of(thing)
     if not thing.input_link:
         raise refuse("--turn", _("the file names no input_link that could be turned"))
 
@@ -90,7 +90,7 @@ def answer(thing: Drive | Mechanism, result: Mobility, around: Turned | None = N
     mechanism = result.mechanism
     given = mechanism.input_link
     counted = partition(joins(mechanism), frame=mechanism.frame, input_link=given) if given else None
-    remedies = repairs(mechanism)
+    remedies = working(mechanism, most=SHOWN)
     return Answer(
         name="mobility",
         title=_("Mobility"),
@@ -187,7 +187,8 @@ def _remarks(
     thing: Drive | Mechanism, result: Mobility, remedies: Sequence[Repair], around: Turned | None
 ) -> Iterator[Remark]:
     if isinstance(thing, Drive):
-        yield from held_by_machines(machines_of(thing))
+        own = ball_held(thing)
+        yield from held_by_machines(tuple(number for number in machines_of(thing) if number - 2 not in own))
     if result.misalignment:
         text = _("Warning: as given the parts do not fit: {gap} have to be forced into place.")
         yield Remark(text=say(text, gap=Quantity(result.misalignment, "length", 3)), tone="warning")
@@ -273,11 +274,11 @@ def _remedies(thing: Drive | Mechanism, result: Mobility, remedies: Sequence[Rep
         return
     if not remedies:
         text = _(
-            "No bearing or pin of another kind removes them: add a link, or mount a bearing in rubber, which lowers "
-            "the forces but does not take them away."
+            "No bearing or pin of another kind removes them and lets it turn all round: add a link, or mount a bearing "
+            "in rubber, which lowers the forces but does not take them away."
         )
         yield Remark(text=text)
-    for k, repair in enumerate(remedies[:SHOWN]):
+    for k, repair in enumerate(remedies):
         what = _("; ").join(advice(change, result.mechanism) for change in repair.changes)
         if repair.after:
             text = plural(

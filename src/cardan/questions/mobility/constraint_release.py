@@ -13,7 +13,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.errors import refuse
+from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames, screws
 from cardan.mechanism.constraints import Constraints, constraints
@@ -22,6 +22,7 @@ from cardan.texts import _
 from cardan.units import nearest
 
 from .drive_mechanism import mechanism_of
+from .finite_mobility import locks_at
 from .mobility import TAKES_PART, JointHold, stresses
 
 Gain: TypeAlias = Literal["slide", "align", "align_slide", "turn", "drop"]
@@ -53,6 +54,9 @@ EXPANSIONS = 4000
 
 MOST = 5
 """Repairs told of."""
+
+TRIED = 12
+"""Repairs that are made to see whether the mechanism turns with them."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -149,6 +153,29 @@ def repairs(thing: Drive | Mechanism, *, most: int = MOST) -> tuple[Repair, ...]
     ]
     least = min((one.after for one in found), default=redundant)
     return tuple(sorted((one for one in found if one.after == least), key=lambda one: one.trouble))
+
+
+def working(mechanism: Mechanism, *, most: int = MOST) -> tuple[Repair, ...]:
+    """Return those `repairs` with which a mechanism turns all round, the simplest first.
+
+    Each is made, and the loops of what comes out are followed over a turn of the input; where no input is named that
+    could be turned, what holds in the position given has to do.
+    """
+    found: list[Repair] = []
+    for one in repairs(mechanism, most=TRIED):
+        if not mechanism.input_link or _turns(repaired(mechanism, one)):
+            found.append(one)
+        if len(found) == most:
+            break
+    return tuple(found)
+
+
+def _turns(mechanism: Mechanism) -> bool:
+    """Tell whether the input of a mechanism turns all round."""
+    try:
+        return locks_at(mechanism) is None
+    except InputError:  # nothing is left by which it could be driven
+        return False
 
 
 def repaired(mechanism: Mechanism, repair: Repair) -> Mechanism:

@@ -173,6 +173,16 @@ def finite_mobility(
     )
 
 
+def locks_at(mechanism: Mechanism, *, driven_joint: str = "") -> float | None:
+    """Return the angle [rad] of the driven joint at which the loops close no more; None where it turns all round.
+
+    Followed as by `finite_mobility`, up to the first place that is not reached.
+    """
+    loops = _Loops(mechanism, _driven(mechanism, driven_joint))
+    places = np.linspace(0.0, 2.0 * math.pi, _count(2.0 * math.pi, None) + 1)[1:].tolist()
+    return next((amount for amount in places if loops.closed(amount)[0] >= CLOSED), None)
+
+
 def displaced(mechanism: Mechanism, displacement: Array) -> Mechanism:
     """Return a mechanism with its moving links displaced (n, 4, 4) from where they are.
 
@@ -258,7 +268,12 @@ class _Loops:
         self.cut = [j for j in range(len(twists)) if j not in self.tree.parent_joint]
         self.state = self.before = np.zeros(len(self.twists))
         self.open = False
-        self.paths = [[self.tree.path(end) for end in self.ends[j]] for j in self.cut]
+        # of each cut joint, how each coordinate moves its two sides: along, against or not at all
+        self.passed = np.zeros((len(self.cut), 2, len(self.twists)))
+        for row, j in enumerate(self.cut):
+            for side, end in enumerate(self.ends[j]):
+                for k, sense in self.tree.path(end) + ([] if side else [(j, 1.0)]):
+                    self.passed[row, side, self.slices[k]] += -sense if side else sense
 
     def start(self) -> tuple[float, float, float, Array]:
         """Return residual, largest gap, largest turn and displacements at the start."""
@@ -333,35 +348,33 @@ class _Loops:
         """Return gaps and turns at the cut joints, and their derivatives by the coordinates that are not driven."""
         joints = self._joints(state)
         links = self._links(joints)
-        screw = self._carried(joints, links)
-        rest = np.zeros((len(self.cut), 2, 3))
-        slope = np.zeros((len(self.cut), 2, 3, len(self.twists)))
-        for row, (j, paths) in enumerate(zip(self.cut, self.paths, strict=True)):
+        twist = self._carried(joints, links)
+        place, rest = np.zeros((len(self.cut), 2, 3)), np.zeros((len(self.cut), 2, 3))
+        for row, j in enumerate(self.cut):
             sides = [np.eye(4) if end == FRAME else links[end] for end in self.ends[j]]
             first, second = sides[0] @ _product(joints[j]), sides[1]
             point = np.append(self.points[j], 1.0)
-            places = [(first @ point)[:3], (second @ point)[:3]]
-            rest[row, 0] = places[0] - places[1]
+            place[row] = (first @ point)[:3], (second @ point)[:3]
             rest[row, 1] = screws.turned_by(first @ screws.inverse(second))
-            for place, sign, path in zip(places, (1.0, -1.0), paths, strict=True):
-                for k, sense in path + ([(j, 1.0)] if sign > 0.0 else []):
-                    at = self.slices[k]
-                    twist = screw[at]
-                    moving = twist[:, 3:] + frames.cross(twist[:, :3], np.broadcast_to(place, (len(twist), 3)))
-                    slope[row, 0, :, at] += sign * sense * moving.T
-                    slope[row, 1, :, at] += sign * sense * twist[:, :3].T
-        return rest.ravel(), slope.reshape(-1, len(self.twists))[:, self.free]
+        rest[:, 0] = place[:, 0] - place[:, 1]
+        turning, moving = twist[:, :3], twist[:, 3:]
+        whole = np.sum(self.passed, axis=1)[..., None]
+        swept = frames.cross(
+            np.broadcast_to(turning, (len(self.cut), *turning.shape)), np.swapaxes(self.passed, 1, 2) @ place
+        )
+        slope = np.stack((whole * moving + swept, whole * turning), axis=1)
+        return rest.ravel(), np.swapaxes(slope, -1, -2).reshape(-1, len(twist))[:, self.free]
 
     def _carried(self, joints: list[list[Array]], links: Array) -> Array:
         """Return the screw of every coordinate where it stands now, moving the second link against the first."""
-        moved = []
+        here = np.empty((len(self.twists), 4, 4))
         for j, steps in enumerate(joints):
             a = self.ends[j][0]
-            here = np.eye(4) if a == FRAME else links[a]
-            for k, step in enumerate(steps):
-                moved.append(screws.moved(here, self.twists[self.slices[j].start + k]))
-                here = here @ step
-        return np.asarray(moved)
+            now = np.eye(4) if a == FRAME else links[a]
+            for k, step in enumerate(steps, self.slices[j].start):
+                here[k] = now
+                now = now @ step
+        return screws.moved(here, self.twists)
 
 
 def _product(steps: list[Array]) -> Array:
@@ -390,7 +403,7 @@ class MobilityTurn:
     certain : array of bool (p,)
         Whether the rank is; where not, the mechanism stands next to a special position, or in one but for rounding.
     residual : array (p,)
-        What keeps the loops from closing there [m, rad]; nought for drives, whose motion is known exactly.
+        What keeps the loops from closing there [m, rad].
     cancelled : bool
         Whether ``progress`` said "stop"; the arrays then end there.
     """
@@ -436,7 +449,7 @@ def mobility_over_turn(
     ----------
     thing : Drive or Mechanism
     driven_joint : str
-        Of a mechanism, the joint that is driven; see `cardan.questions.mobility.finite_mobility.finite_mobility`.
+        The joint that is driven; see `cardan.questions.mobility.finite_mobility.finite_mobility`.
     positions : int
         Number of positions, evenly over the turn from the start on.
     progress : function, optional
@@ -467,16 +480,7 @@ def mobility_over_turn(
     (3, 0)
     """
     along = np.linspace(0.0, 2.0 * math.pi, positions, endpoint=False)
-    if isinstance(thing, Mechanism):
-        return _followed(thing, driven_joint, along, progress)
-    drive = thing
-    return _counted(along, lambda k: mechanism_of(drive, float(along[k])), np.zeros(positions), progress)
-
-
-def _followed(
-    mechanism: Mechanism, driven_joint: str, along: Array, progress: Callable[[float], object] | None
-) -> MobilityTurn:
-    """Return the same of a mechanism whose loops are closed from one position to the next."""
+    mechanism = thing if isinstance(thing, Mechanism) else mechanism_of(thing)
     per = max(1, math.ceil(POSITIONS / len(along)))
     moved = finite_mobility(
         mechanism,
