@@ -18,6 +18,7 @@ MORE = "the best settings on spline teeth over all poses stand beside those with
 PLANES = "unbalance is judged per tolerance plane, with the shares of ISO 21940-11; the static part is told by itself"
 
 HALVES = "a splined shaft is two bodies: each half's weight along it is held on its own side of the spline"
+MADE = "only remedies that were made and with which the mechanism turned all round, three at most"
 WOBBLE = "the shaft of a tripod pivots on the next joint, which feels that it nutates"
 TOPS = "the tops of a movement between the instants are found by one rule, and all questions tell the same"
 
@@ -30,6 +31,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         WORST,
     ),
     (r"motion examples/front-halfshaft", r".*", WOBBLE),
+    (r"mobility examples/", r"(repairs|remedies)\..*", MADE),
     (r"check examples/front-halfshaft", r"verdicts\.(utilisation|value)", WOBBLE),
     (r"check examples/car-propshaft", r"verdicts\.utilisation", PLANES),
     (r"balance examples/car-propshaft", r"shafts\.unbalance_g_mm", PLANES),
