@@ -111,7 +111,7 @@ class Tripod(Joint):
         """Add housing, spider and rollers; its spider runs round three times a turn."""
         stance, (one, two) = site.stance, site.sides
         track = self.track_radius or 0.8 * site.size.radius
-        joint_angle, theta, b = stance.joint_angle, stance.theta, stance.after
+        joint_angle, b = stance.joint_angle, stance.after
         site.add_to(one, "housing", site.said(_("housing of {joint}")), _tulip(track, one, joint_angle))
         centre = replace(self, track_radius=track).head(stance)
         arm = stance.driven
