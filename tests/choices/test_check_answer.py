@@ -33,7 +33,7 @@ def test_what_failed_stands_first_and_what_is_closest_where_nothing_did():
 def test_every_verdict_is_told_in_the_units_of_the_reader():
     drive = example("car-propshaft")
     usual, pounds = (data(answer(drive, ask(drive)), who)["verdicts"] for who in (USUAL, POUNDS))
-    found = check(drive)
+    found = [one for one in check(drive) if one.check != "answers_agree"]
     assert [row["title"] for row in pounds] == [one.title for one in found]
     for row, one, before in zip(pounds, found, usual, strict=True):
         assert before["unit"] == one.unit

@@ -65,6 +65,11 @@ class Checked:
         return next((one for one in self.verdicts if one.check == AUDIT.name and one.run), None)
 
     @property
+    def told(self) -> tuple[Verdict, ...]:
+        """All verdicts but that answers agree, where they do: it is told by itself."""
+        return tuple(one for one in self.verdicts if one.check != AUDIT.name or not one.passed)
+
+    @property
     def binding(self) -> list[Verdict]:
         """Verdicts that were reached and that the drive must keep, the worst first.
 
@@ -167,11 +172,12 @@ def answer(drive: Drive, result: Checked, *, sources: bool = False, missing: boo
         keys=tuple(key_figures(drive, result.verdicts)),
         facts={
             "passed": not result.failed,
+            "answers_agree": None if result.agreement is None else bool(result.agreement.passed),
             "unconfirmed": len(result.unconfirmed),
             "remedies": [asdict(one) for one in result.remedies],
             "most_helpful": [asdict(one) for one in most_helpful(result.remedies)],
         },
-        full=lambda: verdict_records(result.verdicts, "", flat=True),
+        full=lambda: verdict_records(result.told, "", flat=True),
         code=1 if result.failed else 0,
     )
 
@@ -226,7 +232,7 @@ def _tables(drive: Drive, result: Checked, *, sources: bool, missing: bool) -> I
         yield missing_table(lacks, "brief" if missing or not result.binding else "full")
     if result.compared:
         yield compared_table(drive, result.compared)
-    yield verdict_records(result.verdicts, "verdicts")
+    yield verdict_records(result.told, "verdicts")
 
 
 def compared_table(drive: Drive, found: Sequence[Compared]) -> Table:

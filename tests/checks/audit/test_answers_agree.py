@@ -86,6 +86,8 @@ def test_a_contradiction_fails_the_drive_and_is_told_with_both_values(monkeypatc
     assert said.tone == "failed"
     assert said.code == 1
     assert result.failed[0].check == "answers_agree"
+    assert said.facts["answers_agree"] is False
+    assert "answers_agree" in next(one for one in said.tables if one.name == "verdicts").columns[0].values
     (alarm,) = [told(one.text, USUAL) for one in said.remarks if "contradict" in told(one.text, USUAL)]
     share = 100.0 * float(each_shaft(drive).speed_fluctuation[-1])
     assert f"{share:.2f} % in motion, 50.00 % in speed_fluctuation" in alarm
@@ -100,6 +102,8 @@ def test_that_answers_agree_is_no_merit_of_the_drive():
     assert one not in result.binding
     assert "comparisons" in one.note
     said = answer(drive, result)
+    assert said.facts["answers_agree"] is True
+    assert "answers_agree" not in next(one for one in said.tables if one.name == "verdicts").columns[0].values
     (remark,) = [one for one in said.remarks if one.code == "answers_agree"]
     assert told(remark.text, USUAL) == f"Answers that speak of the same quantity agree: {one.note}."
 
