@@ -20,6 +20,7 @@ NAMES = (
     "mathieu_map",
     "speed_sweep",
     "floquet_map",
+    "two_frequencies",
     "recordings",
     "sweep",
     "engines",
