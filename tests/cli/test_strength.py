@@ -239,7 +239,7 @@ def test_every_problem_of_a_file_of_rows_is_told(cardan, drive_file):
         "nearest is materials",
     ):
         assert words in done.err
-    assert "is not a table" in cardan("catalogue", "steel").err
+    assert "is not a table" in cardan("catalogue", "materail").err
     assert "the nearest is C45" in cardan("catalogue", "materials", "C46").err
     assert cardan("catalogue", "--check", "nowhere.toml").code == 2
 
