@@ -66,7 +66,7 @@ def test_what_is_wrong_is_told_with_row_and_key(tmp_path):
     with pytest.raises(InputError) as refused:
         with_files(Catalogue(tables={}), [tmp_path / name for name in ("joint_sizes.csv", "sizes.csv", "own.xlsx")])
     said = str(refused.value)
-    for words in ("joint_sizes[0].mass_kg", "colour", "unknown table", "is no workbook"):
+    for words in ("joint_sizes[0].mass_kg", "colour", "unknown table", "cannot be read as a workbook"):
         assert words in said, words
 
 

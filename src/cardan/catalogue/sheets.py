@@ -40,7 +40,7 @@ def tree_of(path: Path) -> dict[str, list[dict[str, Any]]]:
     try:
         book = openpyxl().load_workbook(path, read_only=True, data_only=True)
     except (KeyError, ValueError, BadZipFile) as error:
-        raise refuse("", _("is no workbook: {why}").format(why=error)) from None
+        raise refuse("", _("cannot be read as a workbook: {why}").format(why=error)) from None
     with closing(book):
         return {sheet.title: _rows(sheet.title, sheet.iter_rows(values_only=True)) for sheet in book.worksheets}
 
