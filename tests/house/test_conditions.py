@@ -38,6 +38,14 @@ rating = { torque_Nm = 900 }
 """
 """The first joint of the drive, where it is a cross joint."""
 
+BEARING = """
+[[supports]]
+shaft = 2
+position_mm = 100
+stiffness_N_per_um = 50
+"""
+"""What the shaft behind a joint needs that holds nothing but the turn."""
+
 WHOLE = """
 format = 1
 name = "all questions"
@@ -118,7 +126,8 @@ output_error_deg = 1
 def plain(kind="hooke"):
     """Return a drive that every question answers, in one condition; its first joint may be of another kind."""
     other = f'[[joints]]\nkind = "{kind}"\ncentre_mm = [0, 0, 0]\n{KEYS[kind]}\n'
-    return loads(WHOLE.replace("@", FIRST if kind == "hooke" else other))
+    bearing = BEARING if JOINTS[kind].loose else ""
+    return loads(WHOLE.replace("@", FIRST if kind == "hooke" else other) + bearing)
 
 
 def having(aspect, kind="hooke"):
