@@ -163,11 +163,11 @@ def told(question, drive):
 
 
 def answered(question, drive):
-    """Return what is said of a drive as `told` does; None where the question refuses a kind of joint, too."""
+    """Return what is said of a drive as `told` does; None where a kind of joint is refused, or holds no shaft."""
     try:
         return told(question, drive)
     except InputError as error:
-        if all(one.field.endswith(".kind") for one in error.problems):
+        if all(one.field.endswith((".kind", "supports")) for one in error.problems):
             return None
         raise
 
