@@ -12,6 +12,7 @@ from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
+from cardan.drive.yokes import yokes_estimated
 from cardan.questions.torsion.model.answer import lacking as lacking_of_torsion
 from cardan.texts import _, mark
 
@@ -62,7 +63,7 @@ def answer(drive: Drive, result: MathieuModes) -> Answer:
         ),
         tone="warning" if grows else "plain",
         tables=tuple(_tables(result)),
-        remarks=tuple(_remarks(result)),
+        remarks=(*yokes_estimated(drive), *_remarks(result)),
         keys=tuple(_keys(result)),
         figures=lambda: (modes_chart_figure(result),),
         facts={
