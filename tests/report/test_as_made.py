@@ -67,6 +67,10 @@ def test_errors_are_told_in_the_same_words_and_numbers_everywhere(name):
     assert f"With the errors of its joints as made the speed fluctuation is {share}." in told(first[0], USUAL)
 
 
-def test_a_kind_whose_errors_cannot_be_told_says_why():
-    answer = said(QUESTIONS["motion"], erring("propshaft-with-rzeppa"))
-    assert any("not in this: errors and tolerances" in told(remark.text, USUAL) for remark in answer.remarks)
+def test_a_kind_without_errors_counts_as_made_true_and_the_answers_say_so():
+    drive = erring("propshaft-with-rzeppa")
+    texts = [told(one.text, USUAL) for one in said(QUESTIONS["motion"], drive).remarks]
+    assert any("With the errors of its joints as made" in text for text in texts)
+    texts = [told(one.text, USUAL) for one in said(QUESTIONS["accuracy"], drive).remarks]
+    true = " and ".join(str(k) for k, joint in enumerate(drive.joints, 1) if not joint.single_cross)
+    assert any(f"oint {true} count" in text or f"oints {true} count" in text for text in texts)

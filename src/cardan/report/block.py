@@ -151,13 +151,24 @@ def _blocks(answer: Answer, reader: Reader, depth: Depth) -> Iterator[Block]:
 def key_figures(told: Iterable[Sequence[KeyFigure]]) -> list[KeyFigure]:
     """Return the key figures of the first page, by which drives are compared.
 
-    told: those of each answer. Of a name that several tell the last one counts, which knows more, where the first
-    stood.
+    told: those of each answer. Of a name that several tell the worst counts, as of a drive that moves; of equal ones
+    the last, which knows more, where the first stood.
     """
     found: dict[str, list[KeyFigure]] = {}
     for keys in told:
-        found.update({name: [one for one in keys if one.name == name] for name in dict.fromkeys(k.name for k in keys)})
+        for name in dict.fromkeys(one.name for one in keys):
+            new, old = [one for one in keys if one.name == name], found.get(name, [])
+            if not (len(old) == len(new) == 1 and _worse(old[0], new[0])):
+                found[name] = new
     return [one for keys in found.values() for one in keys]
+
+
+def _worse(one: KeyFigure, other: KeyFigure) -> bool:
+    """Tell whether a key figure is worse than another one of its name."""
+    if not one.better or one.value.dimension != other.value.dimension:
+        return False
+    mine, theirs = float(one.value.value), float(other.value.value)
+    return (mine > theirs) == (one.better == "less") and not math.isclose(mine, theirs, rel_tol=SAME)
 
 
 def untold(keys: Sequence[KeyFigure], limits: Sequence[KeyFigure]) -> list[KeyFigure]:

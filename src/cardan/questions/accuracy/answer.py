@@ -19,6 +19,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost, largest
+from cardan.questions.motion.kinds import made_true
 from cardan.texts import _, mark
 from cardan.units import arcmin, deg, mm
 
@@ -130,7 +131,7 @@ def answer(drive: Drive, result: Accuracy) -> Answer:
         title=title,
         sentence=_sentence(drive, result),
         tables=tuple(_tables(drive, result)),
-        remarks=tuple(_remarks(drive, result)),
+        remarks=(*made_true(drive), *_remarks(drive, result)),
         keys=(*_keys(drive, result), *_cross_key(result)),
         figures=lambda: _figures(drive, result),
         facts=_facts(result),

@@ -16,6 +16,7 @@ from cardan.drive.models.machine_held import held_by_machines, machine_held, mac
 from cardan.errors import InputError
 from cardan.figures.figure import Figure
 from cardan.maths.ties import foremost, largest
+from cardan.questions.motion.kinds import made_true
 from cardan.texts import _, mark, plural
 
 from .assembly import AssemblyForces, Peak, assembly
@@ -85,7 +86,7 @@ def answer(drive: Drive, result: AssemblyForces, curves: AssemblyForces | None =
         tone="warning" if result.degree else "good",
         figures=lambda: _figures(drive, result),
         tables=tuple(_tables(drive, result)),
-        remarks=(*held_by_machines(machines), *_remarks(drive, result)),
+        remarks=(*held_by_machines(machines), *made_true(drive), *_remarks(drive, result)),
         keys=tuple(_keys(result)),
         facts=_facts(result),
         full=lambda: _trace(shown),

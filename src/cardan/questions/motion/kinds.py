@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cardan.answers.answer import Remark
-from cardan.answers.quantity import Quantity, Say, say
+from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.joints.joint import Inside
 from cardan.drive.models.kinematics_model import given_chain
 from cardan.drive.models.wobble import wobbles
-from cardan.texts import _
+from cardan.texts import _, plural
 
 TINY = 1e-9  # way of a joint centre [m] that is rounding
 
@@ -68,6 +68,18 @@ def beside_turning(drive: Drive) -> Iterator[Say]:
     for number, one in inside(drive):
         text = _("Joint {number}: {title}, {value}.")
         yield say(text, number=number, title=one.meaning, value=quantity_of(one, 3))
+
+
+def made_true(drive: Drive) -> Iterator[Remark]:
+    """Yield which joints count as made true, since errors are those of cross joints."""
+    which = [str(i) for i, joint in enumerate(drive.joints, start=1) if not joint.single_cross]
+    if which:
+        text = plural(
+            "Joint {which} counts as made true: errors and tolerances are those of cross joints.",
+            "Joints {which} count as made true: errors and tolerances are those of cross joints.",
+            len(which),
+        )
+        yield Remark(text=say(text, which=Joined(which, last=_(" and "))), code="made_true")
 
 
 def carried_on(drive: Drive) -> Iterator[Remark]:

@@ -313,8 +313,10 @@ def _remarks(drive: Drive, found: Phasing, fixed: Mapping[int, float], nearest: 
         text = _("What joints leave by laws of their own, below {most}, is not in these figures.")
         yield Remark(text=say(text, most=Quantity(1e-6, "angle", 1, unit="rad")))
     if felt := wobbling(drive):
-        text = _(
-            "Shafts wobble behind joints {which}: what later joints make of that is not in these figures, only in:"
+        text = plural(
+            "A shaft wobbles behind joint {which}: what later joints make of that is not in these figures, only in:",
+            "Shafts wobble behind joints {which}: what later joints make of that is not in these figures, only in:",
+            len(felt),
         )
         which = Joined([str(i + 1) for i in felt], last=_(" and "))
         yield Remark(text=say(text, which=which), tone="warning", command=("cardan", "motion", FILE))
@@ -634,6 +636,8 @@ def spread(found: Phasing) -> Iterator[Remark]:
 
 
 def _keys(drive: Drive, found: Phasing) -> Iterator[KeyFigure]:
+    if wobbling(drive):
+        return  # what later joints make of the wobble is in the motion alone
     verdict, tone = _uniformity(drive, found)
     title, share = _("speed fluctuation δ of the output"), float(found.as_built.speed_fluctuation)
     drawn, value = _("as drawn") if drive.movements or drive.poses else "", Quantity(share, "share")
