@@ -15,6 +15,7 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``crossed``          no: its marks lie on one line when it is straight
 ``single_cross``     no: what holds for the cross of a Hooke joint alone does not hold for it
 ``fixed``            no: it may pass on forces besides a couple
+``centred``          no: what it passes on needs no housing that centres its shafts
 ``loose``            no: it holds its shafts in its centre, but for sliding
 ``twist_spring``     none: it does not give under torque
 ``inside``           nothing else moves in it
@@ -117,6 +118,9 @@ class Joint:
 
     The couple follows from the law: it works on no motion that the joint allows.
     """
+
+    centred: ClassVar[bool] = False
+    """Whether it passes on its couple alone only where a housing centres its shafts, as statics takes it."""
 
     loose: ClassVar[bool] = False
     """Whether it holds nothing of its shafts but the turn: no force acts in its centre."""

@@ -30,6 +30,7 @@ class Tracta(Joint):
     title: ClassVar[str] = mark("Tracta")
     types: ClassVar[tuple[str, ...]] = ("tracta",)
     fixed: ClassVar[bool] = True
+    centred: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(50.0)
 
     driving_distance: float | None = quantity(

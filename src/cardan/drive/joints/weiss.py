@@ -110,6 +110,7 @@ class Weiss(Joint):
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("driving_offset", "driven_offset", "groove_radius")
     fixed: ClassVar[bool] = True
+    centred: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(40.0)
 
     balls: int = plain(2, doc="number of balls that carry in one sense of turning", low=1)

@@ -252,6 +252,15 @@ def _remarks(drive: Drive, result: Carried, machines: tuple[int, ...]) -> Iterat
         yield Remark(text=say(text, **_parts(problem)), tone="warning", alarm=k == 0)
     yield from steep_joints(drive)
     yield from yokes_estimated(drive)
+    if centred := [str(i) for i, joint in enumerate(drive.joints, start=1) if joint.centred]:
+        text = plural(
+            "Joint {which} counts with its couple alone, as where a housing centres both shafts; between rigid "
+            "bearings its parts would push the shafts aside too.",
+            "Joints {which} count with their couples alone, as where a housing centres both shafts; between rigid "
+            "bearings their parts would push the shafts aside too.",
+            len(centred),
+        )
+        yield Remark(text=say(text, which=Joined(centred, last=_(" and "))), code="centred")
     yield from held_by_machines(machines if found.reaction is not None else ())
     surplus = int(found.status == Determinacy.INDETERMINATE) and found.unknowns - found.equations
     if surplus:
