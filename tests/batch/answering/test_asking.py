@@ -209,7 +209,7 @@ SAME = {
         lambda d: [
             min(one.limit for one in balance(d).shafts) / 1e-6,
             max(one.force for one in balance(d).shafts),
-            max(one.worst.unbalance / one.worst.allowed for one in balance(d).shafts if one.worst is not None),
+            max(100.0 * one.worst.unbalance / one.worst.allowed for one in balance(d).shafts if one.worst is not None),
         ],
     ),
     "whirl": ("car-propshaft", lambda d: [max(rotor_response(d).peak(k)[1] for k in (-1, 1, 2, 3)) / 1e-6]),
