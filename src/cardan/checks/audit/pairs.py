@@ -22,6 +22,7 @@ from cardan.checks.strength.section import sections
 from cardan.checks.strength.shaft_life import STRENGTHS, fatigue, fatigue_life, lasting
 from cardan.checks.torsion.parametric_stability import CHECK as PARAMETRIC
 from cardan.drive.models.kinematics_model import mixed, unmapped
+from cardan.drive.models.wobble import wobbling
 from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import peak
 from cardan.questions.accuracy.accuracy import one_turn, sensitivity
@@ -91,8 +92,8 @@ def _seen_uneven(asked: Asked) -> Values:
 
 def _phased(asked: Asked) -> Values:
     found = asked.phasing
-    if found is None or unmapped(asked.drive.joints):
-        return {}
+    if found is None or unmapped(asked.drive.joints) or wobbling(asked.drive):
+        return {}  # the phasing says what it leaves out
     return of_parts("shafts", found.as_built.shaft_speed_fluctuation, 2)
 
 
