@@ -187,7 +187,7 @@ def test_a_spline_wears():
 def test_each_mode_wears_as_the_shaft_that_bends():
     drive = two_piece()
     splined = replace(drive, shafts=(drive.shafts[1], replace(drive.shafts[2], spline=Spline(teeth=16))))
-    assert bending_speeds(splined).wear.tolist() == [0.9, 0.9, 1.0]
+    assert bending_speeds(splined).wear.tolist() == [1.0, 0.9, 1.0]  # the first bounces on its support
 
 
 @pytest.mark.slow

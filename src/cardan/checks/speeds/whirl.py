@@ -131,7 +131,7 @@ def _in_line(design: Design, part: Part) -> Whirl:
     return Whirl(
         shaft=bent if bounce else k,
         speed=varied,
-        wear=_wear(design, bent if bounce else k),
+        wear=1.0 if bounce else _wear(design, k),
         exact=True,
         design_variables=design.design_variables(*own, *(() if bounce else (f"shafts[{k}].wear_factor",))),
         support=k if bounce else None,

@@ -80,7 +80,7 @@ class CriticalSpeeds:
     actual : array (m,) [rad/s]
         Those of the real shafts, k_n times the computed ones.
     wear : array (m,)
-        k_n of each mode: of the shaft that bends most in it.
+        k_n of each mode: of the shaft that bows in it; 1 where a support gives way, which no spline slackens.
     at_rest : array (m,) [rad/s]
         Natural frequencies of the standing shafts, as a tap shows them.
     part : tuple of Part
@@ -257,7 +257,9 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
     bowing = next((k for k, one in enumerate(part) if one.kind == "shaft"), None)
     wanted = modes if bowing is None else max(modes, bowing + 1)
     speed = speeds(whole.line, wanted, near=found.speed[:wanted])
-    wear = factors[np.argmax(shaft_share, axis=-1)][:wanted]
+    # a worn spline lets its shaft bow; a line that bounces on its supports does not feel it
+    bounces = np.asarray([one.kind != "shaft" for one in part])
+    wear = np.where(bounces, 1.0, factors[np.argmax(shaft_share, axis=-1)])[:wanted]
     first = slice(0, modes)
     at_rest = synchronous(fine, modes, spinning=False).speed
     actual = wear * speed
