@@ -96,6 +96,7 @@ KEPT = {
         "calc",
         "keys",
         "help",
+        "mathieu",
         "modes",
         "response",
         "simulate",
