@@ -134,12 +134,16 @@ def test_the_pdf_says_what_the_html_report_says(name):
 def test_every_page_is_found_by_its_bookmark_and_in_the_contents(name):
     pdf, said = opened(name), of_example(name)
     marks = [mark for mark in pdf.outline if not isinstance(mark, list)]
-    numbered = [re.fullmatch(r"(?:(\d+|[A-C])\s+)?(.*)", mark.title).groups("") for mark in marks]
+    numbered = [re.fullmatch(r"(?:(\d+|[A-F])\s+)?(.*)", mark.title).groups("") for mark in marks]
     titles = [title for _number, title in numbered]
     assert titles == ["Summary", *(one.title for one in said.pages), "Appendix", *(one.title for one in said.appendix)]
     first = close(pdf.pages[0].extract_text())
     count = 1 + len(said.pages)
-    assert [number for number, _title in numbered] == [*map(str, range(1, count + 1)), "", *"ABC"[: len(said.appendix)]]
+    assert [number for number, _title in numbered] == [
+        *map(str, range(1, count + 1)),
+        "",
+        *"ABCDEF"[: len(said.appendix)],
+    ]
     for mark, (number, title) in zip(marks, numbered, strict=True):
         page = pdf.get_destination_page_number(mark) + 1
         assert close(f"{number}{title}{page}") in first
