@@ -166,7 +166,7 @@ def answer(drive: Drive, result: Checked, *, sources: bool = False, missing: boo
         else "good"
         if result.binding
         else "plain",
-        figures=lambda: check_figures(result.verdicts, name=drive.name),
+        figures=lambda: check_figures(result.told, name=drive.name),
         tables=tuple(_tables(drive, result, sources=sources, missing=missing)),
         remarks=(*yokes_estimated(drive), *_remarks(result, sources=sources, missing=missing)),
         keys=tuple(key_figures(drive, result.verdicts)),

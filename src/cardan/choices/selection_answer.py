@@ -198,7 +198,7 @@ def _remarks(result: Selection) -> Iterator[Remark]:
     yield Remark(text=_("A figure that the source of a type does not give is a condition: look it up at the maker's."))
     if any(one.fits for one in result.sizes):
         yield Remark(
-            text=_("Life L10 by the maker's formula; `cardan strength --size` judges a size in a drive by every limit.")
+            text=_("Life L10 by the maker's formula; cardan strength --size judges a size in a drive by every limit.")
         )
     command = ("cardan", "catalogue", "joint_types", "TYPE")
     yield Remark(text=_("Where every figure comes from:"), command=command, tone="next")

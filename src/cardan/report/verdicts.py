@@ -49,8 +49,8 @@ def judged(on: Subject) -> Judged:
     lacking = [table(one) for one in said.tables if one.name == MISSING]
     count = sum(bool(one.missing) for one in result.verdicts)
     text = plural(
-        "One check was not run for want of keys; `cardan check --missing` and the appendix name them.",
-        "{count} checks were not run for want of keys; `cardan check --missing` and the appendix name them.",
+        "One check was not run for want of keys; cardan check --missing names them.",
+        "{count} checks were not run for want of keys; cardan check --missing names them.",
         count,
     ).format(count=count)
     shorter = page(replace(said, tables=[one for one in said.tables if one.name != MISSING]), reader())

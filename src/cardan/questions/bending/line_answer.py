@@ -292,7 +292,7 @@ def _response(drive: Drive, result: LineWhirl) -> Table:
 def _remarks(drive: Drive, result: LineWhirl) -> Iterator[Remark]:
     yield from _assumptions(drive, result)
     if result.cracked:
-        text = _("Cracks breathe with the weight; whether the whirl is stable, `cardan rotor --shaft N` tells.")
+        text = _("Cracks breathe with the weight; whether the whirl is stable, cardan rotor --shaft N tells.")
         yield Remark(text=text)
     if result.residual > CLOSE:
         text = _("Check failed: modes and static shapes miss {rest} of the motion of all finite elements.")
@@ -321,7 +321,7 @@ def _assumptions(drive: Drive, result: LineWhirl) -> Iterator[Remark]:
     yield Remark(text=say(text, low=Quantity(low, "share", 2), high=Quantity(high, "share", 2)))
     soft = [number for number in result.support if drive.supports[number - 1].damping is None]
     if soft:
-        text = _("Supports without `damping`, {which}, lose what rubber does; how high the bounce is depends on it.")
+        text = _("Supports without damping, {which}, lose what rubber does; how high the bounce is depends on it.")
         yield Remark(text=say(text, which=listed(soft)))
 
 
