@@ -18,6 +18,7 @@ from cardan.answers.reader import USUAL
 from cardan.book.comparison import book_comparison
 from cardan.book.figure import book_figure
 from cardan.drive.drive import Drive
+from cardan.drive.models.wobble import wobbling
 from cardan.figures import palette
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Bars, Curve
@@ -48,7 +49,9 @@ DRIVES = {**{name: example(name) for name in example_names()}, **SPECIAL}
 
 
 def every(drive: Drive) -> list[figures.Figure]:
-    asked = [drive, motion(drive), equivalent_joint(drive), book_comparison(drive), phases(drive)]
+    asked = [drive, motion(drive), phases(drive)]
+    if not wobbling(drive):
+        asked += [equivalent_joint(drive), book_comparison(drive)]
     if drive.movements:
         asked.append(articulation(drive))
     return [for_reader(figure, USUAL) for result in asked for figure in figures.for_result(result)]

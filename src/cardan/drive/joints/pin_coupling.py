@@ -78,7 +78,7 @@ class PinCoupling(Joint):
         """Return the law of the contact of both pins; nan where they do not reach round a turn."""
         one, other = self._slants
         low, high = slant_range(joint_angle)
-        if not bool((low < min(one, other)) & (max(one, other) < high)):
+        if not np.all((low < min(one, other)) & (max(one, other) < high)):
             nothing = angle + math.nan
             return nothing, nothing, nothing
         if self.driving_distance is None or self.driven_distance is None:
