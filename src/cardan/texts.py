@@ -93,8 +93,6 @@ def mark(text: str) -> str:
 def visible(text: str) -> str:
     r"""Return a text in which signs that are obeyed, not seen, are spelled out; blanks of all widths may stay.
 
-    Examples
-    --------
     >>> visible("two\u202eeno")
     'two\\u202eeno'
     """

@@ -355,34 +355,14 @@ def ply_exposure(
 ) -> PlyExposure:
     """Return how much of their strength the plies of a thin tube use under torque and a bending moment.
 
-    Parameters
-    ----------
-    layup : Layup
-        Its angles and the figures of its ply, strengths included.
-    mean_diameter, ply_thickness : arrays (...) [m]
-        Of the middle of the wall, of a ply.
-    torque, bending : arrays (...) [N·m]
-        Either way round: the tube turns under the moment, and the torque may be that of coasting.
+    layup: its angles and the figures of its ply, strengths included.
+    mean_diameter, ply_thickness (...) [m]: of the middle of the wall, of a ply.
+    torque, bending (...) [N·m]: either way round: the tube turns under the moment, and the torque may be that of
+    coasting.
 
-    Returns
-    -------
-    PlyExposure
-
-    Notes
-    -----
     N_xy = T/(2πr²), N_x = ±M/(πr²); stresses of each ply by classical laminate theory, `ply_stresses`. Tsai and Wu
     (1971): F_1 σ_1 + F_2 σ_2 + F_11 σ_1² + F_22 σ_2² + F_66 τ² + 2 F_12 σ_1 σ_2 = 1 with F_12 = -½√(F_11 F_22); the
     exposure is the inverse of the factor by which the loads grow until then. The ends of the tube are left out.
-
-    Examples
-    --------
-    >>> from cardan.drive.shaft import Ply
-    >>> ply = Ply(along=135e9, across=10e9, shear=5e9, tension_along=1500e6, compression_along=1200e6,
-    ...           tension_across=50e6, compression_across=250e6, shear_strength=70e6)
-    >>> layup = Layup(angles=(math.pi / 4, -math.pi / 4), ply_thickness=1e-3, ply=ply)
-    >>> found = ply_exposure(layup, 0.09, 1e-3, 2000.0)
-    >>> print(f"{found.exposure:.3f}")
-    0.252
     """
     strength = {name: getattr(layup.ply, name) for name in PLY_STRENGTHS}
     lacking = [name for name, value in strength.items() if value is None]
@@ -413,30 +393,11 @@ def ply_exposure(
 def bond_shear(bond: Bond, layup: Layup, outer: ArrayLike, ply_thickness: ArrayLike, torque: ArrayLike) -> Array:
     """Return the largest shear stress in the bond between a composite tube and the metal end in it, array (...) [Pa].
 
-    Parameters
-    ----------
-    bond : Bond
-    layup : Layup
-        Of the tube.
-    outer, ply_thickness : arrays (...) [m]
-        Outer diameter of the tube, thickness of a ply.
-    torque : array (...) [N·m]
-
-    Notes
-    -----
+    outer, ply_thickness (...) [m]: outer diameter of the tube, thickness of a ply; torque (...) [N·m].
     Lap of two tubes twisted against each other (Volkersen's model in torsion, Adams and Peppiatt 1977): with the
     torsional stiffness k_1 of the tube and k_2 of the steel end, β² = 2πa³ G_a/t_a (1/k_1 + 1/k_2), the stress at the
     end from which the part with the share s = k/(k_1 + k_2) comes is T β/(2πa²) (s + (1 - s) cosh βL)/sinh βL; the
     larger end counts.
-
-    Examples
-    --------
-    >>> from cardan.drive.shaft import Ply
-    >>> ply = Ply(along=135e9, across=10e9, shear=5e9)
-    >>> layup = Layup(angles=(math.pi / 4, -math.pi / 4), ply_thickness=1e-3, ply=ply)
-    >>> bond = Bond(length=0.05, thickness=0.2e-3, shear=1e9, strength=30e6)
-    >>> print(f"{bond_shear(bond, layup, 0.092, 1e-3, 1000.0) / 1e6:.2f} MPa")
-    21.25 MPa
     """
     plies = len(layup.angles)
     _along, _around, shear = laminate_moduli(layup.angles, [layup.ply_thickness] * plies, layup.ply.stiffness)

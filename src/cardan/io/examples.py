@@ -242,8 +242,6 @@ TEMPLATES = {
 def template(use: str, name: str) -> str:
     """Return a drive file to start from, for one of `TEMPLATES`, with a name of its own if there is one.
 
-    Examples
-    --------
     >>> from cardan.io import loads
     >>> loads(template("mill", "stand 4")).name
     'stand 4'

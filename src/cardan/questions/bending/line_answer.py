@@ -42,12 +42,17 @@ def lacking(drive: Drive) -> Lacking:
     )
 
 
-def ask(drive: Drive, *, progress: Progress | None = None) -> LineWhirl:
-    """Return how the whole line whirls over the speeds in use."""
+def ask(drive: Drive, *, progress: Progress | None = None) -> LineWhirl | None:
+    """Return how the whole line whirls over the speeds in use; None where nothing shakes it."""
     found = whirl_in_use(drive)
     if progress is not None:
         progress(1.0)
-    return found
+    return found if found.peak()[0] > 0.0 else None
+
+
+def otherwise(_drive: Drive) -> str:
+    """Return why there is nothing to tell."""
+    return _("Nothing shakes the line: no unbalance, no couple of a joint, no weight across it.")
 
 
 def answer(drive: Drive, result: LineWhirl) -> Answer:

@@ -162,64 +162,24 @@ def optimise_torsion(
 ) -> OptimisedTorsion:
     """Return the values of a drive with which its largest swing of a torque over a band of speeds is smallest.
 
-    Parameters
-    ----------
-    drive : Drive
-        With bodies or inertias and stiffnesses of its shafts, or `[[stations]]`, and some damping.
-    duty : Duty, optional
-        What it does; that of the drive by default.
-    free : mapping of str to (low, high) or (low, high, step), optional
-        Path -> range in the unit of the path, as ``{"shafts[1].yoke_angle_deg": (-90, 90)}``; with a step only every
-        such value from the lowest can be made. By default the yoke angles that are not fixed, in the steps of their
-        splines.
-    speeds : (float, float), optional [rad/s]
-        Band of input speeds; that of the duty by default, else its speed alone.
-    elements : sequence of int, optional
-        Elements of the drive whose torque is judged, from 0; all by default.
-    method : Evolution or Grid, optional
-        How to search everywhere; differential evolution by default.
-    tolerances : mapping of str to float or str, optional
-        Path -> how far its value may be off to either side as made, in the unit of the path or as a share ``"5%"``:
-        stiffness, damping, angles. Every design then counts as the worst that it may be.
-    used : function, optional
-        The largest share of a limit that a drive uses; a design that uses more than 1 counts as worse than any other.
-    progress : function, optional
-        Told the share done; when it answers "stop" the best so far is returned as cancelled.
+    drive: with bodies or inertias and stiffnesses of its shafts, or `[[stations]]`, and some damping.
+    free, mapping of str to (low, high) or (low, high, step): path -> range in the unit of the path, as
+    ``{"shafts[1].yoke_angle_deg": (-90, 90)}``; with a step only every such value from the lowest can be made. By
+    default the yoke angles that are not fixed, in the steps of their splines.
+    speeds [rad/s]: band of input speeds; that of the duty by default, else its speed alone.
+    elements: elements of the drive whose torque is judged, from 0; all by default.
+    method: how to search everywhere; differential evolution by default.
+    tolerances: path -> how far its value may be off to either side as made, in the unit of the path or as a share
+    ``"5%"``: stiffness, damping, angles. Every design then counts as the worst that it may be.
+    used: the largest share of a limit that a drive uses; a design that uses more than 1 counts as worse than any other.
+    progress: told the share done; when it answers "stop" the best so far is returned as cancelled.
 
-    Returns
-    -------
-    Calm
-
-    Raises
-    ------
-    InputError
-        What the model misses, each with the key to add; no band of speeds; a path that leads to no number, a range that
-        is none, a grid of too many designs.
-
-    See Also
-    --------
-    absorber, torsion_response
-
-    Notes
-    -----
     Every design runs on the exact equations at evenly spread speeds and about its own resonances, many designs in one
     harmonic balance; one that would be the best but is unstable amid a zone of parametric resonance counts as worse
     than any stable one. With tolerances the worst of the drive as drawn and of all corners counts; a place within them
     that turns out worse joins these, and the search is done again: J. W. Blankenship and J. E. Falk, Journal of
     Optimization Theory and Applications 19 (1976). From the best, values without steps are refined by sequential
     quadratic programming, peaks between the speeds met on the way.
-
-    Examples
-    --------
-    >>> from cardan.drive.shaft import Shaft
-    >>> from cardan.drive.station import Station
-    >>> tube = Shaft(number=2, stiffness=5000.0, damping=2.0, inertia=0.01)
-    >>> drive = replace(Drive.from_angles([0.25, 0.25]), shafts=(tube,),
-    ...     stations=(Station(shaft=3, inertia=0.8),), duty=Duty(torque=60.0, speed_range=(20.0, 60.0)))
-    >>> drive = replace(drive, shafts=(drive.shafts[0], replace(tube, yoke_angle=0.6), drive.shafts[2]))
-    >>> found = optimise_torsion(drive, free={"shafts[1].yoke_angle_deg": (-60, 60)}, method=Grid(points=9))
-    >>> print(f"{found.values['shafts[1].yoke_angle_deg']:.1f}°, {found.reduction:.1%} of the torque")
-    -1.4°, 0.6% of the torque
     """
     asked = drive if duty is None else replace(drive, duty=duty)
     band = wanted_band(asked.duty, speeds)
