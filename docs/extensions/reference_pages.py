@@ -148,17 +148,16 @@ def _cell(value: Any) -> str:
 
 def examples() -> str:
     """Return one section for each shipped example: its picture, what the program says of it, its text."""
-    from cardan import equivalent_joint
     from cardan.io import example, example_names, example_text
     from cardan.questions.motion.equivalence import SYNCHRONOUS
+    from cardan.report.answers import subject
 
     parts = []
     for name in example_names():
         drive, text = example(name), example_text(name)
-        joint = equivalent_joint(drive)
         said = f"{len(drive.joints)} joints" if len(drive.joints) > 1 else "one joint"
-        uneven = float(joint.speed_fluctuation)
-        turns = "the output turns evenly" if uneven < SYNCHRONOUS else f"the output is {100 * uneven:.3g} % irregular"
+        share = subject(drive).fluctuation
+        turns = "its output is uniform" if share < SYNCHRONOUS else f"{100 * share:.3g} % speed fluctuation of its output"
         turns += " as drawn" if drive.movements else ""
         parts.append(f"## {name}\n\n![{drive.name}](/_build/pictures/example-{name}.svg)\n")
         parts.append(f"{drive.name}: {said}, {turns}.\n")
