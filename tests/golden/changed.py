@@ -41,6 +41,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         BOUNCES,
     ),
     (r"check examples/two-piece-rubber-bearing", r"(verdicts|limits)\.(limit|utilisation|value)", BOUNCES),
+    (r"select examples/truck-power-unit", r"(need|sizes|types)\..*", BANDS),
     (r"check examples/car-propshaft", r"verdicts\.utilisation", PLANES),
     (r"balance examples/car-propshaft", r"shafts\.unbalance_g_mm", PLANES),
     (r"balance examples/two-piece-rubber-bearing", r"shafts\.allowed_plane_g_mm", PLANES),
