@@ -26,6 +26,8 @@ DRIFT = "above a resonance a drift of the mean speed under constant torques is n
 
 BOUNCES = "the wear of a spline slackens the shaft that bows, not the supports on which a line bounces"
 
+KINDS = "joints of every kind count in torsional vibration, each by its law"
+
 NUMBERS: tuple[tuple[str, str, str], ...] = (
     (
         r"select examples/(pto-hitch|rolling-mill-(lower|upper)-spindle|truck-rear-axle)\.toml --torque-Nm",
@@ -41,6 +43,11 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         BOUNCES,
     ),
     (r"check examples/two-piece-rubber-bearing", r"(verdicts|limits)\.(limit|utilisation|value)", BOUNCES),
+    (
+        r"strength examples/(double-cardan-propshaft|propshaft-with-rzeppa|front-halfshaft|tracta-steered-axle)",
+        r"dynamic_factor",
+        KINDS,
+    ),
     (r"select examples/truck-power-unit", r"(need|sizes|types)\..*", BANDS),
     (r"check examples/car-propshaft", r"verdicts\.utilisation", PLANES),
     (r"balance examples/car-propshaft", r"shafts\.unbalance_g_mm", PLANES),
