@@ -48,6 +48,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         r"dynamic_factor",
         KINDS,
     ),
+    (r"strength examples/truck-power-unit\.toml --size joint", r"(limits|limits_as_made|tried|at_limit|need).*", BANDS),
     (r"select examples/truck-power-unit", r"(need|sizes|types)\..*", BANDS),
     (r"check examples/car-propshaft", r"verdicts\.utilisation", PLANES),
     (r"balance examples/car-propshaft", r"shafts\.unbalance_g_mm", PLANES),
