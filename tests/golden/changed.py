@@ -11,7 +11,7 @@ HELD = "end shafts without a support are held by their machines, as in forces, b
 BINS = "bins are as wide as a power of two of the unit, which is per cent now"
 BANDS = "orders that do not repeat are answered with the joints, side bands and all, and no longer by the straight line"
 
-KINDS = "a joint without a cross no longer silences the other joints: what is refused is what the file lacks"
+LACKS = "a joint without a cross no longer silences the other joints: what is refused is what the file lacks"
 
 MORE = "the best settings on spline teeth over all poses stand beside those without teeth"
 
@@ -95,6 +95,6 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
 
 REFUSED: tuple[tuple[str, str], ...] = (
     (r"(losses|forces) examples/truck-duty-cycle\.toml$", "parts of a duty cycle say the torque too: other keys lack"),
-    (r"\S+ examples/(front-halfshaft|propshaft-with-rzeppa|double-cardan-propshaft|tracta-steered-axle)\.toml", KINDS),
+    (r"\S+ examples/(front-halfshaft|propshaft-with-rzeppa|double-cardan-propshaft|tracta-steered-axle)\.toml", LACKS),
 )
 """Pattern of a command line that is refused for other fields than it was, and why."""

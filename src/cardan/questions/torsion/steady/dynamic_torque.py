@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import pickle
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
@@ -17,7 +18,6 @@ from cardan.questions.torsion.model.inputs import Law, Swinging
 from cardan.questions.torsion.model.torsional_balance import element_torques, joint_torques
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
 from cardan.questions.torsion.model.torsional_modes import straight_waves
-from cardan.questions.torsion.model.torsional_train import TorsionalTrain
 
 from .orbit import Orbit
 from .steady import steady_orbits
@@ -32,7 +32,6 @@ LOOK = 120
 class DynamicTorque:
     """Torques of steady torsional vibration at some speeds, all masses and the mean torque in them."""
 
-    train: TorsionalTrain
     orbit: Orbit  # (s,): the motions
     found: Array  # (s,) of bool: whether a motion was found
     low: Array  # low, high (s, n+1) [N·m]: least and largest torque of every shaft; nan where no motion was found
@@ -70,23 +69,52 @@ def dynamic_torque(drive: Drive, duty: Duty | None = None, *, speed: ArrayLike, 
     speeds = np.asarray(speed, dtype=float)
     train, whole = loaded_model(drive, chosen, speeds)
     model, loose = parted(replace(whole, backlash=0.0 * whole.backlash) if closed else whole)
+    line = tuple(host is None for host in train.hangs)
+    return _torques(_Vibrating(model, loose, speeds, line, len(drive.joints) + 1))
+
+
+@dataclass(frozen=True, eq=False)
+class _Vibrating:
+    """A torsional model at some speeds; one of the same content is equal, whatever drive it belongs to."""
+
+    model: TorsionalModel
+    loose: tuple[Torque, ...]  # torques that do not repeat within two turns
+    speeds: Array  # (s,) [rad/s]
+    line: tuple[bool, ...]  # whether each station belongs to the line itself
+    shafts: int
+    content: bytes = field(init=False)
+
+    def __post_init__(self) -> None:
+        told = pickle.dumps((self.model, self.loose, self.speeds, self.line, self.shafts))
+        object.__setattr__(self, "content", told)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Vibrating) and self.content == other.content
+
+    def __hash__(self) -> int:
+        return hash(self.content)
+
+
+@lru_cache(maxsize=64)  # drives of many joint sizes share few torsional models, and a model takes a second
+def _torques(asked: _Vibrating) -> DynamicTorque:
+    """Return the torques of a model."""
+    model, speeds, shafts = asked.model, asked.speeds, asked.shafts
     orbit, status = steady_orbits(model, speed=speeds)
     found = (status == Status.CONVERGED) | (status == Status.COARSE)
     nothing = np.zeros((len(speeds), len(model.elements)))
-    part = DynamicTorque(train=train, orbit=orbit, found=found, low=nothing, high=nothing, beside=nothing)
+    part = DynamicTorque(orbit=orbit, found=found, low=nothing, high=nothing, beside=nothing)
     q, rate, _acceleration = orbit.at(part.angle)
     drives = orbit.drives(np.arange(orbit.count))
     torque = np.moveaxis(element_torques(drives, q, rate), -1, -2)
     alone = -peak(-torque), peak(torque)
-    lowest, highest = _with_bands(orbit, loose, *alone)
+    lowest, highest = _with_bands(orbit, asked.loose, *alone)
     beside: Array = np.maximum(alone[0] - lowest, highest - alone[1])
-    shafts = len(drive.joints) + 1
     at_joints = np.stack([_of_shafts(model, beside, k, shafts) for k in range(shafts)], axis=-1)
     at_ends = np.maximum(at_joints[:, :-1], at_joints[:, 1:])
     ends = [(-peak(-one) - at_ends, peak(one) + at_ends) for one in part.at_joints(part.angle)]
     low, high = np.full((len(speeds), shafts), np.inf), np.full((len(speeds), shafts), -np.inf)
     for k in range(shafts):
-        own = [e for e, (a, b) in enumerate(model.elements) if model.shaft[a] == k and train.hangs[b] is None]
+        own = [e for e, (a, b) in enumerate(model.elements) if model.shaft[a] == k and asked.line[b]]
         lows, highs = [lowest[:, e] for e in own], [highest[:, e] for e in own]
         if k < shafts - 1:
             lows, highs = [*lows, ends[0][0][:, k]], [*highs, ends[0][1][:, k]]
