@@ -7,12 +7,15 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError, example
+from cardan.answers.data import data
+from cardan.answers.reader import USUAL
 from cardan.catalogue import catalogue, completed
 from cardan.catalogue.rows import JointSize
 from cardan.checks import check
 from cardan.checks.strength.strength import strength
 from cardan.choices.size_search import CHECKS, R20, R40, round_up
 from cardan.choices.sizing import size
+from cardan.choices.sizing_answer import answer
 from cardan.choices.trade_off import front, trade_off
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty, Limits
@@ -168,6 +171,18 @@ def test_a_size_whose_life_nobody_can_tell_is_not_taken_where_a_life_is_asked():
     assert any(one.passed for one in short.tried if one.id.startswith("ml-"))
 
 
+def test_a_size_whose_torque_nobody_can_tell_is_not_taken():
+    found = size(Drive.from_angles([0.05, 0.05]), Duty(speed=50.0, torque=900.0), "joint")
+    rows = catalogue().rows(JointSize)
+    bare = [one for one in found.tried if one.unknown]
+    assert {"din808-16-6", "spicer-1330"} <= {one.id for one in bare}  # limits of speed alone, or of their type
+    assert not any(one.passed for one in bare)
+    assert all(rows[one.id].rating is None or rows[one.id].rating.max_torque is None for one in bare)
+    assert rows[found.values["joints[0].size"]].rating.max_torque > 900.0
+    told = {row["size"]: row["worst"] for row in data(answer(found.drive, found), USUAL)["tried"]}
+    assert told["din808-16-6"] == "not judged: no torque rating"
+
+
 def test_a_composite_tube_is_sized_against_buckling():
     layup = Layup(
         angles=(45 * deg, -45 * deg) * 3,
@@ -200,6 +215,7 @@ def test_a_duty_cycle_is_sized_by_its_heaviest_part():
         ("journal", {}, "part"),
         ("tube:2", {"shafts": (Shaft(number=2, outer=70 * mm, length=1.0),)}, "shafts[1].material.yield_strength"),
         ("tube:2", {"duty": Duty(speed=10.0)}, "duty.torque"),
+        ("joint", {"duty": Duty(speed=10.0)}, "duty.torque"),
     ],
 )
 def test_what_cannot_be_sized_says_why(part, changes, field):

@@ -28,6 +28,8 @@ BOUNCES = "the wear of a spline slackens the shaft that bows, not the supports o
 
 KINDS = "joints of every kind count in torsional vibration, each by its law"
 
+RATED = "a size of joint whose torque its maker does not tell is not judged, and not taken"
+
 NUMBERS: tuple[tuple[str, str, str], ...] = (
     (
         r"select examples/(pto-hitch|rolling-mill-(lower|upper)-spindle|truck-rear-axle)\.toml --torque-Nm",
@@ -48,7 +50,11 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         r"dynamic_factor",
         KINDS,
     ),
-    (r"strength examples/truck-power-unit\.toml --size joint", r"(limits|limits_as_made|tried|at_limit|need).*", BANDS),
+    (
+        r"strength \S+ --size joint --torque-Nm",
+        r"((limits|limits_as_made)\.(limit|utilisation|value)|tried\.passed)",
+        RATED,
+    ),
     (r"select examples/truck-power-unit", r"(need|sizes|types)\..*", BANDS),
     (r"check examples/car-propshaft", r"verdicts\.utilisation", PLANES),
     (r"balance examples/car-propshaft", r"shafts\.unbalance_g_mm", PLANES),
@@ -77,7 +83,16 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         r"((joints|limits|shafts|tried|torsional_vibration)\..*|rated_torque_Nm|torque_factor|utilisation)",
         BANDS,
     ),
-    (r"torsion (absorber|calm) examples/truck-power-unit\.toml", r".*", BANDS),
+    (
+        r"torsion (absorber|calm) examples/truck-power-unit\.toml",
+        r"(after|before|best|closed_form|curves|history_Nm|largest_\w+|modes_after|reduction|run_peaks_Nm)\b.*",
+        BANDS,
+    ),
+    (
+        r"torsion (absorber|calm) examples/truck-power-unit\.toml",
+        r"(unstable_before_rpm|values|without)\b.*",
+        BANDS,
+    ),
     (r"check examples/truck-power-unit\.toml", r"verdicts\.(utilisation|value)", BANDS),
     (
         r"torsion modes examples/truck-power-unit\.toml",
@@ -89,7 +104,6 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         r"unstable_(before|after)_rpm",
         DRIFT,
     ),
-    (r"strength examples/pto-hitch\.toml --size joint", r"(limits|limits_as_made|tried)\..*", WORST),
 )
 """Pattern at the start of a command line, pattern of a whole old path, why its numbers are others."""
 

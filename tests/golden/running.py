@@ -18,7 +18,7 @@ from .plan import BOXED, EXAMPLES, PREPARED, cases
 
 PLAIN = {"NO_COLOR": "1", "TERM": "dumb", "COLUMNS": "80", "PYTHONUTF8": "1", "CARDAN_LANG": "en"}
 
-LIMIT_S = 600
+LIMIT_S = 60
 """A run that takes longer is stopped and stored as skipped."""
 
 

@@ -333,6 +333,7 @@ class Tried:
     mass: float  # [kg]
     utilisation: float  # largest of the checks that could be judged; nan where none could
     passed: bool
+    unknown: str = ""  # "torque" or "life" where nothing in the catalogue lets a check judge it
     worst: Verdict | None = None  # the check with the largest utilisation
     missing: tuple[str, ...] = ()  # paths for want of which some checks could not be judged
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from cardan.catalogue import Catalogue, catalogue, completed, filled
 from cardan.catalogue.rows import JointSize
-from cardan.checks import Verdict, check
+from cardan.checks import Verdict, check, design
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
@@ -248,6 +248,9 @@ __all__ = ["HOLDS", "PARTS", "Hold", "Sizing", "Tried", "size"]
 LIVES = ("bearing_life", "rated_torque")
 """Checks that judge the running time asked of a joint; a size that none of them can judge is not taken."""
 
+CARRIES = ("joint_torque", "rated_torque", "journal_strength", "yoke_strength")
+"""Checks that judge the torque that a joint carries; a size that none of them can judge is not taken either."""
+
 
 def smallest_row(drive: Drive, number: int, rows: Catalogue) -> Sizing:
     """Return the smallest row of the catalogue that passes, for one joint or for all alike."""
@@ -260,6 +263,9 @@ def smallest_row(drive: Drive, number: int, rows: Catalogue) -> Sizing:
     sizes = rows.offered(next((drive.joints[i].size for i in chosen if drive.joints[i].size), ""))
     if not sizes:
         raise refuse("catalogue", _("holds no sizes of joints"), "empty")
+    if not design(drive, known=rows).loaded:
+        raise refuse("duty.torque", _("missing; the size depends on it"), "missing")
+    asked_life = drive.duty.life is not None
     tried: list[Tried] = []
     best: tuple[Drive, tuple[Verdict, ...], JointSize] | None = None
     for row in sizes:
@@ -270,8 +276,11 @@ def smallest_row(drive: Drive, number: int, rows: Catalogue) -> Sizing:
         every = [one for one in check(whole, only=CHECKS["joint"], known=rows) if one.subject in subjects]
         judged = tuple(one for one in every if one.run and not one.advice)
         worst = foremost_of(judged, used) if judged else None
-        unjudged = drive.duty.life is not None and not any(one.check in LIVES for one in judged)
-        passed = worst is not None and used(worst) <= 1.0 and not unjudged
+        names = {one.check for one in judged}
+        if row.rating is None or row.rating.max_torque is None:
+            names.discard("joint_torque")  # it was judged by what is usual for its type
+        unknown = "torque" if names.isdisjoint(CARRIES) else "life" if asked_life and names.isdisjoint(LIVES) else ""
+        passed = worst is not None and used(worst) <= 1.0 and not unknown
         tried.append(
             Tried(
                 id=row.id,
@@ -279,6 +288,7 @@ def smallest_row(drive: Drive, number: int, rows: Catalogue) -> Sizing:
                 mass=math.nan if row.mass is None else row.mass,
                 utilisation=math.nan if worst is None else used(worst),
                 passed=passed,
+                unknown=unknown,
                 worst=worst,
                 missing=tuple(dict.fromkeys(path for one in every for path in one.missing)),
             )

@@ -170,8 +170,8 @@ def _records(name: str, verdicts: Sequence[Verdict]) -> Table:
 
 
 def _catalogued(tried: Sequence[Tried]) -> Table:
-    states: list[Tone] = ["plain" if one.worst is None else "good" if one.passed else "failed" for one in tried]
-    worst = [_("nothing could be judged") if one.worst is None else one.worst.title for one in tried]
+    states = [_tone(one) for one in tried]
+    worst = [_governing(one) for one in tried]
     missing = [[key_of(path) for path in one.missing] for one in tried]
     return Table(
         name="tried",
@@ -200,10 +200,29 @@ def _catalogued(tried: Sequence[Tried]) -> Table:
     )
 
 
+def _tone(tried: Tried) -> Tone:
+    """Return how a size stands: one of which too little is known neither passes nor fails."""
+    if tried.utilisation > 1.0:
+        return "failed"
+    return "good" if tried.passed else "plain"
+
+
+def _governing(tried: Tried) -> str:
+    """Return what decides on a size, or what is not known of it."""
+    if tried.worst is None:
+        return _("nothing could be judged")
+    if tried.utilisation <= 1.0 and tried.unknown:
+        return {"torque": _("not judged: no torque rating"), "life": _("not judged: no rating of its life")}[
+            tried.unknown
+        ]
+    return tried.worst.title
+
+
 def _remarks(found: Sizing) -> Iterator[Remark]:
     if not found.found:
-        last = found.tried[-1]
-        if last.worst is not None:
+        failed = [one for one in found.tried if one.utilisation > 1.0]
+        for last in failed[-1:]:
+            assert last.worst is not None
             text = _("Failed: even {size} is at {used} of its limit: {title}.")
             said = say(text, size=last.id, used=share(last.utilisation), title=last.worst.title)
             yield Remark(text=said, tone="failed")
