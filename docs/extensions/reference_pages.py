@@ -157,7 +157,9 @@ def examples() -> str:
         drive, text = example(name), example_text(name)
         said = f"{len(drive.joints)} joints" if len(drive.joints) > 1 else "one joint"
         share = subject(drive).fluctuation
-        turns = "its output is uniform" if share < SYNCHRONOUS else f"{100 * share:.3g} % speed fluctuation of its output"
+        turns = (
+            "its output is uniform" if share < SYNCHRONOUS else f"{100 * share:.3g} % speed fluctuation of its output"
+        )
         turns += " as drawn" if drive.movements else ""
         parts.append(f"## {name}\n\n![{drive.name}](/_build/pictures/example-{name}.svg)\n")
         parts.append(f"{drive.name}: {said}, {turns}.\n")
