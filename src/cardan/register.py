@@ -259,6 +259,7 @@ QUESTIONS: dict[str, Question] = {
             quick=False,
             takes=("progress",),
             without={"pose": WHIRLS, "movement": WHIRLS, "error": MINUTES},
+            within="line",
             examples=(
                 "cardan rotor truck.toml",
                 "cardan rotor truck.toml --shaft 3 --plot orbits.svg",
@@ -344,6 +345,7 @@ QUESTIONS: dict[str, Question] = {
             group=SUPPORTS,
             help=mark("Whether a drive or mechanism turns, its redundant constraints, and what to release."),
             without={"case": GEOMETRY, "error": MINUTES},
+            calm=True,
             examples=(
                 "cardan mobility pump.toml",
                 "cardan mobility slider.toml --turn --plot slider.svg",
@@ -357,6 +359,7 @@ QUESTIONS: dict[str, Question] = {
             help=mark("What misalignment loads: support forces of parts that do not fit, and what to release."),
             gathered=("error",),
             without={"case": GEOMETRY},
+            calm=True,
             examples=(
                 "cardan assembly pump.toml",
                 "cardan assembly pump.toml --csv > turn.csv",

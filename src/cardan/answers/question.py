@@ -61,6 +61,10 @@ class Question:
     report: bool = True  # whether the report has a page of it
     # whether that page has a place of its own there; the others follow in the order of the register
     apart: bool = False
+    # question that tells the same of more: where that has a page in the report, this one stands in the appendix
+    within: str = ""
+    # whether few ask for it while all is good: its page stands in the appendix of a report then
+    calm: bool = False
     # what ``ask`` takes beside the drive, of ``known`` (a catalogue), ``progress`` and what a user may choose
     takes: tuple[str, ...] = ()
     command: str = ""  # command that asks it, its words parted by blanks; the name of the question by default

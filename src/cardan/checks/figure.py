@@ -14,7 +14,7 @@ from cardan.texts import _
 from . import Verdict
 from .verdict_table import MOST
 
-BARS = 40
+BARS = 16
 """Bars in a figure; the least used limits are left out."""
 
 WIDEST = 10.0

@@ -30,6 +30,9 @@ CONDITIONS = frozenset(("acceleration", "speed_fluctuation", "joint_angle", "spl
 MOST = 1000.0
 """A limit that is exceeded more often is told as exceeded beyond that."""
 
+BY = "by"
+"""Name of the column of a table of verdicts that says where limits come from."""
+
 NOTHING = 1e-9
 """A value below this, in its unit, is told as nothing."""
 
@@ -130,7 +133,7 @@ def verdict_table(
                 left=True,
             ),
             Column(
-                key="",
+                key=BY,
                 heading=_("by"),
                 values=[Joined([one.source, *one.provenance, _unsaid(one)], between="; ") for one in first],
                 left=True,

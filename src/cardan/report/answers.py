@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, MutableMapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
 from typing import Any, TypeAlias
 
 from cardan.answers.answer import Answer, Tone
@@ -21,6 +21,7 @@ from cardan.texts import _, plural
 from cardan.version import VERSION
 
 from .block import Listing, Page, Points, Words, page
+from .description import signs
 from .subject import Progress, Subject
 from .summary import steep_joints
 
@@ -73,6 +74,7 @@ def found_page(
     progress: Progress | None = None,
     choices: Choices | None = None,
     kept: MutableMapping[str, Answer] | None = None,
+    shorter: Callable[[Answer], Answer] | None = None,
 ) -> Page | None:
     """Return the page of a question about a drive that has what it needs; None where nothing can be told."""
     if kept is not None and question.name in kept:
@@ -87,7 +89,7 @@ def found_page(
     found = gather(question, on.drive, question.answer(drive, result))
     if kept is not None:
         kept[question.name] = found
-    return page(found, reader())
+    return page(found if shorter is None else shorter(found), reader())
 
 
 # What a part of the report says where the drive file does not answer it: what is missing, or why it is refused.
@@ -159,6 +161,7 @@ def method_by_laws(on: Subject, source_text: str | None) -> Page:
     """Return the page of the method."""
     own = [f"{k}: {kind_name(joint)}" for k, joint in enumerate(on.drive.joints, start=1)]
     blocks: list[Words | Points | Listing] = [
+        signs(),
         Words(
             text=_(
                 "Every joint turns its driven shaft by φ′ = T(φ), φ from the plane of its shafts: a Möbius map of the "

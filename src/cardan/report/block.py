@@ -83,6 +83,7 @@ class Page:
     title: str  # heading
     answer: Text  # what it comes to, in a sentence
     blocks: Sequence[Block]  # from the top
+    tone: Tone = "plain"  # how good it is
     keys: Sequence[Any] = ()  # what of it stands on the first page
     alarms: Sequence[Words] = ()  # what of it the reader of the first page must not overlook
 
@@ -130,6 +131,7 @@ def page(answer: Answer, reader: Reader, depth: Depth = "full") -> Page:
         title=answer.title,
         answer=capital(told(answer.sentence, reader)),
         blocks=list(_blocks(answer, reader, depth)),
+        tone=answer.tone,
         keys=answer.keys,
         alarms=[Words(text=told(one.text, reader), tone=one.tone) for one in answer.remarks if one.alarm],
     )

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from cardan.answers.answer import Answer
+from cardan.answers.question import Question
 from cardan.answers.reader import reader, reading
 from cardan.book import answer as classical
 from cardan.catalogue import Catalogue
+from cardan.checks.verdict_table import BY, MISSING
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.errors import InputError
@@ -32,7 +35,7 @@ from .answers import (
     refused,
     warnings_by_laws,
 )
-from .block import Page, Picture, Table, Words, key_figures, key_table, page, shown, untold
+from .block import Page, Picture, Points, Table, Words, key_figures, key_table, page, shown, untold
 from .description import description
 from .method import method
 from .subject import Subject, asked
@@ -103,16 +106,21 @@ def content(
         on = replace(asked(drive, duty, progress), known=known)
         limits = judged(on) if on.complete else Judged()
         said = _said(on, limits)
+        front = [one for one in said.pages if not _calm(one)]
         if full:
-            said = replace(said, appendix=tuple(_appendix(on, limits, source_text)))
+            aside = [one for one in said.pages if _calm(one)]
+            said = replace(said, appendix=(*aside, *_appendix(on, limits, source_text)))
+        said = replace(said, pages=tuple(front))
     return replace(said, head=Head(rows=tuple(rows(drive.report)), units=who.line(), logo=logo))
 
 
 def _said(on: Subject, limits: Judged) -> Content:
     """Return what a report says, without its head and its appendix."""
-    pages: list[Page] = [description(on), moved(on.drive), phased(on), *_articulated(on), *loaded(on)]
+    pages: list[Page] = [description(on), moved(on.drive), phased(on), *_articulated(on)]
+    pages += loaded(on, judged=limits.page is not None)
     if limits.page is not None:
         pages.append(limits.page)
+    pages = list(_told_once(pages))
     keys = key_figures([*(one.keys for one in pages), limits.keys])
     return Content(
         title=on.drive.name or _("Universal-joint drive"),
@@ -154,7 +162,11 @@ def phased(on: Subject) -> Page:
 
 
 def _appendix(on: Subject, limits: Judged, source_text: str | None) -> Iterator[Page]:
-    """Yield what few ask for: checks not run, polygon of the yokes, classical approximations, method, drive file."""
+    """Yield what few ask for: parts alone, checks not run, polygon of yokes, classical formulas, method, file."""
+    for question in _asked(on):
+        said = found_page(question, on) if _within(question, on) else None
+        if said is not None:
+            yield said
     if limits.missing is not None:
         yield limits.missing
     if not on.by_laws:
@@ -182,10 +194,58 @@ def _articulated(on: Subject) -> Iterator[Page]:
 # The parts of the report about a drive under load and as made: each only where the drive file says enough.
 
 
-def loaded(on: Subject) -> Iterator[Page]:
-    """Yield the parts that the drive file asks for; none once the reader stopped the work."""
-    asked = (one for one in QUESTIONS.values() if one.report and not one.apart)
-    for question in asked if on.complete else ():
-        page = None if question.lacking(principal(question, on.drive)) else found_page(question, on)
-        if page is not None:
-            yield page
+def loaded(on: Subject, *, judged: bool) -> Iterator[Page]:
+    """Yield the parts that the drive file asks for; none once the reader stopped the work.
+
+    judged: a page of checks follows, which tells all verdicts.
+    """
+    shorter = _without_verdicts if judged else None
+    for question in _asked(on) if on.complete else ():
+        if not _within(question, on):
+            page = found_page(question, on, shorter=shorter)
+            if page is not None:
+                yield page
+
+
+def _asked(on: Subject) -> Iterator[Question]:
+    """Yield the questions with a page of the report for which the drive file says enough."""
+    for question in QUESTIONS.values():
+        if question.report and not question.apart and not question.lacking(principal(question, on.drive)):
+            yield question
+
+
+def _calm(page: Page) -> bool:
+    """Tell whether few ask for a page, for all is good."""
+    return page.tone == "good" and page.name in QUESTIONS and QUESTIONS[page.name].calm
+
+
+def _within(question: Question, on: Subject) -> bool:
+    """Tell whether the page of another question tells the same of more."""
+    return bool(question.within) and not QUESTIONS[question.within].lacking(principal(question, on.drive))
+
+
+def _without_verdicts(said: Answer) -> Answer:
+    """Return an answer without its verdicts, in tables and figures: the page of checks tells them."""
+    judged = [one for one in said.tables if any(column.key == BY for column in one.columns)]
+    if not judged:
+        return said
+    tables = [one for one in said.tables if one not in judged and one.name != MISSING]
+    return replace(said, tables=tables, figures=lambda: [one for one in said.figures() if one.name != said.name])
+
+
+def _told_once(pages: Sequence[Page]) -> Iterator[Page]:
+    """Yield pages; what is to be minded of several is told on the first of them."""
+    told: set[str] = set()
+    for one in pages:
+        blocks = [
+            replace(block, items=_new(block.items, told)) if isinstance(block, Points) else block
+            for block in one.blocks
+        ]
+        yield replace(one, blocks=[block for block in blocks if not isinstance(block, Points) or block.items])
+
+
+def _new(items: Sequence[str], told: set[str]) -> list[str]:
+    """Return the items that were not told yet, which are then."""
+    found = [one for one in items if one not in told]
+    told.update(found)
+    return found

@@ -1,4 +1,4 @@
-"""Page 2: the drive as it was understood."""
+"""Page 2: the drive as it was understood, with all that its file gives."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from cardan.answers.reader import half_turn
 from cardan.drive.body import body_length
 from cardan.drive.conditions import held_speeds, used_speeds
 from cardan.drive.joints.joint import Inside
-from cardan.figures.drive import space_figure, views_figure, yoke_figure
+from cardan.figures.drive import views_figure, yoke_figure
 from cardan.figures.palette import colour, shaft
 from cardan.maths.arrays import Array
 from cardan.questions.motion.kinds import inside, kind_name, steep
@@ -21,6 +21,7 @@ from cardan.texts import _, plural
 from cardan.units import deg
 
 from .block import Block, Page, Picture, Points, Table, Words, table
+from .inputs import inputs, sources
 from .subject import Subject
 
 
@@ -34,26 +35,18 @@ def description(on: Subject) -> Page:
     }[on.drive.form]
     blocks: list[Block] = [
         Picture(figure=views_figure(on.drive, on.seen)),
-        Picture(figure=space_figure(on.drive, on.seen)),
         _joints(on),
         _shafts(on),
     ]
     within = list(inside(on.drive))
     if within:
         blocks.append(_inside(within))
+    blocks += [table(one) for one in inputs(on.drive, on.known)]
+    where = list(sources(on.drive, on.known))
+    if where:
+        blocks.append(Points(title=_("Sources of what the catalogue fills in"), items=where))
     if on.joints > 1:
         blocks.append(Picture(figure=yoke_figure(on.drive, on.seen)))
-    blocks.append(
-        Words(
-            title=_("Signs"),
-            text=_(
-                "z points up, shafts run along the power flow. All turns about a shaft are positive clockwise for an "
-                "observer who looks along the power flow. The yoke angle γ of a shaft runs from its driving yoke "
-                "(output end) to its driven yoke (input end); yokes are lines, so angles that differ by 180° are the "
-                "same. The initial yoke position ψ of a joint is that of its driving yoke from the plane of the joint."
-            ),
-        )
-    )
     assumed = list(_assumed(on))
     if assumed:
         blocks.append(Points(title=_("Assumed where the file does not say otherwise"), items=assumed))
@@ -64,6 +57,19 @@ def description(on: Subject) -> Page:
             count=count[:1].upper() + count[1:], shafts=on.joints + 1, form=form
         ),
         blocks=blocks,
+    )
+
+
+def signs() -> Words:
+    """Return by which signs angles are told."""
+    return Words(
+        title=_("Signs"),
+        text=_(
+            "z points up, shafts run along the power flow. All turns about a shaft are positive clockwise for an "
+            "observer who looks along the power flow. The yoke angle γ of a shaft runs from its driving yoke "
+            "(output end) to its driven yoke (input end); yokes are lines, so angles that differ by 180° are the "
+            "same. The initial yoke position ψ of a joint is that of its driving yoke from the plane of the joint."
+        ),
     )
 
 

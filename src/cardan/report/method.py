@@ -17,12 +17,14 @@ from cardan.units import deg
 from cardan.version import VERSION
 
 from .block import Block, Listing, Page, Table, Words, table
+from .description import signs
 from .subject import Subject
 
 
 def method(on: Subject, source_text: str | None) -> Page:
     """Return the page of the method and the evidence."""
     blocks: list[Block] = [
+        signs(),
         Words(
             text=_(
                 "A universal joint is a Möbius map of the unit circle: with w = e^(2iθ), θ the angle of the driving "

@@ -5,18 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from cardan.answers import answer
 from cardan.answers.answer import KeyFigure
+from cardan.answers.quantity import Text, say
 from cardan.answers.reader import reader
 from cardan.checks.key_figures import key_figures
-from cardan.checks.verdict_table import MISSING
-from cardan.choices.check_answer import answer, ask, remedy_table, urgent
+from cardan.checks.verdict_table import BY, MISSING
+from cardan.choices import check_answer
+from cardan.choices.check_answer import ask, remedy_table, urgent
 from cardan.errors import InputError
 from cardan.questions.gathering import gather
 from cardan.register import QUESTIONS
 from cardan.texts import _, plural
 
 from .answers import refused
-from .block import Page, Table, Words, page, row, table, verdict_columns
+from .block import Block, Page, Points, Table, Words, page, row, shown, table, verdict_columns
 from .subject import Subject
 
 
@@ -40,10 +43,10 @@ def judged(on: Subject) -> Judged:
         return Judged(page=refused("check", _("Checks"), error), keys=tuple(key_figures(on.drive, ())))
     if result is None:
         return Judged(keys=tuple(key_figures(on.drive, ())))
-    said = gather(QUESTIONS["check"], on.drive, answer(on.drive, result))
-    shown, left = urgent(result)
+    said = gather(QUESTIONS["check"], on.drive, check_answer.answer(on.drive, result))
+    closest, left = urgent(result)
     note = plural("One more check passed.", "{count} more checks passed.", left).format(count=left) if left else ""
-    rows = [row(one, reader()) for one in shown]
+    rows = [row(one, reader()) for one in closest]
     lights = Table(columns=verdict_columns(), rows=rows, title=_("Limits"), note=note) if rows else None
     changes = table(remedy_table(on.drive, result, helpful=True)) if result.remedies else None
     lacking = [table(one) for one in said.tables if one.name == MISSING]
@@ -53,12 +56,18 @@ def judged(on: Subject) -> Judged:
         "{count} checks were not run for want of keys; cardan check --missing names them.",
         count,
     ).format(count=count)
-    shorter = page(replace(said, tables=[one for one in said.tables if one.name != MISSING]), reader())
+    sources: list[Text] = []
+    tables = [_cited(one, sources) for one in said.tables if one.name != MISSING]
+    shorter = page(replace(said, tables=tables), reader())
+    after: list[Block] = [Words(text=text)] if lacking else []
+    if sources:
+        numbered = [say("[{k}] {source}", k=str(k), source=one) for k, one in enumerate(sources, start=1)]
+        after.append(Points(title=_("Where the limits come from"), items=numbered))
     return Judged(
-        page=replace(shorter, blocks=[*shorter.blocks, *([Words(text=text)] if lacking else [])]),
+        page=replace(shorter, blocks=[*shorter.blocks, *after]),
         keys=said.keys,
         lights=lights,
-        urgent=shown,
+        urgent=closest,
         changes=changes,
         missing=Page(
             name=MISSING,
@@ -69,3 +78,15 @@ def judged(on: Subject) -> Judged:
         if lacking
         else None,
     )
+
+
+def _cited(given: answer.Table, sources: list[Text]) -> answer.Table:
+    """Return a table of verdicts that names where limits come from by numbers in a list of sources, which grows."""
+    columns = []
+    for one in given.columns:
+        if one.key == BY:
+            own = [shown(text) for text in one.values]
+            sources += [text for text in dict.fromkeys(own) if text and text not in sources]
+            one = replace(one, values=[f"[{sources.index(text) + 1}]" if text else "" for text in own])
+        columns.append(one)
+    return replace(given, columns=columns)

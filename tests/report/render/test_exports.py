@@ -41,7 +41,7 @@ def figure(name: str):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("thing", [PAGE, TABLES[0], figure("orders"), figure("space")])
+@pytest.mark.parametrize("thing", [PAGE, TABLES[0], figure("orders"), figure("views")])
 def test_every_kind_is_what_it_is_called(thing: object) -> None:
     for kind in kinds(thing):
         made = exported(thing, kind, title="two / joints")

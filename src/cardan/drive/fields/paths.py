@@ -257,8 +257,11 @@ def with_key(path: str) -> str:
     return f"{in_words(path)} ({key_of(path)})"
 
 
-def in_words(path: str) -> str:
-    """Return what stands at a path of the drive file, in words, with parts counted as people count them."""
+def in_words(path: str, *, inside: str = "") -> str:
+    """Return what stands at a path of the drive file, in words, with parts counted as people count them.
+
+    inside: the path of a part that need not be named.
+    """
     owners = {
         "joints": _("joint {number}"),
         "shafts": _("shaft {number}"),
@@ -289,7 +292,7 @@ def in_words(path: str) -> str:
     if axis:
         said += f", {'xyz'[int(axis[1])]}"
     parts = []
-    for step in bare.split("."):
+    for step in bare.removeprefix(f"{inside}.").split("."):
         found = STEP.fullmatch(step)
         if found and found[1] in owners and step != name:
             parts.append(owners[found[1]].format(number=int(found[2] or 0) + 1))

@@ -167,7 +167,7 @@ def shapes_figure(found: CriticalSpeeds) -> Figure:
             y=Axis(low=-1.45, high=1.45, ticks=(), grid=False),
             title=title,
         )
-        rows.append(Row(panels=(panel,), height=0.95))
+        rows.append(Row(panels=(panel,), height=0.72))
     return Figure(
         name="mode-shapes",
         title=_("Shapes in which the shafts whirl"),

@@ -34,7 +34,7 @@ def phasing_figures(found: Phasing) -> tuple[Figure, ...]:
     made = [polygon_figure(found), *((steering_figure(found),) if found.steering else ())]
     if max(one.speed_fluctuation for one in _compared(found)) > SYNCHRONOUS:
         made.append(settings_figure(found))
-    if float(np.max(found.settings[0].one_off)) > FLAT:
+    if len(found.settings[0].one_off) > 1 and float(np.max(found.settings[0].one_off)) > FLAT:
         made.append(sensitivity_figure(found))
     return tuple(made)
 

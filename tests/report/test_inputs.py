@@ -1,0 +1,55 @@
+"""Page 2 of a report: all that the drive file gives, in the trade's words, with where the catalogue's figures come from."""
+
+import tomllib
+
+import pytest
+
+from cardan import example
+from cardan.answers.printed import printed
+from cardan.answers.reader import USUAL, Reader
+from cardan.io.examples import example_names, example_text
+from cardan.report.inputs import inputs, sources
+
+TITLES = {"supports": "Supports", "stations": "Masses that turn with the shafts", "limits": "Limits set in the file"}
+
+
+def rows(drive, who=USUAL):
+    """All tables by title: words -> cells."""
+    shown = [printed(one, who, "full") for one in inputs(drive)]
+    return {one.title: {row[0].text: [cell.text for cell in row[1:]] for row in one.rows} for one in shown}
+
+
+@pytest.mark.parametrize("name", example_names())
+def test_every_key_of_a_part_has_its_row(name):
+    given, told = tomllib.loads(example_text(name)), rows(example(name))
+    for table, title in TITLES.items():
+        parts = given.get(table, [])
+        parts = parts if isinstance(parts, list) else [parts]
+        keys = {key for one in parts for key, value in one.items() if key != "name" and value not in (0, 0.0, False)}
+        plain = {key for key in keys if not any(isinstance(one.get(key), dict) for one in parts)}
+        assert len(told.get(title, ())) >= len(plain), (title, plain)
+
+
+def test_the_page_tells_the_drive_in_the_words_of_the_trade():
+    told = rows(example("car-propshaft"))
+    assert told["Duty"]["running time that the joints are to last"] == ["4\u202f000 h"]
+    assert told["Duty cycle"]["torque"] == ["150 N·m", "300 N·m", "560 N·m"]
+    joints = told["Sizes and ratings of the joints"]
+    assert joints["size"] == ["example-75"]  # two joints of one size share a column
+    assert joints["cross of the joint: distance between the middles of opposite bearings"] == ["58 mm"]
+    assert "yokes of the joint: arm of the force for bending" not in joints  # the catalogue's, and no main size
+    assert told["Tubes, materials, splines"]["sliding spline of the shaft: number of teeth"] == ["16"]
+
+
+def test_figures_of_the_catalogue_say_where_they_come_from():
+    said = list(sources(example("car-propshaft")))
+    assert any(one.startswith("example-75: ") and "made up for examples" in one for one in said)
+    assert any("GOST 1050-88" in one and "not confirmed" in one for one in said)
+    assert not list(sources(example("truck-exact-yokes")))
+
+
+def test_the_page_is_told_in_the_units_of_the_reader():
+    who = Reader(units={"length": "in", "torque": "lbft"}, decimal=",")
+    told = rows(example("car-propshaft"), who)
+    assert told["Duty cycle"]["torque"][0].startswith("110,6 ")
+    assert told["Tubes, materials, splines"]["outer diameter"] == ["2,992 in"]
