@@ -1,4 +1,4 @@
-"""Page 2 of a report: all that the drive file gives, in the trade's words, with where the catalogue's figures come from."""
+"""Page 2 of a report: all that the drive file gives, in words, with where the figures of the catalogue come from."""
 
 import tomllib
 
