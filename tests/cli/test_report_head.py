@@ -12,14 +12,14 @@ from tests.cli.conftest import EXAMPLES
 
 def test_options_of_the_command_win_over_the_file(cardan, tmp_path):
     matplotlib.image.imsave(tmp_path / "logo.png", np.zeros((30, 90, 3)))
-    report = TitleBlock(client="Wheel & Axle", author="design office", logo="not-there.svg")
+    report = TitleBlock(client="Axle & Co", author="design office", logo="not-there.svg")
     (tmp_path / "drive.toml").write_text(dumps(replace(example("z-arrangement"), report=report)))
     more = ("--author", "C. Meier", "--logo", tmp_path / "logo.png")
     assert cardan("report", tmp_path / "drive.toml", "-o", tmp_path / "report.html", *more).code == 0
     text = (tmp_path / "report.html").read_text()
     assert "<dd>C. Meier</dd>" in text
     assert "<dd>design office</dd>" not in text
-    assert "Wheel &amp; Axle" in text
+    assert "Axle &amp; Co" in text
     assert 'src="data:image/png;base64,' in text
 
 
