@@ -17,6 +17,10 @@ from cardan.errors import refuse
 from cardan.later import later
 from cardan.texts import DOMAIN, FOLDER, LANGUAGES, _, language, speaking
 
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+"""cardan solves many small systems: threads of the linear algebra itself cost more than they gain, six times as much
+on a machine that is busy. Set before numpy is loaded; what the user says counts."""
+
 app, failure = later("cardan.cli.app"), later("cardan.cli.shared.failure")
 """The parser, and what is said when something goes wrong: they load while an early ctrl-C is answered already."""
 limits = later("cardan.reading.limits")

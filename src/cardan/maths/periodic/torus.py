@@ -144,8 +144,7 @@ def _steps(
 
     def spread(values: Array) -> Array:
         waves = np.fft.fft2(values.reshape(-1, *samples)) / (samples[0] * samples[1])
-        picked: Array = waves[:, by[0], by[1]]
-        return picked
+        return np.ascontiguousarray(waves[:, by[0], by[1]])  # chosen so, speeds would lie innermost
 
     blocks: dict[tuple[int, int], Array] = {}
     for r, s in np.argwhere(coupled | np.eye(len(coupled), dtype=bool)).tolist():
