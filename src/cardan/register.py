@@ -174,6 +174,22 @@ QUESTIONS: dict[str, Question] = {
             ),
         ),
         Question(
+            name="road",
+            module="cardan.checks.torsion.road",
+            title=mark("Torsion along the movement"),
+            group=TORSION,
+            help=mark("How a drive vibrates in torsion while it moves: resonance, growth, reversals, damage."),
+            quick=False,
+            takes=("progress",),
+            command="torsion road",
+            gathered=("movement",),
+            without={"error": MINUTES},
+            examples=(
+                "cardan torsion road truck.toml",
+                "cardan torsion road truck.toml --plot road.svg",
+            ),
+        ),
+        Question(
             name="mathieu",
             module="cardan.book.mathieu_answer",
             title=mark("Mathieu's equation"),

@@ -144,9 +144,13 @@ def along(design: Design, times: Array) -> Design:
     times (t,) [s].
     Where a joint bends 90° or more, the drive as drawn stands in.
     """
+    return at_points(design, moving_rows(design.points, design.drive.movements, times))
+
+
+def at_points(design: Design, points: Array) -> Design:
+    """Return a design with its points elsewhere (..., t, n+2, 3) [m]: drives (..., t) that stand so."""
     bare = in_form(replace(design.drive, movements=()), "points")
-    points = moving_rows(design.points, design.drive.movements, times)
-    shape = (*design.shape, times.size)
+    shape = (*design.shape, points.shape[-3])
     varied = {
         path: np.broadcast_to(values, design.shape)[..., None]
         for path, values in design.varied.items()

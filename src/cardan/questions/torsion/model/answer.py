@@ -510,8 +510,10 @@ def left_out(drive: Drive) -> Iterator[Remark]:
         parts = ", ".join(name for name, there in rubbing if there)
         yield Remark(text=text.format(parts=parts), command=("cardan", "losses", FILE))
     if drive.movements:
-        text = _("Movements count instant by instant: that joint angles change in time excites no vibration here.")
-        yield Remark(text=text)
+        text = _(
+            "Movements count instant by instant here, as if the drive stood; along the whole movement it is told by:"
+        )
+        yield Remark(text=text, command=("cardan", "torsion", "road", FILE))
 
 
 def assumptions(train: TorsionalTrain, *, wide: bool = False) -> Iterator[Remark]:

@@ -1,0 +1,1 @@
+"""Torsional vibration of a drive whose joint angles change while it runs."""

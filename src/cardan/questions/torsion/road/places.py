@@ -1,0 +1,179 @@
+"""Torsional vibration where a movement brings a drive: the exact periodic motion of every instant as if it stood so."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.models.geometry import geometry
+from cardan.maths.arrays import Array
+from cardan.maths.curves.extremes import peak
+from cardan.questions.motion.motion import initial_phases
+from cardan.questions.motion.standing import chain_at
+from cardan.questions.torsion.model.torsional_balance import element_torques
+from cardan.questions.torsion.model.torsional_layouts import period_of
+from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
+from cardan.questions.torsion.stability.floquet_map import floquet_map
+from cardan.questions.torsion.steady.dynamic_torque import with_bands
+from cardan.questions.torsion.steady.orbit import Orbit
+from cardan.questions.torsion.steady.run_stability import Verdict
+
+LOOK = 60
+"""Places in half a turn at which torques are looked at."""
+
+HIGHEST = 8.0
+"""Highest order told."""
+
+CHUNK = 256
+"""Motions whose torques are read off at once."""
+
+NOISE = 1e-9
+"""Share of the largest torque below which one has no sign."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Places:
+    """Torsional vibration where a movement brings a drive; t instants, or places of a distribution, E elements."""
+
+    share: Array  # (t,): of the time
+    points: Array  # (t, n+2, 3) [m]: where the points of the drive are
+    joint_angle: Array  # (t, n) [rad]
+    # low, high, mean (t, E) [N·m]: least, largest and mean torque of every element; nan where no motion was found
+    low: Array
+    high: Array
+    mean: Array
+    reversals: Array  # (t, E) [1/s]: how often the torque changes its sign
+    times: Array | None = None  # (t,) [s]: instants; None for a distribution
+    amplitude: Array | None = None  # (t, E, K) [N·m]: of the orders; None in time, where they are not told apart
+    growth: Array | None = None  # (t,) [1/s]: of vibration by itself; None in time
+
+    @property
+    def found(self) -> Array:
+        """Whether there is a motion, array of bool (t,)."""
+        return np.asarray(np.isfinite(self.high).all(axis=-1))
+
+    @property
+    def largest(self) -> Array:
+        """Largest torque of either sign of every element, array (t, E) [N·m]."""
+        return np.asarray(np.maximum(np.abs(self.low), np.abs(self.high)))
+
+    def part(self, holds: Array) -> float:
+        """Return the share of the time in which something holds (t,), of that in which there is a motion."""
+        return float(self.averaged(np.asarray(holds, dtype=float)))
+
+    def averaged(self, values: Array) -> Array:
+        """Return the mean over the time of values (t, ...); nan where there is no motion at all."""
+        known = self.found
+        if not known.any():
+            return np.full(np.shape(values)[1:], np.nan)
+        return np.asarray(np.average(values[known], axis=0, weights=self.share[known]))
+
+
+class Standing:
+    """A drive as it stands at places of its points: what its torques do there.
+
+    model: closed, at its speed; slow: for disturbances, where its damping differs for them; loose: torques that do not
+    repeat within two turns; speed [rad/s].
+    """
+
+    def __init__(
+        self,
+        drive: Drive,
+        model: TorsionalModel,
+        slow: TorsionalModel | None,
+        loose: tuple[Torque, ...],
+        speed: float,
+    ) -> None:
+        self.drive, self.model, self.slow, self.loose, self.speed = drive, model, slow, loose, speed
+        self.base = np.asarray(geometry(drive).points)
+
+    def turned(self, points: Array, start: Array | float = 0.0) -> tuple[Array, Array, Array]:
+        """Return joint angles and phases of the joints at places of the points (t, n+2, 3), arrays (t, n) [rad].
+
+        start (t,) [rad]: by how much the first yoke is ahead of where it starts as drawn. The third array (t,) tells
+        where all joints turn.
+        """
+        chain, possible = chain_at(self.drive, points)
+        chain = replace(chain, start_phase=chain.start_phase + start, laws=None)
+        return np.asarray(chain.joint_angle), np.asarray(initial_phases(chain)), possible
+
+    def at(self, points: Array) -> Places:
+        """Return the vibration at places of the points (t, n+2, 3) [m], all of the same share."""
+        joint_angle, phase, possible = self.turned(points)
+        count = len(points)
+        speeds = np.full(count, self.speed)
+        found = floquet_map(replace(self.model, joint_angle=joint_angle, phase=phase), speed=speeds)
+        verdict = found.floquet
+        if self.slow is not None:
+            verdict = floquet_map(replace(self.slow, joint_angle=joint_angle, phase=phase), speed=speeds).floquet
+        known = possible & (found.floquet.verdict != Verdict.UNKNOWN)
+        parts = [self._read(found.orbit, rows) for rows in _chunks(count)]
+        mean, low, high, reversals, amplitude = (np.concatenate(each) for each in zip(*parts, strict=True))
+        if self.loose:
+            lowest, highest = with_bands(found.orbit, self.loose, low, high)
+            swung = (lowest < 0.0) & (highest > 0.0) & (reversals == 0.0)
+            order = min(abs(float(one.law.order or 0.0)) for one in self.loose)
+            reversals = np.where(swung, order * abs(self.speed) / math.pi, reversals)
+            low, high = lowest, highest
+
+        def held(values: Array) -> Array:
+            return np.asarray(np.where(known.reshape(-1, *(1,) * (values.ndim - 1)), values, np.nan))
+
+        return Places(
+            share=np.full(count, 1.0 / count),
+            points=points,
+            joint_angle=joint_angle,
+            low=held(low),
+            high=held(high),
+            mean=held(mean),
+            reversals=held(reversals),
+            amplitude=held(amplitude),
+            growth=held(verdict.growth_rate),
+        )
+
+    @property
+    def order(self) -> Array:
+        """Orders of the shaft, array (K,)."""
+        base = 2.0 * math.pi / self._period
+        return np.asarray(base * np.arange(1, round(HIGHEST / base) + 1))
+
+    @property
+    def _period(self) -> float:
+        return period_of(self.model)
+
+    def _read(self, orbit: Orbit, rows: Array) -> tuple[Array, ...]:
+        """Return mean, least, largest torque, changes of its sign [1/s] and amplitudes of the orders, (b, E, ...)."""
+        count = LOOK * round(orbit.period / math.pi)
+        q, rate, _acceleration = orbit.of(rows, np.arange(count) * (orbit.period / count))
+        torque = np.moveaxis(element_torques(orbit.drives(rows), q, rate), -1, -2)
+        wave = np.fft.rfft(torque, axis=-1) / count
+        orders = len(self.order)
+        changes = sign_changes(np.concatenate([torque, torque[..., :1]], axis=-1))
+        duration = orbit.period / abs(self.speed)
+        return (
+            wave[..., 0].real,
+            -peak(-torque),
+            peak(torque),
+            changes / duration,
+            2.0 * np.abs(wave[..., 1 : orders + 1]),
+        )
+
+
+def sign_changes(torque: Array) -> Array:
+    """Return how often torques (..., p) change their sign; what is but rounding has none.
+
+    >>> sign_changes(np.asarray([[2.0, -1.0, 1e-12, -1.0, 3.0]]))
+    array([2])
+    """
+    least = NOISE * np.nanmax(np.abs(torque), initial=0.0)
+    sign = np.where(np.abs(torque) <= least, 0.0, np.sign(torque))
+    at = np.maximum.accumulate(np.where(sign != 0.0, np.arange(sign.shape[-1]), 0), axis=-1)
+    kept = np.take_along_axis(sign, at, axis=-1)  # a zero keeps the sign before it
+    return np.asarray(np.sum(kept[..., 1:] * kept[..., :-1] < 0.0, axis=-1))
+
+
+def _chunks(count: int) -> list[Array]:
+    return [np.arange(first, min(first + CHUNK, count)) for first in range(0, count, CHUNK)]
