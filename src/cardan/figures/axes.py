@@ -118,6 +118,19 @@ def percent(share: float, digits: int = 3) -> str:
     return f"{significant(100.0 * share, digits)} %"
 
 
+def decades(low: float, high: float) -> tuple[float, ...]:
+    """Return round values along a logarithmic axis: powers of ten, with steps of 2 and 5 where these are few.
+
+    >>> decades(0.5, 2000.0), decades(8.0, 300.0)
+    ((1.0, 10.0, 100.0, 1000.0), (10.0, 20.0, 50.0, 100.0, 200.0))
+    """
+    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+    powers = [10.0**k for k in range(first, last + 1) if low <= 10.0**k <= high]
+    if len(powers) >= 3:
+        return tuple(powers[:: math.ceil(len(powers) / 6)])
+    return tuple(m * 10.0**k for k in range(first, last + 1) for m in (1, 2, 5) if low <= m * 10.0**k <= high)
+
+
 def powers_of_ten(values: Sequence[float]) -> tuple[str, ...]:
     """Return powers of ten, in full where all of them are short.
 

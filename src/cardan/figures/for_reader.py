@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -13,7 +12,7 @@ from cardan.answers.reader import Reader
 from cardan.maths.arrays import Array
 from cardan.units import DIMENSIONS
 
-from .axes import steps, written
+from .axes import decades, steps, written
 from .figure import Axis, Band, Bars, Cells, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
 
 
@@ -80,12 +79,12 @@ def _axis(old: Axis, scale: float, reader: Reader) -> Axis:
     numeric = texts == _plainly(old.ticks, old.log)
     if numeric:  # round numbers in the new unit
         if scale != 1.0:
-            ticks = _decades(low, high) if old.log else steps(low, high, max(len(old.ticks) - 1, 3))
+            ticks = decades(low, high) if old.log else steps(low, high, max(len(old.ticks) - 1, 3))
             texts = _plainly(ticks, old.log)
         texts = tuple(reader.signed(one) for one in texts)
     elif old.ticks and not any(texts):  # marks without words: where they stand along the axis that names them
         if scale != 1.0:
-            ticks = _decades(low, high) if old.log else steps(low, high, max(len(old.ticks) - 1, 3))
+            ticks = decades(low, high) if old.log else steps(low, high, max(len(old.ticks) - 1, 3))
         texts = ("",) * len(ticks)
     made = replace(old, label=label, unit=_printed(old, reader), dimension="", low=low, high=high)
     return replace(made, ticks=ticks, texts=texts, numeric=numeric)
@@ -99,15 +98,6 @@ def _printed(what: Axis | Panel, reader: Reader) -> str:
 def _plainly(ticks: Sequence[float], log: bool) -> tuple[str, ...]:
     """Return ticks as they are written where nobody says otherwise."""
     return (tuple(written([one])[0] for one in ticks) if log else written(ticks)) if ticks else ()
-
-
-def _decades(low: float, high: float) -> tuple[float, ...]:
-    """Return round values along a logarithmic axis: powers of ten, with steps of 2 and 5 where these are few."""
-    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
-    powers = [10.0**k for k in range(first, last + 1) if low <= 10.0**k <= high]
-    if len(powers) >= 3:
-        return tuple(powers[:: math.ceil(len(powers) / 6)])
-    return tuple(m * 10.0**k for k in range(first, last + 1) for m in (1, 2, 5) if low <= m * 10.0**k <= high)
 
 
 def _series(one: Series, scale: _Scale, reader: Reader) -> Series:

@@ -11,7 +11,7 @@ from cardan.answers.answer import Tone
 from cardan.answers.quantity import Quantity, Say, numbered, say
 from cardan.answers.reader import significant
 from cardan.drive.drive import Drive
-from cardan.figures.axes import axis, steps, written
+from cardan.figures.axes import axis, decades, steps, written
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
 from cardan.figures.palette import DASHES, dash_of, shaft
 from cardan.formulas.critical_speed import ARTICLE
@@ -290,15 +290,9 @@ def _decades(label: str, unit: str, value: np.ndarray) -> Axis:
     low, high = float(np.min(value)), float(np.max(value))
     if low == high:
         low, high = 0.5 * low, 2.0 * high
-    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-    tens = [10.0**power for power in powers]
-    ticks = [one for one in tens if low <= one <= high * (1.0 + 1e-9)]
-    if len(ticks) < 4:
-        ticks = [m * ten for ten in tens for m in (1.0, 2.0, 5.0) if low <= m * ten <= high * (1.0 + 1e-9)]
+    ticks = decades(low, high)
     texts = tuple(significant(one, 1) if one < 1.0 else written((one,))[0] for one in ticks)
-    return Axis(
-        label=label, unit=unit, dimension="stiffness", low=low, high=high, ticks=tuple(ticks), texts=texts, log=True
-    )
+    return Axis(label=label, unit=unit, dimension="stiffness", low=low, high=high, ticks=ticks, texts=texts, log=True)
 
 
 def _map_sentence(found: CriticalSpeedMap) -> Say:
@@ -438,10 +432,10 @@ def line_run_figure(drive: Drive, found: LineRun) -> Figure:
 
 
 def _rotor_decades(label: str, rows: list[Array], least: float) -> Axis:
-    """Return a logarithmic axis over whole decades."""
+    """Return a logarithmic axis of displacements."""
     low = max(min(float(np.nanmin(row)) for row in rows), least) / 1.2
     high = max(float(np.nanmax(row)) for row in rows) * 1.3
-    ticks = tuple(10.0**k for k in range(math.ceil(math.log10(low)), math.floor(math.log10(high)) + 1))
+    ticks = decades(low, high)
     return Axis(
         label=label,
         unit="um",

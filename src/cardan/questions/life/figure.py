@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.answers.reader import significant
-from cardan.figures.axes import axis, steps, written
+from cardan.figures.axes import axis, decades, steps, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule
 from cardan.figures.palette import dash_of, shaft
 from cardan.maths.ties import foremost
@@ -257,10 +257,7 @@ def _sentence(found: Life) -> Say | str:
 def _decades(label: str, values: np.ndarray) -> Axis:
     """Return a logarithmic axis of hours over whole decades and their halves."""
     low, high = float(np.min(values)) / 1.15, float(np.max(values)) * 1.15
-    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
-    wide = last - first > 3
-    marks = [m * 10.0**k for k in range(first, last + 1) for m in ((1.0,) if wide else (1.0, 2.0, 5.0))]
-    ticks = tuple(value for value in marks if low <= value <= high)
+    ticks = decades(low, high)
     texts = tuple(significant(value, 1) for value in ticks)
     return Axis(label=label, unit="h", dimension="duration", low=low, high=high, ticks=ticks, texts=texts, log=True)
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from cardan.answers.quantity import Quantity, say
-from cardan.figures.axes import axis, written
+from cardan.figures.axes import axis, decades, written
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule, Series
 from cardan.maths.arrays import Array
 from cardan.texts import _
@@ -106,14 +105,9 @@ def logarithmic(label: str, curves: Sequence[Array]) -> Axis:
     every = every[every > LEAST * high]
     low = max(float(np.min(every, initial=high)), high * 10.0**-DECADES)
     low, high = low / 1.25, high * 1.35
-    ticks = [
-        m * 10.0**power
-        for power in range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-        for m in (1.0, 2.0, 5.0)
-    ]
-    kept = tuple(one for one in ticks if low <= one <= high)
-    texts = tuple(written([one])[0] for one in kept)
-    return Axis(label=label, unit="Nm", dimension="torque", low=low, high=high, ticks=kept, texts=texts, log=True)
+    ticks = decades(low, high)
+    texts = tuple(written([one])[0] for one in ticks)
+    return Axis(label=label, unit="Nm", dimension="torque", low=low, high=high, ticks=ticks, texts=texts, log=True)
 
 
 FIGURES = {Absorber: absorber_figures}
