@@ -210,7 +210,18 @@ def test_what_rubs_in_a_joint_without_a_cross_is_counted(kind, torque):
     """Against the inner mechanism at single places, torque for torque; and the powers balance."""
     grooves = "driving_offset_mm = 4\ndriven_offset_mm = 4\ngroove_radius_mm = 30"
     pins = "driving_distance_mm = 50\ndriven_distance_mm = 50"
-    sizes = {"rzeppa": grooves, "weiss": grooves, "pin_coupling": pins}.get(kind, SIZES[kind])
+    journals = "journal_span_mm = 60\njournal_diameter_mm = 14"
+    profile = "driving = {axial_mm = 50, radial_mm = 20, radius_mm = 60}\n"
+    sizes = {
+        "rzeppa": grooves,
+        "weiss": grooves,
+        "pin_coupling": pins,
+        "double_cardan": f"{SIZES['double_cardan']}\ncentre_distance_mm = 80\n{journals}",
+        "tracta": f"{SIZES['tracta']}\nswivel_diameter_mm = 50\nswivel_length_mm = 40\ntongue_length_mm = 50",
+        "clemens": f"{profile}hinge_diameter_mm = 10\nhinge_length_mm = 30\ntip_diameter_mm = 12",
+        "offset_cross": f"{SIZES['offset_cross']}\n{journals}",
+        "half_cardan": "face_radius_mm = 30",
+    }.get(kind, SIZES.get(kind, ""))
     text = f"""format = 1
 [[joints]]
 kind = "{kind}"

@@ -97,7 +97,8 @@ def carried(placed: Placed, *, input_link: int, about: Array, load: Array, fed: 
 
     Power of what holds is nought on all motions it leaves: with the rows w·(t_b - t_a) of `Constraints.matrix` the
     speeds are its null vector, and the reactions λ meet wᵀλ + τ + load = 0 for every link. What is held too often
-    shares so that the sum of squares is least. Friction: μ|F| against sliding, μ(r|F| + 2r|M|/l) against turning.
+    shares so that the sum of squares is least. Friction: μ(|F| + 2|M|/l) against sliding, r times as much against
+    turning.
     """
     size, n = placed.size, placed.links
     shape = np.broadcast_shapes(placed.point.shape[:-2], about.shape[:-1], load.shape[:-2])
@@ -215,7 +216,7 @@ def _friction(placed: Placed, rate: Array, reaction: Array, sense: float) -> tup
         spin, way = frames.norm(turn), frames.norm(slide)
         turns, moves = spin > SLOW * fastest, way > SLOW * fastest * placed.size
         couple = np.where(turns, mu * arm * (force + tilt), 0.0)
-        push = np.where(moves, mu * force, 0.0)
+        push = np.where(moves, mu * (force + tilt), 0.0)
         about = -couple[..., None] * turn / np.where(turns, spin, 1.0)[..., None]
         along = -push[..., None] * slide / np.where(moves, way, 1.0)[..., None]
         point = placed.point[..., k, :] + 0.0 * along

@@ -208,6 +208,7 @@ PARTS: dict[str, tuple[str, ...]] = {
     "small_oscillation": ("bearing cap",),
     "lubrication": ("bearing cap",),
     "contact_pressure": ("bearing cap", "cross"),
+    "inner_pressure": ("ball", "roller"),
     "journal_strength": ("cross",),
     "yoke_strength": ("driving yoke", "driven yoke"),
     "spline_strength": ("spline sleeve", "spline shaft"),

@@ -33,6 +33,7 @@ from cardan.texts import _
 from . import (
     bearing_life,
     contact_pressure,
+    inner_pressure,
     joint_torque,
     journal_strength,
     needle_static,
@@ -69,6 +70,7 @@ STRENGTH = tuple(
         yoke_strength,
         needle_static,
         contact_pressure,
+        inner_pressure,
         bearing_life,
     )
 )

@@ -25,6 +25,15 @@ def register(*kinds: type[Joint]) -> None:
     JOINTS.update({kind.kind: kind for kind in kinds})
 
 
+def other_kinds(joint: Joint, name: str) -> list[str]:
+    """Return the kinds, in words, whose law a type of the catalogue turns by; empty where the joint may be of it.
+
+    A type that no kind names is anybody's, and an ideal joint of constant velocity may be any type.
+    """
+    kinds = {kind.kind: kind.in_words() for kind in JOINTS.values() if name in kind.types}
+    return [] if joint.kind in kinds or joint.any_type else list(kinds.values())
+
+
 register(
     Hooke, OffsetCross, DoubleCardan, ConstantVelocity, Tracta, Rzeppa, Weiss, Tripod, HalfCardan, ElasticHalfCardan,
     PinCoupling, Clemens,
@@ -32,5 +41,5 @@ register(
 
 __all__ = [
     "DEFAULT", "JOINTS", "Clemens", "ConstantVelocity", "DoubleCardan", "ElasticHalfCardan", "HalfCardan", "Hooke",
-    "Joint", "OffsetCross", "PinCoupling", "Profile", "Rzeppa", "Tracta", "Tripod", "Weiss", "register",
+    "Joint", "OffsetCross", "PinCoupling", "Profile", "Rzeppa", "Tracta", "Tripod", "Weiss", "other_kinds", "register",
 ]  # fmt: skip

@@ -20,7 +20,7 @@ from cardan.units import plain, quantity
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
 from .common.laws import contact_push
 from .common.site import Site
-from .joint import REFUSALS, Joint
+from .joint import CROSS_ONLY, REFUSALS, Joint, both_or_none
 from .pin_coupling import wrapped
 
 
@@ -40,6 +40,8 @@ class Clemens(Joint):
     kind: ClassVar[str] = "clemens"
     title: ClassVar[str] = mark("Clemens")
     types: ClassVar[tuple[str, ...]] = ("clemens",)
+    foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
+    rubbing: ClassVar[tuple[str, ...]] = ("driving", "hinge_diameter", "hinge_length", "tip_diameter")
     loose: ClassVar[bool] = True
     steepest: ClassVar[float] = 0.5 * math.pi
     refusals: ClassVar[Mapping[str, str]] = {
@@ -49,11 +51,17 @@ class Clemens(Joint):
 
     driving: Profile | None = plain(None, doc="profile of the driving shaft; without it the coupling counts as uniform")
     driven: Profile | None = plain(None, doc="profile of the driven shaft; as that of the driving one when not given")
+    hinge_diameter: float | None = quantity("length", None, doc="diameter of the pins of the arms", above=0.0)
+    hinge_length: float | None = quantity(
+        "length", None, doc="distance of the middles of both bearings of such a pin", above=0.0
+    )
+    tip_diameter: float | None = quantity("length", None, doc="diameter of the ball in which two arms meet", above=0.0)
 
     def own_problems(self) -> Iterator[Problem]:
         """Yield a driven profile without a driving one."""
         if self.driven is not None and self.driving is None:
             yield Problem("driving", _("missing; it goes with {other}").format(other="driven"), "missing")
+        yield from both_or_none(self, "hinge_diameter", "hinge_length", "tip_diameter")
 
     def pair(self, joint_angle: Array) -> mobius.Pair | None:
         """Return the identity for profiles alike, else None."""
@@ -87,9 +95,17 @@ class Clemens(Joint):
             (mark("driving hinge of joint {number}"), (DRIVING, arms[0]), first, frames.cross(back + 0.0 * u, u)),
             (mark("driven hinge of joint {number}"), (arms[1], DRIVEN), last, frames.cross(stance.after + 0.0 * v, v)),
         ):
-            yield InnerPair(name=name, type="R", links=links, point=hinge, axis=axis)
-        tip = mark("contact of joint {number}")
-        yield InnerPair(name=tip, type="S", links=arms, point=at, axis=u)
+            lever, spread = 0.5 * (self.hinge_diameter or 0.0), self.hinge_length or math.inf
+            yield InnerPair(
+                name=name, type="R", links=links, point=hinge, axis=axis, rubs=True, lever=lever, spread=spread
+            )
+        tip, ball = mark("contact of joint {number}"), 0.5 * (self.tip_diameter or 0.0)
+        yield InnerPair(name=tip, type="S", links=arms, point=at, axis=u, rubs=True, lever=ball)
+
+    def loaded(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield the same, where it is told how they touch."""
+        if self.told:
+            yield from self.mechanism(stance)
 
     @property
     def told(self) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -9,7 +10,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
 from cardan.texts import mark
 
-from .joint import Joint
+from .joint import REFUSALS, Joint
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -19,7 +20,12 @@ class ConstantVelocity(Joint):
     kind: ClassVar[str] = "constant_velocity"
     title: ClassVar[str] = mark("constant velocity")
     types: ClassVar[tuple[str, ...]] = ("block_double_disc",)
+    any_type: ClassVar[bool] = True
     fixed: ClassVar[bool] = True
+    refusals: ClassVar[Mapping[str, str]] = {
+        **REFUSALS,
+        "losses": mark("it is ideal and has no parts that rub; a joint with parts has its own kind"),
+    }
 
     def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the identity."""

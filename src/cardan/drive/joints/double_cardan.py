@@ -10,17 +10,18 @@ from typing import ClassVar
 import numpy as np
 
 from cardan.drive.shapes import caps, cross_body, fork
+from cardan.errors import Problem
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import ball, placed, revolved
 from cardan.texts import _, mark
-from cardan.units import plain
+from cardan.units import plain, quantity
 
 from .common import laws as tilted_plane
 from .common import site as drawn
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
 from .common.site import BACK, Site
-from .joint import Inside, Joint
+from .joint import CROSS_ONLY, Inside, Joint, both_or_none
 
 APART = 0.1  # distance of both joint centres over the length of the shaft behind, where nobody says it
 
@@ -32,6 +33,8 @@ class DoubleCardan(Joint):
     kind: ClassVar[str] = "double_cardan"
     title: ClassVar[str] = mark("double cardan")
     types: ClassVar[tuple[str, ...]] = ("double_centred", "double_frame")
+    foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
+    rubbing: ClassVar[tuple[str, ...]] = ("centring_ratio", "centre_distance", "journal_span", "journal_diameter")
     fixed: ClassVar[bool] = True
     steepest: ClassVar[float] = 0.5 * math.pi
 
@@ -45,6 +48,15 @@ class DoubleCardan(Joint):
     ball_on: str = plain(
         "driving", doc="shaft that carries the centring ball: driving or driven", choices=("driving", "driven")
     )
+    centre_distance: float | None = quantity("length", None, doc="distance of the centres of both crosses", above=0.0)
+    journal_span: float | None = quantity(
+        "length", None, doc="distance between the middles of opposite bearings of both crosses", above=0.0
+    )
+    journal_diameter: float | None = quantity("length", None, doc="diameter of the journals of both crosses", above=0.0)
+
+    def own_problems(self) -> Iterator[Problem]:
+        """Yield journals of which one size is missing."""
+        yield from both_or_none(self, "journal_span", "journal_diameter")
 
     def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the map of both joints together."""
@@ -62,7 +74,7 @@ class DoubleCardan(Joint):
         if self.centring_ratio is None:
             yield from self.inner(stance)
             return
-        before, behind = self._spread(stance.joint_angle, APART * stance.length)
+        before, behind = self._spread(stance.joint_angle, self.centre_distance or APART * stance.length)
         one, two = stance.centre - before * stance.before, stance.centre + behind * stance.after
         u, between = stance.driving, frames.unit(two - one)
         inner = frames.unit(frames.cross(between + 0.0 * u, u))
@@ -78,11 +90,20 @@ class DoubleCardan(Joint):
             (mark("driven pin of the middle piece of joint {number}"), (middle, last), two, inner),
             (mark("driven pin of joint {number}"), (last, DRIVEN), two, outer),
         ):
-            yield InnerPair(name=name, type="R", links=links, point=at, axis=axis, rubs=True)
+            sizes = 0.5 * (self.journal_diameter or 0.0), self.journal_span or math.inf
+            yield InnerPair(
+                name=name, type="R", links=links, point=at, axis=axis, rubs=True, lever=sizes[0], spread=sizes[1]
+            )
         ball, on = (
             ((DRIVEN, DRIVING), stance.after) if self.ball_on == "driving" else ((DRIVING, DRIVEN), stance.before)
         )
-        yield InnerPair(name=mark("ball of joint {number}"), type="SG", links=ball, point=stance.centre, axis=on)
+        name = mark("ball of joint {number}")
+        yield InnerPair(name=name, type="SG", links=ball, point=stance.centre, axis=on, rubs=True)
+
+    def loaded(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield the same, where the distance of both centres is given."""
+        if self.centring_ratio is not None and self.centre_distance is not None:
+            yield from self.mechanism(stance)
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield how it shares its joint angle, and the way of its ball."""

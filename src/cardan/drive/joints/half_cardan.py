@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -19,7 +19,7 @@ from cardan.units import plain, quantity
 from .common import laws as shared_turn
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance, bending, crossed
 from .common.site import Site, about
-from .joint import Inside, Joint
+from .joint import CROSS_ONLY, REFUSALS, Inside, Joint
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -29,12 +29,21 @@ class HalfCardan(Joint):
     kind: ClassVar[str] = "half_cardan"
     title: ClassVar[str] = mark("half joint")
     types: ClassVar[tuple[str, ...]] = ("half_bell", "half_gear", "gear_crowned_modern")
+    foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
+    rubbing: ClassVar[tuple[str, ...]] = ("face_radius",)
     crossed: ClassVar[bool] = True
     fixed: ClassVar[bool] = True
     slides: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(5.0)
 
     pairs: int = plain(2, doc="pairs of opposite faces or teeth; between two of them there must be play", low=1)
+
+    face_radius: float | None = quantity("length", None, doc="distance of faces or teeth from the axis", above=0.0)
+
+    def loaded(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield its faces, where it is given how far from the axis they are."""
+        for pair in self.mechanism(stance) if self.face_radius is not None else ():
+            yield replace(pair, told=pair.type == "R")
 
     def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the map of one pair of faces, that of a Hooke joint."""
@@ -46,7 +55,7 @@ class HalfCardan(Joint):
         at = stance.centre
         slide = mark("slide of joint {number}")
         yield InnerPair(name=slide, type="P", links=(DRIVING, part), point=at, axis=stance.before)
-        for pin in crossed(stance):
+        for pin in crossed(stance, journal=2.0 * (self.face_radius or 0.0), span=2.0 * (self.face_radius or math.inf)):
             yield replace(pin, links=(part, pin.links[1]) if pin.links[0] == DRIVING else pin.links)
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
@@ -96,6 +105,10 @@ class ElasticHalfCardan(Joint):
     fixed: ClassVar[bool] = True
     loose: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(10.0)
+    refusals: ClassVar[Mapping[str, str]] = {
+        **REFUSALS,
+        "losses": mark("its links give instead of rubbing; what they damp belongs to torsional vibration"),
+    }
 
     pairs: int | None = plain(
         None, doc="pairs of opposite links that share the torque; without it the joint counts as uniform", low=2

@@ -22,6 +22,8 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``inner``            pins of a cross, a contact, a slide or two axes in the bisecting plane, as the marks above say
 ``rubbing``          no: what rubs in it is not counted
 ``mechanism``        the same as ``inner``: it has no more links inside
+``loaded``           nothing: no load in it is told
+``pressed``          no keys: no contact in it is judged
 ``carried``          a driven shaft that keeps its direction, of a loose joint one in a bearing
 ``push``             no force goes with its couple
 ``shaft_behind``     the driven shaft turns about its axis and does not wobble
@@ -39,7 +41,7 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
 from types import MappingProxyType
 from typing import ClassVar, TypeAlias
@@ -104,6 +106,9 @@ class Joint:
     types: ClassVar[tuple[str, ...]] = ()
     """Rows of the catalogue's types of joints that turn by its law."""
 
+    any_type: ClassVar[bool] = False
+    """Whether it stands for joints of any type, as what turns ideally does."""
+
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY
     """Fields of every joint that mean nothing in one of this kind."""
 
@@ -127,6 +132,12 @@ class Joint:
 
     rubbing: ClassVar[tuple[str, ...]] = ()
     """Keys of the sizes that tell, with `friction`, what rubs in a joint without a cross; none where nothing does."""
+
+    static_pressure: ClassVar[float] = 4200e6
+    """Pressure of Hertz at which the contacts in it keep a mark [Pa]: that of balls in grooves behind ISO 76."""
+
+    pressed: ClassVar[tuple[str, ...]] = ()
+    """Keys of the sizes that tell the pressure of its balls or rollers; none where it has none."""
 
     slides: ClassVar[bool] = False
     """Whether it lets its shafts slide along each other."""
@@ -248,6 +259,10 @@ class Joint:
         known = (question == "forces" and self.told) or (question == "losses" and bool(self.rubbing))
         return "" if known else _(self.refusals.get(question, ""))
 
+    def without(self, names: Iterable[str]) -> tuple[str, ...]:
+        """Return those of its keys that it does not give."""
+        return tuple(name for name in names if getattr(self, name) is None)
+
     @property
     def told(self) -> bool:
         """Whether its sizes tell the forces that go with its torque."""
@@ -281,6 +296,10 @@ class Joint:
         Its stance is at one place of a turn or at many (...); points and axes of the pairs have the same axes.
         """
         yield from self.inner(stance)
+
+    def loaded(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield the pairs whose loads it tells, as many as carry its torque; none where its sizes are not given."""
+        yield from ()
 
     def carried(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the pairs that hold both its shafts in the frame, so that it turns once and is held but once."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
@@ -20,7 +21,7 @@ from cardan.units import plain, quantity
 from .common import site as drawn
 from .common.inner import DRIVEN, FRAME, InnerPair, Stance, carried, crossed
 from .common.site import Site
-from .joint import REFUSALS, Inside, Joint
+from .joint import CROSS_ONLY, REFUSALS, Inside, Joint, both_or_none
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -30,6 +31,8 @@ class OffsetCross(Joint):
     kind: ClassVar[str] = "offset_cross"
     title: ClassVar[str] = mark("offset cross")
     types: ClassVar[tuple[str, ...]] = ("hooke_offset_cross",)
+    foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
+    rubbing: ClassVar[tuple[str, ...]] = ("journal_span", "journal_diameter")
     crossed: ClassVar[bool] = True
     refusals: ClassVar[Mapping[str, str]] = {
         **REFUSALS,
@@ -41,6 +44,11 @@ class OffsetCross(Joint):
         "length", doc="from the pin on the driving shaft to the sliding ball that holds the driven shaft", above=0.0
     )
 
+    journal_span: float | None = quantity(
+        "length", None, doc="distance between the middles of opposite bearings of either pin", above=0.0
+    )
+    journal_diameter: float | None = quantity("length", None, doc="diameter of the pins", above=0.0)
+
     pin_side: str = plain(
         "near",
         doc="where the driven pin lies: near, toward the ball, or far, away from it",
@@ -51,6 +59,7 @@ class OffsetCross(Joint):
         """Yield a support within the cross."""
         if self.reach <= self.offset:
             yield Problem("reach", _("is not more than the offset of the pins"), "inconsistent")
+        yield from both_or_none(self, "journal_span", "journal_diameter")
 
     def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the map of the turn about the line from the joint centre to the ball: Hooke's, for any offset."""
@@ -63,7 +72,8 @@ class OffsetCross(Joint):
 
     def inner(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield both pins, a distance apart."""
-        return crossed(stance, offset=self._aside)
+        journal, span = self.journal_diameter or 0.0, self.journal_span or math.inf
+        return crossed(stance, offset=self._aside, journal=journal, span=span)
 
     def carried(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the bearing of its driving shaft, and the sliding ball that holds the driven one."""

@@ -119,6 +119,11 @@ class PinCoupling(Joint):
         yield InnerPair(name=pins[0], type="P", links=(DRIVING, point), point=at, axis=first, rubs=True)
         yield InnerPair(name=pins[1], type="SG", links=(DRIVEN, point), point=at, axis=last, rubs=True)
 
+    def loaded(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield the same, where it is told how they touch."""
+        if self.told:
+            yield from self.mechanism(stance)
+
     @property
     def told(self) -> bool:
         """Whether its distances are given."""

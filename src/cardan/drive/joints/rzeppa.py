@@ -7,19 +7,29 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from cardan.errors import Problem
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
-from cardan.maths.kernel import mobius
+from cardan.maths.kernel import frames, mobius
 from cardan.texts import _, mark
 from cardan.units import plain, quantity
 
 from .common import laws as shared_turn
 from .common import laws as tilted_plane
 from .common import site as drawn
-from .common.inner import InnerPair, Stance
+from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
 from .common.site import Site
 from .joint import CROSS_ONLY, Inside, Joint, both_or_none
-from .weiss import ball_places, balls_inside, groove_course, groove_inside, groove_mechanism
+from .weiss import (
+    ball_centre,
+    ball_places,
+    balls_inside,
+    groove_contact,
+    groove_course,
+    groove_inside,
+    groove_mechanism,
+)
 
 LEVER = ("lever_b", "lever_c")
 GROOVES = ("driving_offset", "driven_offset", "groove_radius")
@@ -34,6 +44,7 @@ class Rzeppa(Joint):
     types: ClassVar[tuple[str, ...]] = ("rzeppa_lever", "rzeppa_offset", "rzeppa_fixed_modern", "plunging_ball_modern")
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = GROOVES
+    pressed: ClassVar[tuple[str, ...]] = (*GROOVES, "ball_diameter", "groove_conformity", "pressure_angle")
     fixed: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(47.0)
 
@@ -49,6 +60,17 @@ class Rzeppa(Joint):
         "length", None, doc="from the joint centre to the centre of the grooves on the driven shaft", above=0.0
     )
     groove_radius: float | None = quantity("length", None, doc="radius of the grooves' middle line", above=0.0)
+    ball_diameter: float | None = quantity("length", None, doc="diameter of the balls", above=0.0)
+    groove_conformity: float | None = plain(
+        None, doc="radius of the section of a groove over the diameter of the balls", above=0.5
+    )
+    pressure_angle: float | None = quantity(
+        "angle",
+        None,
+        doc="angle of the normal of contact of a ball with the middle of its groove",
+        above=0.0,
+        below=math.pi / 2,
+    )
 
     def own_problems(self) -> Iterator[Problem]:
         """Yield a lever or grooves that are half given, and both at once."""
@@ -82,6 +104,12 @@ class Rzeppa(Joint):
             return self.inner(stance)
         return groove_mechanism(stance, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
 
+    def loaded(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield the contacts of its balls with bell, inner race and cage, where all balls fit at once."""
+        sizes = self.driving_offset, self.groove_radius, self.pressure_angle
+        if None not in sizes and self.driven_offset == self.driving_offset:
+            yield from _contacts(self, stance)
+
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield what its balls do beside turning."""
         if self.lever_b is not None and self.lever_c is not None:
@@ -100,6 +128,51 @@ class Rzeppa(Joint):
     def solid(self, site: Site) -> None:
         """Add bell, inner race, cage and balls."""
         drawn.bell_and_balls(site, count=self.balls, groove=self.groove_radius)
+
+
+# What its balls carry. A ball touches the groove of the bell, that of the inner race and the window of the cage. Both
+# grooves press on it at the pressure angle from the middle of the groove; what the two forces leave, as the grooves
+# lean against each other, pushes it along the axis of the cage. Bell and inner race hold the cage by its spheres.
+
+
+def _contacts(joint: Rzeppa, stance: Stance) -> Iterator[InnerPair]:
+    """Yield the contacts of the balls, the bell on the driving shaft; grooves offset alike.
+
+    A groove about a point A presses with N (± sin δ e × r̂ ∓ cos δ m), δ the pressure angle, e the axis of its shaft, r̂
+    the way out from it to the ball and m = (ball - A)/R: a ball that passes on the torque T_k needs N = T_k/(r sin δ),
+    and both grooves press alike on it. Straight, the cage holds N cos δ · 2c/R of it, c the offset: balance of forces.
+    """
+    offset, radius = joint.driving_offset or 0.0, joint.groove_radius or 0.0
+    steep, flat = math.sin(joint.pressure_angle or 0.0), math.cos(joint.pressure_angle or 0.0)
+    u, before, after = stance.driving, stance.before + 0.0 * stance.driving, stance.after + 0.0 * stance.driving
+    ball, cage = mark("ball {count} of joint {number}"), mark("cage of joint {number}")
+    names = mark("bell groove of ball {count}"), mark("inner groove of ball {count}")
+    window = mark("cage window of ball {count}")
+    size = joint.ball_diameter or 0.0
+    touching = [
+        groove_contact(
+            joint.ball_diameter, joint.groove_conformity, bent=side * flat / (radius + 0.5 * side * flat * size)
+        )
+        for side in (1.0, -1.0)
+    ]
+    for k in range(joint.balls):
+        turn = k * 2.0 * np.pi / joint.balls
+        way = frames.rotate(u, before, np.full(u.shape[:-1], turn))
+        along, out = ball_centre(stance.theta + turn, stance.joint_angle, offset, offset, radius)
+        at = stance.centre - along[..., None] * before + out[..., None] * way
+        rows = []
+        for axis, centre in ((before, stance.centre - offset * before), (after, stance.centre + offset * after)):
+            aside = at - stance.centre
+            beyond = frames.unit(aside - frames.dot(aside, axis)[..., None] * axis)
+            rows.append(steep * frames.cross(axis, beyond) - flat * (at - centre) / radius)
+        for name, links, normal, contact in (
+            (names[0], (DRIVING, ball), rows[0], touching[0]),
+            (names[1], (ball, DRIVEN), rows[1], touching[1]),
+            (window, (cage, ball), stance.middle + 0.0 * way, None),
+        ):
+            yield InnerPair(name=name, type="PT", links=links, point=at, axis=normal, count=k + 1, contact=contact)
+    for name, links in ((mark("cage in the bell"), (DRIVING, cage)), (mark("cage on the inner race"), (cage, DRIVEN))):
+        yield InnerPair(name=name, type="S", links=links, point=stance.centre, axis=stance.middle)
 
 
 # The lever that holds the cage of a Rzeppa joint in the bisecting plane, exactly at one angle and nearly beside it.

@@ -19,7 +19,7 @@ from .common import laws as tilted_plane
 from .common import site as drawn
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance, carried
 from .common.site import Site
-from .joint import Inside, Joint, both_or_none, missed
+from .joint import CROSS_ONLY, Inside, Joint, both_or_none, missed
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -29,6 +29,10 @@ class Tracta(Joint):
     kind: ClassVar[str] = "tracta"
     title: ClassVar[str] = mark("Tracta")
     types: ClassVar[tuple[str, ...]] = ("tracta",)
+    foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
+    rubbing: ClassVar[tuple[str, ...]] = (
+        "driving_distance", "driven_distance", "swivel_diameter", "swivel_length", "tongue_length",
+    )  # fmt: skip
     fixed: ClassVar[bool] = True
     centred: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(50.0)
@@ -40,9 +44,20 @@ class Tracta(Joint):
         "length", None, doc="from the joint centre to the middle of the groove of the driven fork", above=0.0
     )
 
+    swivel_diameter: float | None = quantity(
+        "length", None, doc="diameter at which both halves swivel in their forks", above=0.0
+    )
+    swivel_length: float | None = quantity(
+        "length", None, doc="distance of the middles of the two faces of a half that bear in its fork", above=0.0
+    )
+    tongue_length: float | None = quantity(
+        "length", None, doc="distance of the places at which the tongue bears in its slot, along it", above=0.0
+    )
+
     def own_problems(self) -> Iterator[Problem]:
-        """Yield a distance that stands alone."""
+        """Yield sizes that stand alone."""
         yield from both_or_none(self, "driving_distance", "driven_distance")
+        yield from both_or_none(self, "swivel_diameter", "swivel_length", "tongue_length")
 
     def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the map of the joint, the identity where both distances are equal."""
@@ -60,25 +75,28 @@ class Tracta(Joint):
         last = stance.centre + self.driven_distance * stance.after
         u, v = stance.driving, stance.driven
         face = frames.unit(frames.cross(u, last - first + 0.0 * u))
-        yield InnerPair(
-            name=mark("driving swivel of joint {number}"),
-            type="R",
-            links=(DRIVING, one),
-            point=first,
-            axis=u,
-            rubs=True,
-        )
-        yield InnerPair(
-            name=mark("tongue of joint {number}"),
-            type="E",
-            links=(one, two),
-            point=stance.centre,
-            axis=face,
-            rubs=True,
-        )
-        yield InnerPair(
-            name=mark("driven swivel of joint {number}"), type="R", links=(two, DRIVEN), point=last, axis=v, rubs=True
-        )
+        lever, spread = 0.5 * (self.swivel_diameter or 0.0), self.swivel_length or math.inf
+        tongue = self.tongue_length or math.inf
+        for name, kind, links, at, axis, sizes in (
+            (mark("driving swivel of joint {number}"), "R", (DRIVING, one), first, u, (lever, spread)),
+            (
+                mark("tongue of joint {number}"),
+                "E",
+                (one, two),
+                stance.centre,
+                face,
+                (0.5 * (self.tongue_length or 0.0), tongue),
+            ),
+            (mark("driven swivel of joint {number}"), "R", (two, DRIVEN), last, v, (lever, spread)),
+        ):
+            yield InnerPair(
+                name=name, type=kind, links=links, point=at, axis=axis, rubs=True, lever=sizes[0], spread=sizes[1]
+            )
+
+    def loaded(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield the same, where the distances are given."""
+        if self.driving_distance is not None:
+            yield from self.mechanism(stance)
 
     def carried(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield bearings of both shafts: it does not hold its centre by itself."""

@@ -10,13 +10,14 @@ from typing import ClassVar
 import numpy as np
 
 from cardan.drive.shapes import ACROSS
+from cardan.errors import Problem
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import Surface, ball, joined, placed, plate, revolved
 from cardan.texts import _, mark
 from cardan.units import quantity
 
-from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
+from .common.inner import DRIVEN, DRIVING, Contact, InnerPair, Stance
 from .common.site import Side, Site, about
 from .joint import CROSS_ONLY, Inside, Joint
 
@@ -30,6 +31,8 @@ class Tripod(Joint):
     types: ClassVar[tuple[str, ...]] = ("tripod_plunging",)
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("track_radius",)
+    pressed: ClassVar[tuple[str, ...]] = ("track_radius", "roller_diameter", "roller_crown", "track_section")
+    static_pressure: ClassVar[float] = 4000e6
     fixed: ClassVar[bool] = True
     slides: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(26.0)
@@ -38,9 +41,22 @@ class Tripod(Joint):
         "length", None, doc="distance of the tracks from their shaft's axis", above=0.0
     )
 
+    roller_diameter: float | None = quantity("length", None, doc="outer diameter of the rollers", above=0.0)
+    roller_crown: float | None = quantity(
+        "length", None, doc="radius of the profile of a roller, along its arm", above=0.0
+    )
+    track_section: float | None = quantity(
+        "length", None, doc="radius of the section of a track, larger than that of the rollers", above=0.0
+    )
+
     pivot: float | None = quantity(
         "length", None, doc="distance of the joint at the far end of its shaft, which pivots there", above=0.0
     )
+
+    def own_problems(self) -> Iterator[Problem]:
+        """Yield a track narrower than its roller."""
+        if self.track_section is not None and self.track_section <= (self.roller_crown or 0.0):
+            yield Problem("track_section", _("is not more than roller_crown: the roller would not fit"), "inconsistent")
 
     def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the identity, exact while the spider's shaft keeps its direction."""
@@ -74,6 +90,16 @@ class Tripod(Joint):
             arm, ahead = mark("arm {count} of joint {number}"), stance.before + 0.0 * way
             yield InnerPair(name=track, type="P", links=(DRIVING, link), point=at, axis=ahead, count=k, rubs=True)
             yield InnerPair(name=arm, type="SG", links=(DRIVEN, link), point=at, axis=way, count=k, rubs=True)
+
+    def loaded(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield the same, each track with the contact of its roller."""
+        sizes = self.roller_diameter, self.roller_crown, self.track_section
+        touching = None
+        if sizes[0] is not None and sizes[1] is not None and sizes[2] is not None:
+            touching = Contact(across=1.0 / sizes[1] - 1.0 / sizes[2], along=2.0 / sizes[0])
+        for pair in self.mechanism(stance) if self.track_radius is not None else ():
+            own = pair.type == "P"
+            yield replace(pair, told=own, contact=touching if own else None)
 
     def _rollers(self, stance: Stance, track: float | None = None) -> Iterator[tuple[Array, Array]]:
         """Yield the direction of each arm and the middle of its roller, arrays (..., 3)."""

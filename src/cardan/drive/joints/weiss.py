@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -17,7 +17,7 @@ from cardan.texts import _, mark
 from cardan.units import deg, plain, quantity
 
 from .common import site as drawn
-from .common.inner import DRIVEN, DRIVING, InnerPair, Stance, carried
+from .common.inner import DRIVEN, DRIVING, Contact, InnerPair, Stance, carried
 from .common.site import Site
 from .joint import CROSS_ONLY, Inside, Joint, both_or_none, missed
 
@@ -95,6 +95,17 @@ def groove_mechanism(stance: Stance, first: float, second: float, radius: float,
         yield InnerPair(name=ball, type="S", links=(one, two), point=at, axis=way, count=k + 1)
 
 
+def groove_contact(diameter: float | None, conformity: float | None, *, bent: float = 0.0) -> Contact | None:
+    """Return the contact of a ball with its groove, None where a size is not given.
+
+    diameter [m]: of the ball; conformity: radius of the section of the groove over it; bent [1/m]: curvature of the
+    groove along its way, where the ball touches it, positive where it is hollow.
+    """
+    if diameter is None or conformity is None:
+        return None
+    return Contact(across=2.0 / diameter - 1.0 / (conformity * diameter), along=2.0 / diameter - bent)
+
+
 def ball_places(balls: int) -> Array:
     """Return the angles of balls over a turn, array (360, k) [rad]."""
     return np.arange(360)[:, None] * deg + np.arange(balls) * (2.0 * np.pi / balls)
@@ -109,6 +120,7 @@ class Weiss(Joint):
     types: ClassVar[tuple[str, ...]] = ("weiss_curved", "weiss_straight")
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("driving_offset", "driven_offset", "groove_radius")
+    pressed: ClassVar[tuple[str, ...]] = (*rubbing, "ball_diameter", "groove_conformity")
     fixed: ClassVar[bool] = True
     centred: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(40.0)
@@ -121,6 +133,10 @@ class Weiss(Joint):
         "length", None, doc="from the joint centre to the centre of the grooves on the driven shaft", above=0.0
     )
     groove_radius: float | None = quantity("length", None, doc="radius of the grooves' middle line", above=0.0)
+    ball_diameter: float | None = quantity("length", None, doc="diameter of the balls", above=0.0)
+    groove_conformity: float | None = plain(
+        None, doc="radius of the section of a groove over the diameter of the balls", above=0.5
+    )
 
     def own_problems(self) -> Iterator[Problem]:
         """Yield grooves that are half given."""
@@ -146,6 +162,13 @@ class Weiss(Joint):
         if self.driving_offset is None or self.driven_offset is None or self.groove_radius is None:
             return self.inner(stance)
         return groove_mechanism(stance, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
+
+    def loaded(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield its balls between their grooves, where all balls fit at once."""
+        fits = self.driving_offset == self.driven_offset or self.balls == 1
+        touching = groove_contact(self.ball_diameter, self.groove_conformity)
+        for pair in self.mechanism(stance) if self.groove_radius is not None and fits else ():
+            yield replace(pair, told=pair.type == "S", contact=touching if pair.type == "S" else None)
 
     def carried(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield bearings of both shafts: it does not hold its centre by itself."""

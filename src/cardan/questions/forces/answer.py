@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -33,6 +33,7 @@ from .figures.moving_forces import moving_forces_figures
 from .force_tables import (
     ROUNDING,
     constant,
+    inner_table,
     joint_table,
     largest_left,
     rubs,
@@ -49,6 +50,7 @@ from .force_tables import (
 )
 from .forces import Forces, forces
 from .gap_closure import Gaps, gaps
+from .inner_loads import InnerLoad, Thrust, inner_loads, thrusts
 from .moving_forces import Extreme, MovingForces, moving_forces
 from .reactions import Determinacy, reaction_groups
 from .turn_loads import turn_loads
@@ -73,6 +75,8 @@ class Carried:
     moving: MovingForces | None = None  # while it moves, where the file says how
     unheld: tuple[Problem, ...] = ()  # why the supports tell nothing
     unmoved: tuple[Problem, ...] = ()  # why nothing is told of the movement
+    inner: tuple[InnerLoad, ...] = ()  # what the parts inside of the joints carry, as drawn
+    thrusts: tuple[Thrust, ...] = ()  # how friction in the joints pushes their shafts along, as drawn
     random: RandomMotion | None = None  # what random movements make of the loads, without masses and friction
 
 
@@ -102,14 +106,15 @@ def followed(drive: Drive, found: Forces) -> Carried:
 
     found: as drawn.
     """
+    inside: dict[str, Any] = {"inner": inner_loads(drive, found), "thrusts": thrusts(drive, found)}
     if not drive.movements:
-        return Carried(forces=found)
+        return Carried(forces=found, **inside)
     try:
         chance = random_motion(drive, None, _loads(drive), fewer=2)
         moving = moving_forces(drive) if drive.duty.speed else None
     except InputError as error:
-        return Carried(forces=found, unmoved=error.problems)
-    return Carried(forces=found, moving=moving, random=chance)
+        return Carried(forces=found, unmoved=error.problems, **inside)
+    return Carried(forces=found, moving=moving, random=chance, **inside)
 
 
 def _loads(drive: Drive) -> Results:
@@ -152,13 +157,22 @@ def answer(drive: Drive, result: Carried, curves: Forces | None = None) -> Answe
         title=_("Forces"),
         sentence=_sentence(drive, found),
         figures=lambda: _figures(drive, result),
-        tables=(*_tables(drive, found), *_back(shown), *_random(result)),
+        tables=(*_tables(drive, result), *_back(shown), *_random(result)),
         remarks=tuple(_remarks(drive, result, machines)),
         listings=() if found.reaction is not None else tuple(_listings(own)),
         keys=tuple(_keys(drive, result)),
         facts={
             **_facts(drive, found),
             **random_facts(result.random),
+            "generated_axial_force": [
+                {
+                    "joint": one.joint,
+                    "force_max": Quantity(one.most, "force"),
+                    "order": one.order,
+                    "amplitude": Quantity(one.amplitude, "force"),
+                }
+                for one in result.thrusts
+            ],
             "held_by_machines": list(machines) if found.reaction is not None else [],
         },
         full=lambda: trace(shown),
@@ -224,9 +238,12 @@ def _support_peaks(found: Forces) -> Any:
     return np.max([turn(one.angle, size(one.reaction)).high for one in senses(found)], axis=0)
 
 
-def _tables(drive: Drive, found: Forces) -> Iterator[Table]:
+def _tables(drive: Drive, result: Carried) -> Iterator[Table]:
+    found = result.forces
     yield shaft_table(drive, found)
     yield joint_table(drive, found)
+    if result.inner:
+        yield inner_table(drive, result.inner)
     if found.reaction is not None:
         yield support_table(drive, found)
 
@@ -275,6 +292,7 @@ def _remarks(drive: Drive, result: Carried, machines: tuple[int, ...]) -> Iterat
         yield Remark(text=say(_("By hand the reactions follow from shaft {order}."), order=order))
     yield from _closing(drive, found)
     yield from _thrust(found)
+    yield from _pushed(result.thrusts)
     yield from _without(drive, found)
     if result.random is not None:
         text = _(
@@ -323,6 +341,18 @@ def _thrust(found: Forces) -> Iterator[Remark]:
         if found.reverse is not None:
             text = _("Friction in the spline thrusts with up to {most}; loads are the largest of sliding in and out.")
         yield Remark(text=say(text, most=Quantity(most, "force")))
+
+
+def _pushed(pushed: Sequence[Thrust]) -> Iterator[Remark]:
+    """Yield how friction inside of joints pushes their shafts along."""
+    for one in pushed:
+        if one.amplitude > 0.0:
+            text = _(
+                "Friction in joint {joint} pushes its shafts along each other with up to {most}; of order {order} of "
+                "the turn it is ±{amplitude}."
+            )
+            values = {"most": Quantity(one.most, "force"), "amplitude": Quantity(one.amplitude, "force")}
+            yield Remark(text=say(text, joint=one.joint, order=one.order, **values), code="generated_axial_force")
 
 
 def balanced(found: Forces) -> Remark:

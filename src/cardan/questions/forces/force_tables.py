@@ -21,6 +21,7 @@ from cardan.maths.ties import TIE, foremost
 from cardan.texts import _
 
 from .forces import Forces
+from .inner_loads import InnerLoad
 
 
 def shaft_heads(drive: Drive) -> tuple[Column, ...]:
@@ -117,6 +118,55 @@ def _mean_loss(drive: Drive, found: Forces) -> list[float | None]:
     mean = np.mean(found.loss[:, :-1], axis=-1)
     known = "duty.speed" not in found.assumed
     return [float(one) if known and rubs(joint) else None for one, joint in zip(mean, drive.joints, strict=True)]
+
+
+def inner_table(drive: Drive, loads: Sequence[InnerLoad]) -> Table:
+    """Return what the parts inside of the joints carry."""
+    several = any(one.low < one.high * (1.0 - ROUNDING) for one in loads)
+    turned = any(one.couple for one in loads)
+    pressed = any(one.pressure is not None for one in loads)
+    return Table(
+        name="inside_joints",
+        title=_("Inside the joints"),
+        records=True,
+        columns=(
+            Column(key="joint", heading=_("joint"), values=[one.joint for one in loads]),
+            Column(key="part", heading=_("part"), values=[part_name(one) for one in loads], left=True),
+            Column(key="count", values=[one.count for one in loads], depth="data"),
+            Column(key="force_max", heading=_("force"), values=[one.high for one in loads], dimension="force"),
+            Column(
+                key="force_min",
+                heading=_("least"),
+                values=[one.low for one in loads],
+                dimension="force",
+                depth="brief" if several else "data",
+            ),
+            Column(
+                key="couple_max",
+                heading=_("couple"),
+                values=[one.couple for one in loads],
+                dimension="torque",
+                depth="brief" if turned else "data",
+            ),
+            Column(
+                key="contact_pressure",
+                heading=_("contact pressure"),
+                values=[one.pressure for one in loads],
+                dimension="stress",
+                depth="brief" if pressed else "data",
+            ),
+        ),
+        note=_(
+            "Largest over a turn of any of the parts alike, and the least force of any; rigid, without friction and "
+            "clearance. Pressure by Hertz."
+        ),
+    )
+
+
+def part_name(one: InnerLoad) -> str:
+    """Return what parts alike inside of a joint are called."""
+    count = f"1–{one.count}" if one.count > 1 else "1"
+    return _(one.name).format(number=one.joint, count=count)
 
 
 def support_table(drive: Drive, found: Forces) -> Table:

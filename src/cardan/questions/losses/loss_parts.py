@@ -90,7 +90,7 @@ def _joints(drive: Drive) -> Iterator[Uncounted]:
             message = text.format(number=i + 1, why=why)
             yield Uncounted(field=f"joints[{i}].kind", message=message, part="joints", number=i + 1, missing=False)
             continue
-        sizes = lacks(joint)
+        sizes = joint.without(joint.rubbing)
         if joint.rubbing and joint.friction is not None and not sizes:
             continue
         if joint.rubbing:
@@ -157,7 +157,7 @@ def model_of(drive: Drive, duty: Duty, parts: Parts) -> Model:
     n = len(drive.joints)
     none = np.zeros(n + 1)
     machine = parts.train
-    rub = [bool(joint.rubbing and joint.friction) and not lacks(joint) for joint in drive.joints]
+    rub = [bool(joint.rubbing and joint.friction) and not joint.without(joint.rubbing) for joint in drive.joints]
 
     def rubbing(moved: Motion) -> tuple[Array, Array]:
         return rubbed(drive.joints, rub, moved, many=bool(drive.movements))
@@ -185,11 +185,6 @@ def model_of(drive: Drive, duty: Duty, parts: Parts) -> Model:
         slide=parts.slide,
         rubbing=rubbing if any(rub) else None,
     )
-
-
-def lacks(joint: Joint) -> list[str]:
-    """Return the sizes that a joint without a cross lacks to tell what rubs in it."""
-    return [name for name in joint.rubbing if getattr(joint, name) is None]
 
 
 def rubbed(joints: Sequence[Joint], rub: Sequence[bool], moved: Motion, *, many: bool) -> tuple[Array, Array]:

@@ -89,15 +89,16 @@ def stance_of(joint: Joint, joint_angle: float, angle: Array, *, length: float =
 
 
 def joint_carried(
-    joint: Joint, joint_angle: float, angle: ArrayLike, *, friction: float = 0.0, fed: bool = True
+    joint: Joint, joint_angle: float, angle: ArrayLike, *, friction: float = 0.0, fed: bool = True, loads: bool = False
 ) -> JointCarried:
     """Return how the inner mechanism of a joint moves and what it carries.
 
     joint_angle [rad]; angle (p,) [rad]: of its driving mark from the plane of the shafts.
     friction: coefficient of its pairs that rub; fed: whether the driving shaft drives, else the driven one.
+    loads: of the pairs whose loads it tells, see `Joint.loaded`.
     """
     stance = stance_of(joint, joint_angle, np.atleast_1d(np.asarray(angle, dtype=float)))
-    own = tuple(joint.mechanism(stance))
+    own = tuple(joint.loaded(stance) if loads else joint.mechanism(stance))
     pairs = (*own, *joint.carried(stance))
     every = dict.fromkeys(link_of(one, end) for one in pairs for end in (0, 1))
     moving = [

@@ -58,6 +58,14 @@ FRAME = "frame"  # what holds the shafts
 ARM = 0.1  # distance of a point of contact from the axis over the length of the shaft behind; any but nought would do
 
 
+@dataclass(frozen=True, kw_only=True)
+class Contact:
+    """What touches in a pair as Hertz has it: sums of the curvatures of both bodies in their principal planes [1/m]."""
+
+    across: float  # across the way on which it runs; hollow bodies count as negative
+    along: float
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class InnerPair:
     """A pair inside a joint, where it stands: at one place of a turn or, with leading axes (...), at many."""
@@ -74,6 +82,8 @@ class InnerPair:
     rubs: bool = False  # whether it rubs where the joint has a coefficient of friction
     lever: float = 0.0  # [m]: at which what turns in it rubs
     spread: float = math.inf  # [m]: between its two bearings, where it has two
+    contact: Contact | None = None  # what touches in it, where its sizes are given
+    told: bool = True  # whether what it carries is told, of pairs by which a joint is `Joint.loaded`
 
 
 def bending(stance: Stance) -> Iterator[InnerPair]:

@@ -1,0 +1,173 @@
+"""What the parts inside of joints carry: balls in grooves, rollers on tracks, cages, tongues, pins, crosses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.joints import Joint
+from cardan.drive.joints.common.inner import Contact
+from cardan.drive.models.kinematics_model import given_chain
+from cardan.formulas.hertz import point_contact
+from cardan.maths.arrays import Array
+from cardan.maths.curves.cycle_statistics import harmonics
+from cardan.maths.kernel import frames
+from cardan.questions.motion.joint_mechanism import STRAIGHT, JointCarried, joint_carried, stance_of
+from cardan.questions.motion.motion import motion
+
+from .forces import Forces
+
+PLACES = 72
+"""Places of a turn at which a joint is looked at; parts alike take each other's places."""
+
+ROUNDING = 1e-9
+"""Couples below this for a torque of 1 N·m are nothing but rounding."""
+
+CLOSER = 720
+"""The same of the force that friction makes, which jumps."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class UnitLoad:
+    """What parts alike of a joint carry over a turn for a torque of 1 N·m on its driven shaft, arrays (`PLACES`,)."""
+
+    name: str  # marked for translation, with places {number} for the joint and {count} for which of them
+    count: int  # how many of them there are
+    high: Array  # high, low [1/m]: largest and least force of any of them, over the torque
+    low: Array
+    couple: Array  # largest couple, over the torque
+    contact: Contact | None  # what touches in each of them
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class InnerLoad:
+    """What parts alike of a joint carry over a turn."""
+
+    joint: int  # number of the joint, from 1
+    name: str  # marked for translation, see `UnitLoad`
+    count: int
+    high: float  # high, low [N]: largest force over a turn of any of them, and least
+    low: float
+    couple: float  # [N·m]: largest couple
+    pressure: float | None  # [Pa]: largest pressure where they touch; None where their sizes are not given
+
+
+def inner_loads(drive: Drive, found: Forces) -> tuple[InnerLoad, ...]:
+    """Return what the parts inside of the joints of a drive carry, joints that tell it.
+
+    found: forces of the drive as drawn. Rigid parts without friction and play; what balls and cage share beyond the
+    balances they share so that the sum of squares is least, as equal springs do.
+    """
+    loads = []
+    angles = given_chain(drive).joint_angle
+    turned = np.asarray(motion(drive, found.angle).yoke_rotation)
+    for i, joint in enumerate(drive.joints):
+        units = unit_loads(joint, float(angles[i]))
+        torque = np.abs(np.asarray(found.shaft_torque)[i + 1]) if units else np.zeros(1)
+        for one in units:
+            high, low, couple = (torque * over(values, turned[i]) for values in (one.high, one.low, one.couple))
+            loads.append(
+                InnerLoad(
+                    joint=i + 1,
+                    name=one.name,
+                    count=one.count,
+                    high=float(np.max(high)),
+                    low=float(np.min(low)),
+                    couple=float(np.max(couple)),
+                    pressure=pressure(one.contact, float(np.max(high))),
+                )
+            )
+    return tuple(loads)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Thrust:
+    """Force along the driven shaft that friction in a joint makes while its shafts slide along each other inside it."""
+
+    joint: int  # number of the joint, from 1
+    most: float  # [N]: largest over a turn
+    order: int  # its main order: parts alike of the joint
+    amplitude: float  # [N]: of this order
+
+
+def thrusts(drive: Drive, found: Forces) -> tuple[Thrust, ...]:
+    """Return the axial forces that friction makes in the joints of a drive that slide, sizes and friction given."""
+    pushed = []
+    angles = given_chain(drive).joint_angle
+    turned = np.asarray(motion(drive, found.angle).yoke_rotation)
+    for i, joint in enumerate(drive.joints):
+        if joint.slides and joint.friction and joint.rubbing and not joint.without(joint.rubbing):
+            torque = np.asarray(found.shaft_torque)[i + 1]
+            fed, back = (over(row, turned[i]) for row in unit_thrust(joint, float(angles[i])))
+            force = torque * np.where(torque < 0.0, back, fed)
+            amplitude = harmonics(found.angle, force, count=joint.alike + 1).amplitude[joint.alike]
+            most = float(np.max(np.abs(force)))
+            pushed.append(Thrust(joint=i + 1, most=most, order=joint.alike, amplitude=float(amplitude)))
+    return tuple(pushed)
+
+
+@lru_cache(maxsize=512)
+def unit_thrust(joint: Joint, joint_angle: float) -> Array:
+    """Return the axial force of a joint on its driven shaft for 1 N·m at `CLOSER` places, array (2, `CLOSER`) [1/m].
+
+    joint_angle [rad]. While its driving shaft drives, and while the other does; nought where nothing in it moves.
+    """
+    if joint_angle < STRAIGHT:
+        return np.zeros((2, CLOSER))
+    angle = np.arange(CLOSER // joint.alike) * (2.0 * np.pi / CLOSER)
+    rows = []
+    for fed in (True, False):
+        one = joint_carried(joint, joint_angle, angle, friction=joint.friction or 0.0, fed=fed)
+        rows.append(np.tile(frames.dot(one.wrench[:, 3:], one.axis), joint.alike))
+    return np.stack(rows)
+
+
+def over(values: Array, angle: Array) -> Array:
+    """Return values (p,) at even places of a turn at angles (...) [rad] of the driving mark, straight between them."""
+    places = np.arange(values.size + 1) * (2.0 * np.pi / values.size)
+    found: Array = np.interp(np.remainder(angle, 2.0 * np.pi), places, np.append(values, values[0]))
+    return found
+
+
+def pressure(contact: Contact | None, force: float) -> float | None:
+    """Return the largest pressure of a contact under a force [N], by Hertz [Pa]; None without a contact."""
+    return None if contact is None else float(point_contact(force, contact.across, contact.along).pressure)
+
+
+@lru_cache(maxsize=512)
+def unit_loads(joint: Joint, joint_angle: float) -> tuple[UnitLoad, ...]:
+    """Return what the parts of a joint carry at a joint angle [rad] for 1 N·m; empty where it tells nothing."""
+    repeats = joint.alike if PLACES % joint.alike == 0 else 1
+    angle = np.arange(PLACES // repeats) * (2.0 * np.pi / PLACES)
+    return tuple(_loads(joint_carried(joint, joint_angle, angle, loads=True), repeats)) if _tells(joint) else ()
+
+
+def _tells(joint: Joint) -> bool:
+    """Return whether a joint tells the loads of its parts."""
+    return any(True for _pair in joint.loaded(stance_of(joint, 0.1, np.zeros(1))))
+
+
+def _loads(found: JointCarried, repeats: int) -> Iterator[UnitLoad]:
+    """Yield the loads of parts with one name together."""
+    reaction = found.found.reaction[:, : found.inner]
+    own = found.pairs[: found.inner]
+    for name in dict.fromkeys(pair.name for pair in own if pair.told):
+        which = [k for k, pair in enumerate(own) if pair.name == name]
+        first = own[which[0]]
+        couple = frames.norm(reaction[:, which, :3])
+        couple = np.where(couple > ROUNDING, couple, 0.0)
+        force = frames.norm(reaction[:, which, 3:])
+        if np.isfinite(first.spread):  # two bearings share force and couple
+            force, couple = 0.5 * force + couple / first.spread, 0.0 * couple
+        yield UnitLoad(
+            name=name,
+            count=len(which),
+            high=np.tile(np.max(force, axis=-1), repeats),
+            low=np.tile(np.min(force, axis=-1), repeats),
+            couple=np.tile(np.max(couple, axis=-1), repeats),
+            contact=first.contact,
+        )
