@@ -7,10 +7,11 @@ from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 from cardan.drive.drive import Drive
-from cardan.drive.joints import Joint
+from cardan.drive.joints import Joint, other_kinds
 from cardan.drive.material import Material
 from cardan.drive.shaft import Ply
 from cardan.errors import InputError, Problem, check
+from cardan.texts import _
 
 from .catalogue import Catalogue, catalogue, material, ply
 from .rows import JointSize, JointType
@@ -76,6 +77,10 @@ def _unknown(drive: Drive, rows: Catalogue) -> Iterator[Problem]:
                     rows.row(cls, given, field=f"joints[{i}].{name}")
             except InputError as error:
                 yield from error.problems
+        if others := other_kinds(joint, joint.type):
+            text = _("{type} is a type of kind {kinds}, and this joint is of kind {kind}")
+            said = text.format(type=repr(joint.type), kinds=", ".join(others), kind=joint.in_words())
+            yield Problem(f"joints[{i}].type", said, "inconsistent")
 
 
 def _filled_in(thing: Material | Ply, rows: Catalogue, path: str = "") -> Material | Ply:
