@@ -35,6 +35,7 @@ class DoubleCardan(Joint):
     types: ClassVar[tuple[str, ...]] = ("double_centred", "double_frame")
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("centring_ratio", "centre_distance", "journal_span", "journal_diameter")
+    rated: ClassVar[tuple[str, ...]] = (*rubbing, "bearing_capacity")
     fixed: ClassVar[bool] = True
     steepest: ClassVar[float] = 0.5 * math.pi
 
@@ -53,6 +54,10 @@ class DoubleCardan(Joint):
         "length", None, doc="distance between the middles of opposite bearings of both crosses", above=0.0
     )
     journal_diameter: float | None = quantity("length", None, doc="diameter of the journals of both crosses", above=0.0)
+
+    bearing_capacity: float | None = quantity(
+        "force", None, doc="dynamic load rating of one bearing of either cross", above=0.0
+    )
 
     def own_problems(self) -> Iterator[Problem]:
         """Yield journals of which one size is missing."""

@@ -23,6 +23,7 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``rubbing``          no: what rubs in it is not counted
 ``mechanism``        the same as ``inner``: it has no more links inside
 ``loaded``           nothing: no load in it is told
+``rated``            no keys: no bearing in it has a life
 ``pressed``          no keys: no contact in it is judged
 ``carried``          a driven shaft that keeps its direction, of a loose joint one in a bearing
 ``push``             no force goes with its couple
@@ -87,6 +88,10 @@ REFUSALS: Mapping[str, str] = MappingProxyType(
 """Question -> why a joint that is no cross joint does not answer it, marked for translation."""
 
 
+NO_BEARING = mark("its balls slide as they roll in their grooves, for which ISO 281 has no life")
+"""Why a joint with balls has no life by ISO 281."""
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Joint:
     """A joint and its place, in one of three forms: its centre, or its joint angle and plane, or neither (slopes).
@@ -138,6 +143,9 @@ class Joint:
 
     pressed: ClassVar[tuple[str, ...]] = ()
     """Keys of the sizes that tell the pressure of its balls or rollers; none where it has none."""
+
+    rated: ClassVar[tuple[str, ...]] = ()
+    """Keys of the sizes that tell, with `bearing_capacity` among them, the life of bearings in it; none without any."""
 
     slides: ClassVar[bool] = False
     """Whether it lets its shafts slide along each other."""
@@ -256,7 +264,7 @@ class Joint:
         question : str
             A key of `REFUSALS`.
         """
-        known = (question == "forces" and self.told) or (question == "losses" and bool(self.rubbing))
+        known = {"forces": self.told, "losses": bool(self.rubbing), "life": bool(self.rated)}.get(question, False)
         return "" if known else _(self.refusals.get(question, ""))
 
     def without(self, names: Iterable[str]) -> tuple[str, ...]:

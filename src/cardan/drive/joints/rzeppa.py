@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -20,7 +20,7 @@ from .common import laws as tilted_plane
 from .common import site as drawn
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
 from .common.site import Site
-from .joint import CROSS_ONLY, Inside, Joint, both_or_none
+from .joint import CROSS_ONLY, NO_BEARING, REFUSALS, Inside, Joint, both_or_none
 from .weiss import (
     ball_centre,
     ball_places,
@@ -45,6 +45,7 @@ class Rzeppa(Joint):
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = GROOVES
     pressed: ClassVar[tuple[str, ...]] = (*GROOVES, "ball_diameter", "groove_conformity", "pressure_angle")
+    refusals: ClassVar[Mapping[str, str]] = {**REFUSALS, "life": NO_BEARING}
     fixed: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(47.0)
 

@@ -33,6 +33,7 @@ class Tripod(Joint):
     rubbing: ClassVar[tuple[str, ...]] = ("track_radius",)
     pressed: ClassVar[tuple[str, ...]] = ("track_radius", "roller_diameter", "roller_crown", "track_section")
     static_pressure: ClassVar[float] = 4000e6
+    rated: ClassVar[tuple[str, ...]] = ("track_radius", "roller_diameter", "bearing_capacity")
     fixed: ClassVar[bool] = True
     slides: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(26.0)
@@ -47,6 +48,10 @@ class Tripod(Joint):
     )
     track_section: float | None = quantity(
         "length", None, doc="radius of the section of a track, larger than that of the rollers", above=0.0
+    )
+
+    bearing_capacity: float | None = quantity(
+        "force", None, doc="dynamic load rating of the bearing of one roller", above=0.0
     )
 
     pivot: float | None = quantity(
@@ -99,7 +104,8 @@ class Tripod(Joint):
             touching = Contact(across=1.0 / sizes[1] - 1.0 / sizes[2], along=2.0 / sizes[0])
         for pair in self.mechanism(stance) if self.track_radius is not None else ():
             own = pair.type == "P"
-            yield replace(pair, told=own, contact=touching if own else None)
+            rolls = 0.5 * (self.roller_diameter or 0.0) if own else 0.0
+            yield replace(pair, told=own, contact=touching if own else None, rolls=rolls)
 
     def _rollers(self, stance: Stance, track: float | None = None) -> Iterator[tuple[Array, Array]]:
         """Yield the direction of each arm and the middle of its roller, arrays (..., 3)."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -19,7 +19,7 @@ from cardan.units import deg, plain, quantity
 from .common import site as drawn
 from .common.inner import DRIVEN, DRIVING, Contact, InnerPair, Stance, carried
 from .common.site import Site
-from .joint import CROSS_ONLY, Inside, Joint, both_or_none, missed
+from .joint import CROSS_ONLY, NO_BEARING, REFUSALS, Inside, Joint, both_or_none, missed
 
 
 def groove_course(
@@ -121,6 +121,7 @@ class Weiss(Joint):
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("driving_offset", "driven_offset", "groove_radius")
     pressed: ClassVar[tuple[str, ...]] = (*rubbing, "ball_diameter", "groove_conformity")
+    refusals: ClassVar[Mapping[str, str]] = {**REFUSALS, "life": NO_BEARING}
     fixed: ClassVar[bool] = True
     centred: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(40.0)

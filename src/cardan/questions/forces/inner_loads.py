@@ -25,7 +25,7 @@ PLACES = 72
 """Places of a turn at which a joint is looked at; parts alike take each other's places."""
 
 ROUNDING = 1e-9
-"""Couples below this for a torque of 1 N·m are nothing but rounding."""
+"""Couples below this for a torque of 1 N·m, and forces below this share of the largest, are nothing but rounding."""
 
 CLOSER = 720
 """The same of the force that friction makes, which jumps."""
@@ -70,13 +70,14 @@ def inner_loads(drive: Drive, found: Forces) -> tuple[InnerLoad, ...]:
         torque = np.abs(np.asarray(found.shaft_torque)[i + 1]) if units else np.zeros(1)
         for one in units:
             high, low, couple = (torque * over(values, turned[i]) for values in (one.high, one.low, one.couple))
+            least = float(np.min(low))
             loads.append(
                 InnerLoad(
                     joint=i + 1,
                     name=one.name,
                     count=one.count,
                     high=float(np.max(high)),
-                    low=float(np.min(low)),
+                    low=least if least > ROUNDING * np.max(high) else 0.0,
                     couple=float(np.max(couple)),
                     pressure=pressure(one.contact, float(np.max(high))),
                 )

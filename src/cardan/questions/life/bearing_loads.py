@@ -11,6 +11,7 @@ import numpy as np
 from cardan.drive.conditions import LoadCase
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
+from cardan.drive.joints import Joint
 from cardan.drive.models.dynamics_model import Train
 from cardan.drive.models.kinematics_model import Chain, as_given, turning
 from cardan.errors import Problem, check
@@ -22,6 +23,8 @@ from cardan.questions.losses.loss_model import Model, flowing, moving
 from cardan.questions.motion.motion import Motion
 from cardan.questions.torsion.steady.dynamic_torque import DynamicTorque
 from cardan.texts import _
+
+from .inner_life import bearing_damage
 
 LOOK = 720
 """Places a turn at which the largest load is looked for."""
@@ -78,7 +81,7 @@ def bearing_loads(
         if drawn is not None and drawn is not machine:
             still = _model(drive, drawn, duty, drawn.chain if joint_angle is None else chain, [parts[k] for k in own])
         flow = _Flow(model, still, [vibrating[k] if vibrating else None for k in own])
-        for k, one in zip(own, _of_chain(flow), strict=True):
+        for k, one in zip(own, _inside(flow, drive.joints, _of_chain(flow)), strict=True):
             found[k] = one
     rows = [one for one in found if one is not None]
     return BearingLoads(
@@ -187,6 +190,32 @@ def _of_chain(flow: _Flow) -> list[BearingLoads]:
         )
         for k in range(cases)
     ]
+
+
+def _inside(flow: _Flow, joints: Sequence[Joint], loads: list[BearingLoads]) -> list[BearingLoads]:
+    """Return loads with those of the bearings inside of joints: forces in place of couples over a span of 1 m."""
+    chain = flow.model.chain
+    own = [i for i, joint in enumerate(joints) if joint.rated and not joint.without(joint.rated)]
+    if not own:
+        return loads
+    turns = round(flow.period / np.pi) / 2.0
+    grid = np.arange(round(LOOK * turns) if turns.is_integer() else round(2.0 * LOOK * turns)) * (2.0 * np.pi / LOOK)
+    moved, _couple, entering, beside = flow.at(grid)
+    angles = chain.joint_angle if chain.laws is None else chain.laws.joint_angle
+    step = moved.shaft_ratio[..., 1:, :] / moved.shaft_ratio[..., :-1, :]
+    found = {name: np.stack([getattr(one, name) for one in loads]) for name in BearingLoads.__dataclass_fields__}
+    for i in own:
+        alpha = float(np.asarray(angles)[..., i].flat[0])
+        force, damage = bearing_damage(joints[i], alpha)
+        places = np.arange(force.size + 1) * (2.0 * np.pi / force.size)
+        turn = np.remainder(moved.yoke_rotation[..., i, :], 2.0 * np.pi)
+        most, *worn = (np.interp(turn, places, np.append(row, row[0])) for row in (force, *damage))
+        torque, swing = (one[..., i, :] / step[..., i, :] for one in (entering, beside))
+        found["joint_angle"][:, i] = alpha
+        found["couple"][:, i] = np.max(most * (np.abs(torque) + swing), axis=-1)
+        carried = _mean_power(torque, swing) * moved.shaft_ratio[..., i, :]
+        found["driving"][:, i], found["driven"][:, i] = (np.mean(row * carried, axis=-1) for row in worn)
+    return [BearingLoads(**{name: rows[k] for name, rows in found.items()}) for k in range(len(loads))]
 
 
 def _mean_power(value: Array, beside: Array) -> Array:

@@ -33,6 +33,9 @@ class JointBearings:
     rating: Array  # (n,) [N·m]: torque that the maker names
     convention: tuple[str, ...]  # tuple of str (n,): what it means; empty where there is none
     critical_swing: Array  # (n,) [rad]: bend below which needles do not reach their neighbours' tracks
+    inner: (
+        Array  # (n,) of bool: whether they are inside of a joint without a cross of its own; their span counts as 1 m
+    )
     assumed: tuple[str, ...] = ()  # paths of capacities computed from the needles
 
     @property
@@ -61,16 +64,21 @@ def joint_bearings(drive: Drive) -> tuple[JointBearings, tuple[Missing, ...]]:
     missing: list[Missing] = []
     for i, joint in enumerate(drive.joints):
         why = joint.refusal("life")
-        row, found = ([float("nan")] * 5, []) if why else _figures(joint)
+        row, found = ([float("nan")] * 5, []) if why else _inner_figures(joint) if joint.rated else _figures(joint)
         rows.append(row)
         assumed += [f"joints[{i}].needles.{name}" for name in found]
         rating = joint.rating
-        convention.append(rating.convention if rating is not None and rating.torque is not None and not why else "")
-        missing += [_told_by_none(i, why)] if why else _lacking(joint, i, row)
+        named = rating is not None and rating.torque is not None and not why and not joint.rated
+        convention.append(rating.convention if named and rating is not None else "")
+        inner = _inner_lacking(joint, i) if joint.rated else _lacking(joint, i, row)
+        missing += [_told_by_none(i, why)] if why else inner
     table = np.asarray(rows, dtype=float).T
     names = ("span", "capacity", "static_capacity", "rating", "critical_swing")
     bearings = JointBearings(
-        **dict(zip(names, table, strict=True)), convention=tuple(convention), assumed=tuple(assumed)
+        **dict(zip(names, table, strict=True)),
+        inner=np.asarray([bool(joint.rated) for joint in drive.joints]),
+        convention=tuple(convention),
+        assumed=tuple(assumed),
     )
     return bearings, tuple(missing)
 
@@ -102,6 +110,20 @@ def _figures(joint: Joint) -> tuple[list[float], list[str]]:
             if static is None:
                 static, found = float(rated.static), [*found, "static_capacity"]
     return [span, nan if capacity is None else capacity, nan if static is None else static, rating, swing], found
+
+
+def _inner_figures(joint: Joint) -> tuple[list[float], list[str]]:
+    """Return the same of the bearings inside of a joint, whose loads are forces."""
+    nan = float("nan")
+    capacity = nan if joint.without(joint.rated) else float(getattr(joint, joint.rated[-1]))
+    return [1.0, capacity, nan, nan, nan], []
+
+
+def _inner_lacking(joint: Joint, i: int) -> Iterator[Missing]:
+    """Yield what the bearings inside of a joint lack for ISO 281."""
+    for name in joint.without(joint.rated):
+        text = _("missing; without it ISO 281 cannot rate joint {number}")
+        yield Missing(field=f"joints[{i}].{name}", message=text.format(number=i + 1))
 
 
 def _lacking(joint: Joint, i: int, row: list[float]) -> Iterator[Missing]:

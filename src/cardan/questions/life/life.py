@@ -273,10 +273,11 @@ def _lives(loads: BearingLoads, bearings: JointBearings, speed: Array, shock: Ar
             maker[:, i] = maker_life(bearings.rating[i], loads.torque[:, i], **case)
     own = np.asarray([convention == "book" for convention in bearings.convention])
     nominal = np.where(own, bearings.rating, nominal_torque(bearings.capacity, 0.5 * bearings.span))
+    nominal = np.where(bearings.inner, np.nan, nominal)  # handbook and mean load are of a cross
     return {
         "driving": np.where(rated, lasting(whole * strength, loads.driving), np.nan),
         "driven": np.where(rated, lasting(whole * strength, loads.driven), np.nan),
-        "simple": np.where(rated, lasting(whole * strength, mean), np.nan),
+        "simple": np.where(rated & ~bearings.inner, lasting(whole * strength, mean), np.nan),
         "maker": factor * maker,
         "book": factor * book_life(nominal, loads.torque, speed=speed, joint_angle=loads.joint_angle, shock=shock),
     }

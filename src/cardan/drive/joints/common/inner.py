@@ -83,6 +83,7 @@ class InnerPair:
     lever: float = 0.0  # [m]: at which what turns in it rubs
     spread: float = math.inf  # [m]: between its two bearings, where it has two
     contact: Contact | None = None  # what touches in it, where its sizes are given
+    rolls: float = 0.0  # [m]: radius at which what slides in it rolls on its bearing
     told: bool = True  # whether what it carries is told, of pairs by which a joint is `Joint.loaded`
 
 
