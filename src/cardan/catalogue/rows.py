@@ -127,6 +127,7 @@ class JointType(Row):
         "speed_angle", None, doc="largest product of speed and joint angle in continuous running", above=0.0
     )
     max_rim_speed: float | None = quantity("speed", None, doc="largest speed of its rim", above=0.0)
+    max_windup: float | None = quantity("angle", None, doc="largest angle of twist under torque", above=0.0)
     uses: tuple[str, ...] = plain((), doc="what it is used for")
 
     def __post_init__(self) -> None:

@@ -48,6 +48,7 @@ from .strength import (
     tube_fatigue,
     tube_strength,
     twist,
+    windup,
     yoke_strength,
 )
 from .torsion import parametric_stability, start_fatigue, torque_reversal, torsional_resonance
@@ -75,6 +76,7 @@ CHECKS: dict[str, Check] = {
         tube_buckling,
         ply_strength,
         twist,
+        windup,
         spline_strength,
         spline_pressure,
         spline_overlap,

@@ -10,6 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from cardan.drive.shapes import ACROSS, bolt_ring, ring
+from cardan.errors import Problem
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace, unit_complex
 from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import Surface, joined, placed, plate, revolved, toothed
@@ -19,7 +20,7 @@ from cardan.units import plain, quantity
 from .common import laws as shared_turn
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance, bending, crossed
 from .common.site import Site, about
-from .joint import CROSS_ONLY, REFUSALS, Inside, Joint
+from .joint import CROSS_ONLY, REFUSALS, Inside, Joint, Strain, both_or_none
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -115,6 +116,14 @@ class ElasticHalfCardan(Joint):
     )
     stiffness: float | None = quantity("turning_stiffness", None, doc="stiffness against turning", above=0.0)
     damping: float = quantity("turning_damping", 0.0, doc="damping against turning", low=0.0)
+    max_windup: float | None = quantity("angle", None, doc="largest angle of twist under torque", above=0.0)
+    bending_stiffness: float | None = quantity(
+        "turning_stiffness", None, doc="stiffness against the joint angle", above=0.0
+    )
+    axial_stiffness: float | None = quantity("stiffness", None, doc="stiffness along the shafts", above=0.0)
+    lateral_stiffness: float | None = quantity("stiffness", None, doc="stiffness across the shafts", above=0.0)
+    axial_shift: float | None = quantity("length", None, doc="by how much both shafts stand closer or farther apart")
+    lateral_shift: float | None = quantity("length", None, doc="by how much both shafts miss each other", low=0.0)
 
     def pair(self, joint_angle: Array) -> mobius.Pair | None:
         """Return the identity, None where the links are counted."""
@@ -142,6 +151,21 @@ class ElasticHalfCardan(Joint):
     def twist_spring(self) -> tuple[float, float] | None:
         """Its stiffness and damping against turning, where its stiffness is given."""
         return None if self.stiffness is None else (self.stiffness, self.damping)
+
+    def own_problems(self) -> Iterator[Problem]:
+        """Yield a shift without the stiffness against it."""
+        for shift, against in (("axial_shift", "axial_stiffness"), ("lateral_shift", "lateral_stiffness")):
+            if getattr(self, shift) is not None:
+                yield from both_or_none(self, against, shift)
+
+    def strained(self, joint_angle: float) -> Iterator[Strain]:
+        """Yield the couple against its joint angle and the forces against shifts: stiffness times way."""
+        if self.bending_stiffness is not None:
+            yield Strain(name=mark("couple against the joint angle"), couple=self.bending_stiffness * joint_angle)
+        if self.axial_stiffness is not None and self.axial_shift:
+            yield Strain(name=mark("force along the shafts"), force=self.axial_stiffness * abs(self.axial_shift))
+        if self.lateral_stiffness is not None and self.lateral_shift:
+            yield Strain(name=mark("force across the shafts"), force=self.lateral_stiffness * self.lateral_shift)
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield how its links are strained."""

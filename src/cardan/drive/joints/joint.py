@@ -25,6 +25,7 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``loaded``           nothing: no load in it is told
 ``rated``            no keys: no bearing in it has a life
 ``pressed``          no keys: no contact in it is judged
+``strained``         nothing: nothing in it is strained but by the torque
 ``carried``          a driven shaft that keeps its direction, of a loose joint one in a bearing
 ``push``             no force goes with its couple
 ``shaft_behind``     the driven shaft turns about its axis and does not wobble
@@ -309,6 +310,10 @@ class Joint:
         """Yield the pairs whose loads it tells, as many as carry its torque; none where its sizes are not given."""
         yield from ()
 
+    def strained(self, joint_angle: float) -> Iterator[Strain]:
+        """Yield what it does to both shafts beside the torque, as they do not lie in line; joint_angle [rad]."""
+        yield from ()
+
     def carried(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the pairs that hold both its shafts in the frame, so that it turns once and is held but once."""
         yield from inner.carried(stance, loose=self.loose, slides=self.slides)
@@ -395,6 +400,15 @@ class Inside:
     meaning: str  # one sentence
     value: float  # in SI
     dimension: str | None = "angle"  # a key of `cardan.units.DIMENSIONS`; None for a pure number, or 1/m
+
+
+@dataclass(frozen=True, kw_only=True)
+class Strain:
+    """What a joint that gives does to both its shafts, one way on the one and the other way on the other."""
+
+    name: str  # marked for translation
+    force: float = 0.0  # [N]
+    couple: float = 0.0  # [N·m]
 
 
 def missed(tilt: float) -> Inside:

@@ -82,6 +82,12 @@ def inner_loads(drive: Drive, found: Forces) -> tuple[InnerLoad, ...]:
                     pressure=pressure(one.contact, float(np.max(high))),
                 )
             )
+        loads += [
+            InnerLoad(
+                joint=i + 1, name=one.name, count=1, high=one.force, low=one.force, couple=one.couple, pressure=None
+            )
+            for one in joint.strained(float(angles[i]))
+        ]
     return tuple(loads)
 
 
