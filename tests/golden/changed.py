@@ -30,6 +30,8 @@ KINDS = "joints of every kind count in torsional vibration, each by its law"
 
 RATED = "a size of joint whose torque its maker does not tell is not judged, and not taken"
 
+INSIDE = "the contact pressure of balls and rollers is judged, as advice"
+
 NUMBERS: tuple[tuple[str, str, str], ...] = (
     (
         r"select examples/(pto-hitch|rolling-mill-(lower|upper)-spindle|truck-rear-axle)\.toml --torque-Nm",
@@ -56,6 +58,11 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         RATED,
     ),
     (r"select examples/truck-power-unit", r"(need|sizes|types)\..*", BANDS),
+    (
+        r"(check|strength) examples/(front-halfshaft|propshaft-with-rzeppa)",
+        r"(verdicts|limits)\.(advice|limit|utilisation|value)",
+        INSIDE,
+    ),
     (r"check examples/car-propshaft", r"verdicts\.utilisation", PLANES),
     (r"balance examples/car-propshaft", r"shafts\.unbalance_g_mm", PLANES),
     (r"balance examples/two-piece-rubber-bearing", r"shafts\.allowed_plane_g_mm", PLANES),

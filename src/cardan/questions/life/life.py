@@ -272,7 +272,7 @@ def _lives(loads: BearingLoads, bearings: JointBearings, speed: Array, shock: Ar
             }
             maker[:, i] = maker_life(bearings.rating[i], loads.torque[:, i], **case)
     own = np.asarray([convention == "book" for convention in bearings.convention])
-    nominal = np.where(own, bearings.rating, nominal_torque(bearings.capacity, 0.5 * bearings.span))
+    nominal: Array = np.where(own, bearings.rating, nominal_torque(bearings.capacity, 0.5 * bearings.span))
     nominal = np.where(bearings.inner, np.nan, nominal)  # handbook and mean load are of a cross
     return {
         "driving": np.where(rated, lasting(whole * strength, loads.driving), np.nan),
