@@ -23,6 +23,7 @@ from .angles import (
     output_error,
     speed_angle,
     speed_fluctuation,
+    windup,
 )
 from .audit import answers_agree
 from .check import Check
@@ -48,7 +49,6 @@ from .strength import (
     tube_fatigue,
     tube_strength,
     twist,
-    windup,
     yoke_strength,
 )
 from .torsion import parametric_stability, start_fatigue, torque_reversal, torsional_resonance
