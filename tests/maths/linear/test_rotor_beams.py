@@ -177,6 +177,14 @@ def test_pieces_may_be_taken_together_or_not(monkeypatch):
     assert modes_below(whole, 1.001 * apart[-1]) == 8
 
 
+@pytest.mark.parametrize("count", [150, 400])
+def test_a_line_of_many_waves_is_counted_to_the_last(count):
+    """A pinned beam of Euler and Bernoulli: root n is (nπ/L)² √(EI/m), far more of them than it has hundredths."""
+    whole = line([1000.0], 1.0e5, 6.0, held=(0, 1))
+    middle = ((count + 0.5) * np.pi / 1000.0) ** 2 * np.sqrt(1.0e5 / 6.0)
+    assert modes_below(whole, middle, spin=0.0) == count
+
+
 @pytest.mark.parametrize("short", [1e-3, 1e-5, 1e-7])
 def test_short_beams_cost_no_digits(short):
     """A mass just in front of a free tip, and one just before a hinge: as at the tip and at the hinge."""

@@ -201,12 +201,14 @@ def _pieces(whole: Line, speed: float, spin: float | None) -> _Pieces:
     two = square * whole.mass * whole.length**2 * whole.shear / np.pi**2
     two = two + slowing * whole.rotary * whole.length**2 / (np.pi**2 * whole.bending)
     parts = np.sqrt((two + np.sqrt(two**2 + 4.0 * CLAMPED * four)) / (2.0 * CLAMPED))
-    fine = divided(whole, np.ceil(np.maximum(parts, 1.0)))
+    count = np.ceil(np.maximum(parts, 1.0))
+    fine = divided(whole, count)
     still = {
         k for k in range(fine.beams + 1) if fine.slope_before(k) in fine.clamped or fine.slope_after(k) in fine.clamped
     }
     parting = {*fine.held, *fine.hinged, *still}
-    least = SHORT * float(fine.place[-1])
+    # what the speed has cut short is as long as it can be
+    least = min(SHORT * float(fine.place[-1]), float(np.min((whole.length / count)[count > 1.0], initial=np.inf)))
     first, size = [0], 0.0
     for k, long in enumerate(fine.length):
         if k and (k in parting or (size >= least and long >= least)):
