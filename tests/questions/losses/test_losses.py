@@ -5,11 +5,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cardan import InputError
+from cardan import InputError, example, motion
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.drive.duty import Duty
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 from cardan.formulas.friction import Turning, joint_friction
+from cardan.questions.forces.forces import forces
+from cardan.questions.losses.answer import answer
 from cardan.questions.losses.chain_friction import chain_friction
 from cardan.questions.losses.losses import loss_map, losses
 from cardan.units import deg, mm, rpm
@@ -130,3 +134,24 @@ def test_a_map_of_journals_alone_is_flat_and_has_axes_of_its_own():
     assert [problem.field for problem in caught.value.problems] == ["duty.speed", "duty.torque"]
     with pytest.raises(InputError, match="standstill"):
         loss_map(single(duty=STEADY), [0.0, 1.0])
+
+
+def test_a_centre_bearing_alone_heats_by_its_own_load_while_machines_hold_the_ends():
+    """Friction times radius times load times speed of its shaft, the load from the forces; machines rub nothing."""
+    shipped = example("pickup-two-piece")
+    # the thrust of the spline, which forces count at its worst, either way, is left out
+    smooth = (replace(one, spline=one.spline and replace(one.spline, friction=None)) for one in shipped.shafts)
+    drive = replace(shipped, shafts=tuple(smooth))
+    (bearing,) = drive.supports
+    duty = replace(drive.duty, cases=())
+    found = losses(drive, duty)
+    angle = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
+    load = np.linalg.norm(np.asarray(forces(drive, duty, angle).reaction)[0], axis=-1)
+    ratio = motion(drive, angle).shaft_ratio[1]
+    heat = np.mean(bearing.friction * 0.5 * bearing.bore * load * ratio) * duty.speed
+    assert found.supports.shape == (1,)
+    # The load is that without the friction of the joints, which changes it by less than a hundredth.
+    assert float(found.supports[0]) == pytest.approx(heat, rel=0.01)
+    assert loss_map(shipped, [100.0, 200.0], [50.0]).supports.shape == (2, 1, 1)
+    said = [told(one.text, USUAL) for one in answer(shipped, losses(shipped)).remarks]
+    assert any(text.startswith("Shafts 1 and 4 are held by their machines") for text in said)

@@ -15,6 +15,7 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
+from cardan.drive.models.machine_held import held_by_machines, machines_of
 from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.figures.figure import Figure
@@ -230,6 +231,8 @@ def _remarks(drive: Drive, result: Losses, over: LossMap | None) -> Iterator[Rem
         )
         yield Remark(text=say(text, which=listed(result.locked)), tone="failed", alarm=True)
         return
+    rubbing = any(support.friction is not None for support in drive.supports)
+    yield from held_by_machines(machines_of(drive) if rubbing else ())
     yield from _gathered(drive, result, over)
     yield from _uncounted(result.uncounted)
     if any(joint.single_cross for joint in drive.joints):

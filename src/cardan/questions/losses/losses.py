@@ -237,27 +237,30 @@ def _several(movement: Movement | Sequence[Movement]) -> tuple[Movement, ...]:
 
 def _steady(drive: Drive) -> Losses:
     """Return what a drive turns to heat in one condition: as it stands, or the mean over its movements."""
-    drive = machine_held(drive)
+    own, drive = len(drive.supports), machine_held(drive)
     parts, uncounted = counted(drive, drive.duty)
     model = model_of(drive, drive.duty, parts)
-    stood = _losses(drive, drive.duty, parts, model, uncounted, [model])
+    stood = _losses(drive, own, parts, model, uncounted, [model])
     if not drive.movements:
         return stood
     stands, shares = standing(drive, parts.train, fewest=FEW if model.holding is not None else FEWEST)
     models = [model_of(drive, drive.duty, replace(parts, train=one)) for one in stands]
-    return replace(_losses(drive, drive.duty, parts, model, uncounted, models, shares), drawn=stood.at("", None))
+    return replace(_losses(drive, own, parts, model, uncounted, models, shares), drawn=stood.at("", None))
 
 
 def _losses(
     drive: Drive,
-    duty: Duty,
+    own: int,
     parts: Parts,
     model: Model,
     uncounted: tuple[Uncounted, ...],
     models: Sequence[Model],
     shares: Array | None = None,
 ) -> Losses:
-    """Return the means over models of a drive at instants, by their shares, with the curves of it as drawn."""
+    """Return the means over models of a drive at instants, by their shares, with the curves of it as drawn.
+
+    own: how many of its supports, the first, are its own; machines that hold its ends are counted to have no friction.
+    """
     held = [model.drag * np.tan(one.chain.joint_angle) >= 1.0 for one in models]
     locked = tuple(int(i) + 1 for i in np.flatnonzero(np.any(held, axis=0)))
     if locked:
@@ -272,12 +275,12 @@ def _losses(
     return Losses(
         speed=float(model.speed),
         torque=float(model.torque),
-        torque_at=duty.torque_at,
+        torque_at=drive.duty.torque_at,
         input_power=float(mean.input),
         output_power=float(mean.output),
         driving_pins=mean.driving,
         driven_pins=mean.driven,
-        supports=mean.supports,
+        supports=mean.supports[:own],
         splines=mean.splines,
         resisting=mean.resisting,
         storing=mean.storing,
@@ -393,7 +396,7 @@ def loss_map(
     """
     speeds, torques = _axes(drive, speed, torque)
     duty = replace(drive.duty, speed=float(speeds[0]), torque=drive.duty.torque or float(torques[0]))
-    drive = machine_held(drive)
+    own, drive = len(drive.supports), machine_held(drive)
     moving = drive if movement is None else replace(drive, movements=_several(movement))
     parts, uncounted = counted(moving, duty)
     model = replace(model_of(drive, duty, parts), speed=speeds[:, None], torque=torques[None, :])
@@ -413,7 +416,7 @@ def loss_map(
         efficiency=_efficiency(mean),
         heat=heat,
         joints=joints,
-        supports=mean.supports,
+        supports=mean.supports[..., :own],
         input_power=mean.input,
         output_power=mean.output,
         uncounted=uncounted,
