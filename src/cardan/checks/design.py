@@ -20,6 +20,7 @@ from cardan.drive.fields.parts import known_lengths
 from cardan.drive.fields.paths import bare_path, place
 from cardan.drive.models.geometry import geometry, geometry_from_points, points_from_angles
 from cardan.drive.models.kinematics_model import Chain, given_chain, turning, unlike_hooke
+from cardan.drive.torsional_layout import has_torsion
 from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames
@@ -27,7 +28,6 @@ from cardan.maths.ties import foremost
 from cardan.questions.accuracy.as_made import AsMade, as_made
 from cardan.questions.forces.turn_loads import TurnLoads, at_joint_angle
 from cardan.questions.motion.turning import Swing, swing
-from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.texts import _
 
 from .load_case import Case, Vibration, largest, vibration

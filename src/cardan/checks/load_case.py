@@ -13,13 +13,14 @@ from cardan.drive.conditions import LoadCase, under
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Harmonic
 from cardan.drive.models.kinematics_model import Chain, given_chain, turning
+from cardan.drive.torsional_layout import has_torsion
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
 from cardan.questions.forces.turn_loads import TurnLoads, case_loads, largest_loads, turn_loads
 from cardan.questions.motion.motion import motion
 from cardan.questions.torsion.model.torsion import torsion_modes
-from cardan.questions.torsion.steady.dynamic_torque import DynamicTorque, dynamic_torque, has_torsion
+from cardan.questions.torsion.steady.dynamic_torque import DynamicTorque, dynamic_torque
 
 BLOCK = 512
 """Drives looked at together: their positions fit the cache."""

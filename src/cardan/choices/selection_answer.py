@@ -12,9 +12,9 @@ from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, all_of
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
+from cardan.drive.torsional_layout import has_torsion
 from cardan.drive.yokes import yokes_estimated
 from cardan.errors import InputError
-from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.texts import _, plural
 
 from .selection import Candidate, JointDuty, Reason, SizeFit, fitting_sizes, joint_duty, reasons, select_joint

@@ -14,10 +14,10 @@ from cardan.checks import Verdict, check
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.paths import with_values
+from cardan.drive.torsional_layout import has_torsion
 from cardan.errors import InputError, Problem, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost_of
-from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.texts import _
 
 REACH = (1e-4, 1e4)

@@ -20,6 +20,11 @@ class Place:
     stations: tuple[int, ...] = ()  # stations of the drive there, by their index
 
 
+def has_torsion(drive: Described) -> bool:
+    """Tell whether a drive file says enough of masses and stiffness to ask how the drive vibrates in torsion."""
+    return bool(drive.stations) or any(shaft.stiffness is not None for shaft in drive.shafts)
+
+
 def shaft_places(drive: Described, number: int, length: float | None) -> tuple[Place, ...]:
     """Return the places of a shaft along the power flow: its two ends with the stations between, or one if it is rigid.
 

@@ -17,8 +17,8 @@ from cardan.checks.verdict_table import missing_table, share, unconfirmed_remark
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
+from cardan.drive.torsional_layout import has_torsion
 from cardan.drive.yokes import yokes_estimated
-from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.texts import _, mark, plural
 
 from .event_damage import cheapest, event_damages, ramp_damages

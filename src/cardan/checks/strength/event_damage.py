@@ -9,7 +9,7 @@ import numpy as np
 from cardan.checks.design import Design, design
 from cardan.drive.drive import Drive
 from cardan.drive.machine import Event, RunUp
-from cardan.questions.torsion.steady.dynamic_torque import has_torsion
+from cardan.drive.torsional_layout import has_torsion
 from cardan.texts import _
 
 from .section import sections

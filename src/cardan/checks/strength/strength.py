@@ -18,6 +18,7 @@ from cardan.checks.verdict import Verdict
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.dynamics_model import train
+from cardan.drive.torsional_layout import has_torsion
 from cardan.errors import InputError, Problem, check
 from cardan.formulas.joint_rating import POWER
 from cardan.maths.arrays import Array
@@ -25,7 +26,6 @@ from cardan.maths.ties import foremost, foremost_of
 from cardan.questions.forces.forces import forces
 from cardan.questions.life.bearing_loads import bearing_loads
 from cardan.questions.life.life import duty_parts, life
-from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.questions.torsion.steady.run_stability import Verdict as StabilityVerdict
 from cardan.questions.torsion.steady.torsion_response import torsion_response
 from cardan.texts import _

@@ -10,10 +10,10 @@ import numpy as np
 from cardan.checks.design import Design
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
+from cardan.drive.torsional_layout import has_torsion
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
-from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 
 NO_MODEL = ("stations[0].inertia",)
 """What a file lacks that says nothing of masses and stiffness."""

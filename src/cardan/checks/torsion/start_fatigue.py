@@ -21,7 +21,7 @@ from cardan.checks.strength.shaft_life import (
     start_damage,
 )
 from cardan.checks.verdict import Verdict
-from cardan.questions.torsion.steady.dynamic_torque import has_torsion
+from cardan.drive.torsional_layout import has_torsion
 from cardan.texts import _, mark
 
 from .line import NO_MODEL

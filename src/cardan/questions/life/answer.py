@@ -17,9 +17,9 @@ from cardan.catalogue.provenance import rows_behind, unconfirmed
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
+from cardan.drive.torsional_layout import has_torsion
 from cardan.drive.yokes import yokes_estimated
 from cardan.maths.ties import foremost
-from cardan.questions.torsion.steady.dynamic_torque import has_torsion
 from cardan.texts import _, mark
 
 from .figure import life_figures

@@ -16,10 +16,11 @@ from cardan.drive.joints import Hooke
 from cardan.drive.machine import HarmonicTorque
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
+from cardan.drive.torsional_layout import has_torsion
 from cardan.formulas.joint_rating import POWER
 from cardan.questions.forces.turn_loads import case_loads
 from cardan.questions.life.life import life
-from cardan.questions.torsion.steady.dynamic_torque import dynamic_torque, has_torsion, steady_torque
+from cardan.questions.torsion.steady.dynamic_torque import dynamic_torque, steady_torque
 from cardan.units import deg, mm, rpm
 
 ONE, TWO = 14 * deg, 9 * deg

@@ -10,14 +10,13 @@ import numpy as np
 
 from cardan.answers.answer import Answer, Column, Remark, Table, Tone
 from cardan.answers.quantity import Joined, Quantity, Say, say
-from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import tree_of
 from cardan.drive.yokes import yokes_estimated
 from cardan.formulas.damping import LOSS, SHAFT_SOURCE
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
-from cardan.questions.torsion.model.answer import nonsynchronous
+from cardan.questions.torsion.model.answer import lacking, nonsynchronous
 from cardan.texts import _
 from cardan.units import deg
 
@@ -36,11 +35,6 @@ WIDE = 30.0 * deg
 
 STILL = 1e-6
 """A station that moves by less than this share of the largest amplitude stands still."""
-
-
-def lacking(drive: Drive) -> Lacking:
-    """Return what the drive file lacks for an absorber."""
-    return lacking_line(drive)
 
 
 def answer(drive: Drive, result: Absorber, *, chosen: bool = False) -> Answer:
@@ -309,12 +303,6 @@ LITTLE = 0.9
 
 NAMED = 4
 """Speeds of instability that are named."""
-
-
-def lacking_line(drive: Drive) -> Lacking:
-    """Return what a drive file lacks for torsional vibration: something that twists."""
-    some = bool(drive.stations) or any(shaft.stiffness is not None for shaft in drive.shafts)
-    return absent((some, "stations", "shafts[1].stiffness"))
 
 
 def torque(value: float) -> Quantity:

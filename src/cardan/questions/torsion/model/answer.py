@@ -12,6 +12,7 @@ from cardan.answers.quantity import Joined, Quantity, Text, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
+from cardan.drive.torsional_layout import has_torsion
 from cardan.drive.yokes import yokes_estimated
 from cardan.formulas.damping import SHAFT_SOURCE
 from cardan.maths.arrays import Array, ArrayLike
@@ -85,8 +86,7 @@ class Exact(Protocol):
 
 def lacking(drive: Drive) -> Lacking:
     """Return what the drive file lacks for torsional vibration."""
-    some = bool(drive.stations) or any(shaft.stiffness is not None for shaft in drive.shafts)
-    return absent((some, "stations", "shafts[1].stiffness"))
+    return absent((has_torsion(drive), "stations", "shafts[1].stiffness"))
 
 
 def answer(drive: Drive, result: TorsionModes, *, exact: Exact | None = None) -> Answer:

@@ -13,7 +13,8 @@ from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
 from cardan.drive.yokes import yokes_estimated
 from cardan.maths.ties import foremost
-from cardan.questions.torsion.absorber.answer import LITTLE, band, cautions, curves, lacking_line, speed, torque
+from cardan.questions.torsion.absorber.answer import LITTLE, band, cautions, curves, speed, torque
+from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.texts import _
 
 from .designs import Free
@@ -42,7 +43,7 @@ def lacking(drive: Drive) -> Lacking:
     """Return what the drive file lacks: something that twists, and the speeds in use."""
     duty = drive.duty
     speeds = duty.speed_range is not None or bool(duty.speed)
-    return (*lacking_line(drive), *absent((speeds, "duty.speed_range", "duty.speed")))
+    return (*lacking_modes(drive), *absent((speeds, "duty.speed_range", "duty.speed")))
 
 
 def otherwise(_drive: Drive) -> str:

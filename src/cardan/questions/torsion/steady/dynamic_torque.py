@@ -10,6 +10,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
+from cardan.drive.torsional_layout import has_torsion
 from cardan.errors import InputError
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import peak
@@ -123,13 +124,6 @@ def _torques(asked: _Vibrating) -> DynamicTorque:
         low[:, k], high[:, k] = np.min(lows, axis=0), np.max(highs, axis=0)
     lost = ~found[:, None]
     return replace(part, low=np.where(lost, np.nan, low), high=np.where(lost, np.nan, high), beside=at_ends)
-
-
-def has_torsion(drive: Drive) -> bool:
-    """Tell whether a drive file says enough of masses and stiffness to ask how the drive vibrates in torsion."""
-    duty = drive.duty
-    stiff = any(shaft.stiffness is not None for shaft in drive.shafts)
-    return bool(drive.stations) or stiff or duty.engine is not None or duty.motor is not None
 
 
 @lru_cache(maxsize=256)
