@@ -117,3 +117,24 @@ def test_peaks_alone_have_no_share():
     found = conditions(replace(DRIVE, duty=Duty(speed=10.0, cases=(Case(name="a", torque=1.0),))))
     with pytest.raises(InputError, match="share"):
         gathered("mean", [1.0], [one.share for one in found])
+
+
+def test_a_case_that_holds_a_speed_of_its_own_does_not_run_over_the_range_of_the_duty():
+    hill = Case(name="hill", torque=600.0, speed=20.0)
+    crawl = Case(name="crawl", torque=900.0, speed_range=(5.0, 9.0))
+    gust = Case(name="gust", torque=700.0)
+    duty = Duty(torque=300.0, speed=50.0, speed_range=(10.0, 80.0), cases=(hill, crawl, gust))
+    ranges = {one.case: one.drive.duty.speed_range for one in conditions(replace(DRIVE, duty=duty))}
+    assert ranges == {
+        "the torque of the duty": (10.0, 80.0),
+        "hill": None,
+        "crawl": (5.0, 9.0),
+        "gust": (10.0, 80.0),
+    }
+
+
+def test_the_range_of_the_duty_is_left_out_by_no_drive():
+    """Without a torque of the duty no condition but the load cases runs over it."""
+    hill = Case(name="hill", torque=600.0, speed=20.0, share=1.0)
+    (only,) = conditions(replace(DRIVE, duty=Duty(speed_range=(10.0, 80.0), cases=(hill,))))
+    assert only.drive.duty.speed_range == (10.0, 80.0)

@@ -89,6 +89,18 @@ def test_the_page_of_a_report_tells_the_conditions_too():
     assert any(getattr(block, "title", "") == "In each condition" for block in page.blocks)
 
 
+def test_a_condition_that_lacks_what_the_question_needs_is_named():
+    """Orders over a range of speeds: the load case holds one speed, and the range is that of the duty itself."""
+    bare = Drive.from_points([(-1, 0, 0), (0, 0, 0), (1, 0, -0.2)])
+    shafts = tuple(Shaft(number=k, inertia=0.1, stiffness=5e4) for k in (1, 2))
+    hill = Case(name="hill", torque=500.0, speed=80.0)
+    duty = Duty(speed=100.0, speed_range=(90.0, 110.0), torque=200.0, cases=(hill,))
+    found = asked("orders", replace(bare, shafts=shafts, duty=duty))
+    (left,) = [told(one.text, READER) for one in found.remarks if one.code == "left_out"]
+    assert left == "Left out for want of duty.speed_range_rpm: hill."
+    assert "conditions" not in data(found, READER)
+
+
 @pytest.mark.slow
 def test_what_has_no_course_is_followed_from_some_instants_to_its_worst():
     """Asked at instants of its own, no key figure is worse than the one that is told."""

@@ -37,6 +37,8 @@ class LoadCase:
     path: str = "duty"  # where it stands in the drive file: ``duty``, ``duty.cases[1]``
     # [rad/s]: lowest and highest input speed, where the case has its own
     speed_range: tuple[float, float] | None = None
+    # whether it runs over the speed range of the duty: not where it holds a speed of its own beside the duty itself
+    ranges: bool = True
     joint_angle: float | None = None  # [rad]: bend of every joint, where it is not that of the drive
     torque_at: str = "output"  # ``output`` or ``input``
     harmonics: tuple[Harmonic, ...] = ()  # swinging parts of the torque
@@ -83,7 +85,11 @@ def load_cases(duty: Duty) -> tuple[LoadCase, ...]:
     """Return every way a duty has a drive run: steadily, load cases or parts of its duty cycle, its measured peak."""
     history = duty.torque_history
     measured = history is not None and bool(history.torques)
-    found = [_of_case(duty, case, f"duty.cases[{k}]") for k, case in enumerate(duty.cases)]
+    own = duty.torque is not None  # then the range of speeds is that of the duty itself
+    found = [
+        _of_case(duty, case, f"duty.cases[{k}]", ranges=not own or case.speed is None)
+        for k, case in enumerate(duty.cases)
+    ]
     rest = max(0.0, 1.0 - sum(one.share for one in found))
     shocks, scale = duty.shock_factor, duty.torque or 0.0
     if duty.torque is not None or not (duty.blocks or found or measured):
@@ -105,6 +111,7 @@ def load_cases(duty: Duty) -> tuple[LoadCase, ...]:
             speed=block.speed,
             share=block.share,
             path=f"duty.blocks[{k}]",
+            ranges=not own,
             joint_angle=block.joint_angle,
             harmonics=duty.harmonics if scale else (),
             scale=scale,
@@ -119,7 +126,7 @@ def load_cases(duty: Duty) -> tuple[LoadCase, ...]:
     return tuple(found)
 
 
-def _of_case(duty: Duty, case: Case, path: str) -> LoadCase:
+def _of_case(duty: Duty, case: Case, path: str, *, ranges: bool) -> LoadCase:
     """Return a load case of the drive file; turns counted in the life asked for are a share of it."""
     speed = case.speed if case.speed_range is None else 0.5 * sum(case.speed_range)
     speed = duty.speed if speed is None else speed if (duty.speed or 0.0) >= 0.0 else -speed
@@ -134,6 +141,7 @@ def _of_case(duty: Duty, case: Case, path: str) -> LoadCase:
         share=share,
         path=path,
         speed_range=case.speed_range,
+        ranges=ranges,
         torque_at=duty.torque_at,
         harmonics=duty.harmonics if scale else (),
         scale=scale,
@@ -210,7 +218,7 @@ def _loaded(drive: Drive, pose: str, share: float | None) -> list[Condition]:
 def under(drive: Drive, case: LoadCase) -> Drive:
     """Return a drive with one load case as its whole duty.
 
-    case: its torque, speed and factor for shocks; the joint angle of every joint and the only movement, where it names
+    case: its torque, speeds and factor for shocks; the joint angle of every joint and the only movement, where it names
     them.
     """
     duty = replace(
@@ -220,7 +228,7 @@ def under(drive: Drive, case: LoadCase) -> Drive:
         torque_history=None,
         torque=case.torque,
         speed=case.speed,
-        speed_range=case.speed_range or drive.duty.speed_range,
+        speed_range=case.speed_range or (drive.duty.speed_range if case.ranges else None),
         torque_at=case.torque_at,
         harmonics=_grown(case),
         shock_factor=case.shock_factor,

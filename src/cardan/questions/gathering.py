@@ -18,6 +18,7 @@ from cardan.answers.question import Aspect, Question
 from cardan.answers.reader import reader
 from cardan.drive.conditions import Condition, acting, conditions, in_poses, load_cases
 from cardan.drive.drive import Drive
+from cardan.drive.fields.keys import key_of
 from cardan.errors import InputError
 from cardan.later import later
 from cardan.maths.ties import alike, foremost
@@ -199,8 +200,11 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
         return replace(answer, keys=(*answer.keys, *keys), remarks=_after(answer, remarks))
     told: list[Told] = []
     whole = not question.lacking(every[0].drive)
+    left_out: dict[str, list[Text]] = {}
     for way in every:
-        if whole and question.lacking(way.drive):
+        if whole and (lacking := question.lacking(way.drive)):
+            missing = ", ".join(_(" or ").join(map(key_of, some)) for some in lacking)
+            left_out.setdefault(missing, []).append(_called(way.name))
             continue
         try:
             result = question.ask(way.drive)
@@ -213,7 +217,10 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
             continue
         if found is not None:
             told.append(Told(way=way, answer=found))
-    if not told:
+    for missing, names in left_out.items():
+        text = _("Left out for want of {keys}: {conditions}.")
+        remarks.append(Remark(text=say(text, keys=missing, conditions=Joined(names)), code="left_out"))
+    if len(told) < (2 if left_out else 1):
         return replace(answer, keys=(*answer.keys, *keys), remarks=_after(answer, remarks))
     worst = max(told, key=lambda one: WORSE.index(one.answer.tone))
     if WORSE.index(worst.answer.tone) > WORSE.index(answer.tone):
@@ -226,9 +233,9 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
     governing = [(key, _governing(key, told)) for key in before.values()]
     keys = [*(one for _key, one in governing), *keys]
     same = _same(told)
-    if same:
+    if same and not left_out:
         remarks.append(Remark(text=_("The same holds in every pose, load case and movement."), code="same"))
-    else:
+    elif not same:
         remarks[:0] = _worst([one for key, one in governing if one is not key], len(told))
     return replace(
         answer,
