@@ -1,9 +1,15 @@
 """Which key figures stand on the first page: those of all answers, each once."""
 
+from dataclasses import replace
+
+import pytest
+
 from cardan.answers.answer import KeyFigure
 from cardan.answers.quantity import Quantity
+from cardan.answers.reader import USUAL
 from cardan.io import example
-from cardan.report.block import key_figures
+from cardan.report.block import Words, key_figures, row, untold
+from cardan.report.content import content
 from tests.report.first_page import key_rows
 
 
@@ -34,3 +40,36 @@ def test_whether_yokes_could_make_it_uniform_is_said_of_the_speed_fluctuation():
 def test_splines_are_told_in_their_worst_pose():
     (row,) = [one for one in key_rows(example("rolling-mill-upper-spindle")) if one[0].text.startswith("shortest")]
     assert row[0].text == "shortest engaged length of the spline, shaft 2, in the pose roll change"
+
+
+def test_a_limit_of_nothing_must_be_exceeded():
+    left = KeyFigure(name="gap", title="gap", value=Quantity(0.07, "length"), limit=Quantity(0.0, "length"))
+    assert [row(replace(left, better=sense), USUAL)[3].text for sense in ("more", "less")] == ["> 0", "≤ 0"]
+
+
+def test_what_repeats_a_figure_is_told_where_it_is_another_number_only():
+    first = KeyFigure(name="fluctuation", title="fluctuation", value=Quantity(0.05, "share"))
+    same, other = (
+        replace(first, name="moving", repeats="fluctuation", value=Quantity(v, "share")) for v in (0.05, 0.06)
+    )
+    assert [one.name for one in untold([first, same], ())] == ["fluctuation"]
+    assert [one.name for one in untold([first, other], ())] == ["fluctuation", "moving"]
+
+
+@pytest.mark.slow
+def test_the_first_page_of_a_moving_drive_tells_its_speed_fluctuation_once():
+    found = content(example("pto-hitch"))
+    told = [cells[0].text for cells in found.figures.rows]
+    (fluctuation,) = [text for text in told if "speed fluctuation" in text]
+    assert "of the movement" in fluctuation
+    (travel,) = [cells for cells in found.lights.rows if "remaining travel" in cells[0].text]
+    assert travel[3].text == "> 0"
+
+
+@pytest.mark.slow
+def test_what_is_said_of_the_drive_stands_on_one_page_of_the_report():
+    pages = content(example("truck-duty-cycle")).pages
+    held = [(page.name, block) for page in pages for block in page.blocks if isinstance(block, Words) and block.once]
+    said = [block.text for _name, block in held]
+    assert any("are held by their machines" in text for text in said)
+    assert len(said) == len(set(said))

@@ -117,6 +117,7 @@ class Remark:
     code: str = ""  # what it is about, in one word for programs
     depth: Depth = "brief"  # how deep it goes
     alarm: bool = False  # whether the reader of the first page must not overlook it
+    once: bool = False  # whether it is of the drive, whatever is asked: a report says it on the first page that has it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -127,7 +128,9 @@ class KeyFigure:
     title: Text  # what it is: the same for every drive
     value: Quantity  # what it comes to
     place: Text = ""  # where, when or in which condition it is so
-    limit: Quantity | None = None  # what it is allowed
+    limit: Quantity | None = (
+        None  # what it is allowed; where that is nothing and more is better, something must be left
+    )
     # the other end of a band that it must leave: no more than the limit, or at least this
     beyond: Quantity | None = None
     # ``"less"`` where the value must not exceed the limit, ``"more"`` where it must not fall below; else empty
@@ -136,6 +139,7 @@ class KeyFigure:
     tone: Tone = "plain"  # how good that is
     used: float | None = None  # share of the limit that is used, where it is not the quotient of value and limit
     check: str = ""  # check that judges it, whose verdict may tell the same
+    repeats: str = ""  # figure of another answer that may tell the same
 
     @property
     def called(self) -> Text:

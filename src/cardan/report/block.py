@@ -41,6 +41,7 @@ class Words:
     text: Text
     tone: Tone = "plain"
     title: str = ""
+    once: bool = False  # whether a report says it on the first page that has it only
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "text", shown(self.text))
@@ -143,7 +144,7 @@ def _blocks(answer: Answer, reader: Reader, depth: Depth) -> Iterator[Block]:
     yield from (Words(text=told(one.text, reader), tone=one.tone) for one in remarks if one.tone == "failed")
     yield from (Picture(figure=one) for one in answer.figures())
     yield from (printed(one, reader, depth) for one in answer.tables if one.depth in shown)
-    yield from (Words(text=told(one.text, reader)) for one in remarks if one.tone in ("plain", "good"))
+    yield from (Words(text=told(one.text, reader), once=one.once) for one in remarks if one.tone in ("plain", "good"))
     minded = [told(one.text, reader) for one in remarks if one.tone == "warning"]
     if minded:
         yield Points(title=_("To mind"), items=list(dict.fromkeys(minded)))
@@ -174,15 +175,19 @@ def _worse(one: KeyFigure, other: KeyFigure) -> bool:
 
 
 def untold(keys: Sequence[KeyFigure], limits: Sequence[KeyFigure]) -> list[KeyFigure]:
-    """Return the key figures that no verdict of the table of limits tells already."""
-    return [key for key in keys if not any(_same(key, one) for one in limits)]
+    """Return the key figures that neither a verdict of the table of limits nor the figure they repeat tells already."""
+    return [
+        key
+        for key in keys
+        if not any(key.check == one.name.partition(" ")[0] and _same(key, one) for one in limits if key.check)
+        and not any(key.repeats == one.name and _same(key, one) for one in keys)
+    ]
 
 
-def _same(key: KeyFigure, verdict: KeyFigure) -> bool:
-    """Tell whether a verdict tells the figure that its check judges: the same number of the same dimension."""
-    own, told = key.value, verdict.value
-    judges = bool(key.check) and verdict.name.partition(" ")[0] == key.check
-    return judges and own.dimension == told.dimension and math.isclose(own.value, told.value, rel_tol=SAME)
+def _same(one: KeyFigure, other: KeyFigure) -> bool:
+    """Tell whether two figures are the same number of the same dimension."""
+    own, told = one.value, other.value
+    return own.dimension == told.dimension and math.isclose(own.value, told.value, rel_tol=SAME)
 
 
 def key_table(keys: Sequence[KeyFigure]) -> Table:
@@ -196,7 +201,7 @@ def row(key: KeyFigure, reader: Reader) -> list[Cell]:
     limit, used = Cell(text="–"), Cell(text="–")
     if key.limit is not None and key.utilisation is not None:
         bound = printed_number(key.limit, reader, unit=False)
-        sign = "≥ " if key.better == "more" else "≤ "
+        sign = "≤ " if key.better != "more" else "≥ " if key.limit.value else "> "
         limit = Cell(text=sign + bound.text, full=bound.full, amount=bound.amount, form=framed(bound.form, sign))
         if key.beyond is not None:
             limit = Cell(text=told(say(_("≤ {low:bare} or ≥ {high:bare}"), low=key.limit, high=key.beyond), reader))

@@ -139,6 +139,15 @@ def _said(on: Subject, limits: Judged) -> Content:
     )
 
 
+def _told_once(pages: Sequence[Page]) -> Iterator[Page]:
+    """Yield the pages of a report; what is said of the drive, whatever is asked, stands on the first that has it."""
+    said: set[str] = set()
+    for one in pages:
+        own = [block for block in one.blocks if isinstance(block, Words) and block.once]
+        yield replace(one, blocks=[block for block in one.blocks if block not in own or block.text not in said])
+        said |= {block.text for block in own}
+
+
 def moved(drive: Drive) -> Page:
     """Return the page of the motion: joints have their angles on the page before, shafts theirs in a table."""
     said = gather(QUESTIONS["motion"], drive, motion.answer(drive, motion.ask(drive)))

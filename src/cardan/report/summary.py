@@ -16,6 +16,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.accuracy.as_made import made
 from cardan.questions.motion.articulation import Worst
+from cardan.questions.motion.articulation_answer import rate_counts
 from cardan.questions.motion.kinds import steep
 from cardan.questions.phases.answer import CALM, UTMOST, excess, steers, wants_fluctuation
 from cardan.questions.phases.setting import YokeSetting
@@ -164,9 +165,6 @@ def _while_moving(on: Subject) -> float:
 MOVING = ("speed_fluctuation", "moving_speed_fluctuation")
 """What is told of the output while the drive moves: as if it stopped on its way, and the movement counted."""
 
-COUNTS = 1.05
-"""The rate of the movement is told where it raises the speed fluctuation by more than this."""
-
 
 def _worst(on: Subject, what: str) -> list[tuple[str, Worst]]:
     """Return the worst instant in a respect, with its pose, as drawn and in every pose."""
@@ -183,7 +181,7 @@ def _moving_words(on: Subject) -> Iterator[Text]:
         text = _("While it moves, the speed fluctuation reaches {share} ({place}).")
         yield say(text, share=_share(share), place=Joined([pose, at]))
     counted = max((one.value for _pose, one in moving), default=0.0)
-    if counted > COUNTS * share and counted - share > UTMOST:
+    if rate_counts(counted, share):
         yield say(_("Including the articulation rate it reaches {share}."), share=_share(counted))
 
 

@@ -81,7 +81,8 @@ def held_by_machines(machines: tuple[int, ...]) -> Iterator[Remark]:
             "apart.",
             len(machines),
         )
-        yield Remark(text=say(text, which=Joined([str(number) for number in machines], last=_(" and "))))
+        which = Joined([str(number) for number in machines], last=_(" and "))
+        yield Remark(text=say(text, which=which), code="held_by_machines", once=True)
 
 
 def proposed(drive: Drive) -> tuple[Support, ...]:

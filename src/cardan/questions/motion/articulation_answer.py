@@ -39,6 +39,9 @@ KEYS = {
 CLOSE = 0.9
 """Share of a limit from which it is near."""
 
+COUNTS, LEAST = 1.05, 1e-9
+"""The rate of the movement is told by itself where it multiplies the speed fluctuation, and adds to it, by more."""
+
 
 def lacking(drive: Drive) -> Lacking:
     """Return what the drive file lacks for its movement."""
@@ -353,19 +356,26 @@ def _keys(drive: Drive, found: Articulation) -> Iterator[KeyFigure]:
         "speed_fluctuation": _("largest speed fluctuation if it stopped on its way"),
         "moving_speed_fluctuation": _("largest speed fluctuation while moving"),
     }
+    frozen = _worst(found, "speed_fluctuation")
     for one in found.worst:
-        if one.what in titles:
+        if one is frozen or (one.what in titles and rate_counts(one.value, 0.0 if frozen is None else frozen.value)):
             yield KeyFigure(
                 name=f"{one.what}_moving",
                 title=titles[one.what],
                 place=say(_("at {time}"), time=_time(one.time)),
                 value=Quantity(one.value, "share", 3),
+                repeats="speed_fluctuation",
             )
     for spline in found.splines:
         short = {flag.field.rpartition(".")[2] for flag in spline.flags}
         for field, left in (("engaged", spline.engaged_min), ("gap", spline.gap_min)):
             if left is not None:
                 yield spline_key(drive, spline.shaft, field, left, failed=field in short)
+
+
+def rate_counts(moving: float, stopped: float) -> bool:
+    """Tell whether the rate of the movement adds to the speed fluctuation so much that it is told by itself."""
+    return moving > COUNTS * stopped and moving - stopped > LEAST
 
 
 def spline_key(drive: Drive, shaft: int, field: str, left: float, *, failed: bool, note: Text = "") -> KeyFigure:
