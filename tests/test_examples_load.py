@@ -25,6 +25,7 @@ def test_all_of_them_are_there() -> None:
         "instrument-joint",
         "mill-spindle",
         "overconstrained-pump",
+        "pickup-two-piece",
         "pto-drive",
         "pto-hitch",
         "pto-spline-thrust",
