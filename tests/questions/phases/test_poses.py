@@ -94,3 +94,19 @@ def test_poses_of_the_drive_count_by_their_shares():
         phases(drive(POSES["laden"])).speed_fluctuation_min, abs=1e-6
     )
     assert mean.pose_speed_fluctuation[1] > 1e-2
+
+
+def test_the_drive_as_drawn_counts_for_the_time_that_its_poses_leave_it(grid):
+    """Drawn empty, 60 % of the time: the worst and the mean of both, against the grid; never empty, laden alone."""
+    base = drive(POSES["empty"])
+    laden = tuple((f"joints[{i}].joint_angle_deg", float(b / deg)) for i, b in enumerate(POSES["laden"]))
+    some = phases(Drive(joints=base.joints, shafts=base.shafts, poses=(Pose(name="laden", share=0.4, set=laden),)))
+    worst, mean = some.pose_settings
+    both = grid[:, :2]
+    for setting, wanted in ((worst, both.max(axis=-1).min()), (mean, (both @ [0.6, 0.4]).min())):
+        left = np.array([setting.speed_fluctuation, float(setting.pose_speed_fluctuation[0])])
+        got = left.max() if setting is worst else left @ [0.6, 0.4]
+        assert got <= wanted + 1e-12
+        assert got == pytest.approx(wanted, abs=2e-3)
+    always = phases(Drive(joints=base.joints, shafts=base.shafts, poses=(Pose(name="laden", share=1.0, set=laden),)))
+    assert all(float(one.pose_speed_fluctuation[0]) < 1e-12 for one in always.pose_settings)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import scipy
 
+from cardan.drive.conditions import in_poses
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import pose_drives
 from cardan.drive.fields.validity import wrong_count
@@ -114,7 +115,8 @@ def phases(
     goal : Goal
         What to choose where synchronism leaves a choice.
     poses : mapping of str to Drive, optional
-        The drive in several poses by name; those of the drive by default.
+        The drive in several poses by name; those of the drive by default, with the drive as drawn where they leave it
+        some of the time.
     progress : function, optional
         Called with the share done; answering "stop" ends the search over poses.
 
@@ -162,10 +164,11 @@ def phases(
     rows = _optima(figure, choice, goal, family=low == 0.0 and len(free) > 2)
     teeth = _teeth(drive, free)
     pitched, refusal = _pitched(choice, start, teeth, [k for k in free if k not in teeth])
-    names, drives, chains, share = _poses(drive, poses)
-    posed, complete = _posed(chains, share, start, free, rows, progress)
+    names, drives, chains, said = _poses(drive, poses)
+    suited, share = _suited(whole, chains, said)
+    posed, complete = _posed(suited, share, start, free, rows, progress)
     if len(posed) and teeth:
-        posed = np.concatenate((posed, best_on_teeth(stacked(chains), share, start, teeth, free, posed)))
+        posed = np.concatenate((posed, best_on_teeth(stacked(suited), share, start, teeth, free, posed)))
     limiting = () if feasible else figure.joints[int(foremost(figure.lengths))]
 
     def evaluated(yokes: Array, labels: Sequence[str]) -> tuple[YokeSetting, ...]:
@@ -253,15 +256,17 @@ def _spline_labels(teeth: Mapping[int, int], count: int) -> list[str]:
     return [first, *(_("{name}, no. {rank}").format(name=first, rank=rank) for rank in range(2, count + 1))][:count]
 
 
-def _poses(drive: Drive, poses: Mapping[str, Drive] | None) -> tuple[tuple[str, ...], list[Drive], list[Chain], Array]:
-    """Return names, drives, kinematics and shares of the poses."""
-    if poses is None and drive.poses:
+def _poses(
+    drive: Drive, poses: Mapping[str, Drive] | None
+) -> tuple[tuple[str, ...], list[Drive], list[Chain], list[float | None]]:
+    """Return names, drives and kinematics of the poses, and the shares: of the drive as drawn, then theirs."""
+    if poses is None:
         given = list(zip((pose.name for pose in drive.poses), pose_drives(drive), strict=True))
-        said = [pose.share for pose in drive.poses]
+        said = [one.share for one in in_poses(drive)]
     else:
-        given = list((poses or {}).items())
+        given = list(poses.items())
         shares = {pose.name: pose.share for pose in drive.poses}
-        said = [shares.get(name) for name, _pose in given]
+        said = [0.0, *(shares.get(name) for name, _pose in given)]
     problems = [
         Problem(
             f"poses[{k}]",
@@ -271,16 +276,27 @@ def _poses(drive: Drive, poses: Mapping[str, Drive] | None) -> tuple[tuple[str, 
         if len(one.joints) != len(drive.joints)
     ]
     check(problems)
-    known = [share for share in said if share is not None]
-    rest = max(0.0, 1.0 - sum(known)) / max(1, len(said) - len(known))
-    weight = np.asarray([rest if share is None else share for share in said])
-    even = np.ones(len(said)) / max(1, len(said))
     return (
         tuple(name for name, _one in given),
         [one for _name, one in given],
         [nearly_turning_chain(one, _("yoke angles")) for _name, one in given],
-        weight / weight.sum() if weight.sum() > 0 else even,
+        said,
     )
+
+
+def _suited(drawn: Chain, poses: Sequence[Chain], said: Sequence[float | None]) -> tuple[list[Chain], Array]:
+    """Return what the yokes are to suit, the drive as drawn where it has time, and the shares; none without poses.
+
+    said: shares of the drive as drawn and of its poses; those not said have what is left, each as much.
+    """
+    if not poses:
+        return [], np.zeros(0)
+    every = [(chain, share) for chain, share in zip((drawn, *poses), said, strict=True)][said[0] == 0.0 :]
+    known = [share for _chain, share in every if share is not None]
+    rest = max(0.0, 1.0 - sum(known)) / max(1, len(every) - len(known))
+    weight = np.asarray([rest if share is None else share for _chain, share in every])
+    even = np.ones(len(every)) / len(every)
+    return [chain for chain, _share in every], weight / weight.sum() if weight.sum() > 0 else even
 
 
 def _posed(
