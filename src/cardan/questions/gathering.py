@@ -225,8 +225,9 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
     worst = max(told, key=lambda one: WORSE.index(one.answer.tone))
     if WORSE.index(worst.answer.tone) > WORSE.index(answer.tone):
         at, bad = _called(worst.way.name), worst.answer.tone
-        why = say(_("In this condition: {condition}: {answer}"), condition=at, answer=worst.answer.sentence)
-        remarks.append(Remark(text=why, tone=bad, alarm=bad == "failed"))
+        if bad in ("warning", "failed"):
+            why = say(_("In this condition: {condition}: {answer}"), condition=at, answer=worst.answer.sentence)
+            remarks.append(Remark(text=why, tone=bad, alarm=bad == "failed"))
         answer = replace(answer, tone=worst.answer.tone, code=max(answer.code, worst.answer.code))
     before = {key.name: key for one in (answer, *(one.answer for one in told[::-1])) for key in one.keys}
     before |= {key.name: key for key in answer.keys}

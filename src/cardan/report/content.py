@@ -35,7 +35,7 @@ from .answers import (
     refused,
     warnings_by_laws,
 )
-from .block import Page, Picture, Points, Table, Words, key_figures, key_table, page, shown, untold
+from .block import Block, Page, Picture, Points, Table, Words, key_figures, key_table, page, shown, untold
 from .description import description
 from .method import method
 from .subject import Subject, asked
@@ -143,9 +143,15 @@ def _told_once(pages: Sequence[Page]) -> Iterator[Page]:
     """Yield the pages of a report; what is said of the drive, whatever is asked, stands on the first that has it."""
     said: set[str] = set()
     for one in pages:
-        own = [block for block in one.blocks if isinstance(block, Words) and block.once]
-        yield replace(one, blocks=[block for block in one.blocks if block not in own or block.text not in said])
-        said |= {block.text for block in own}
+        kept: list[Block] = []
+        for block in one.blocks:
+            if isinstance(block, Points):
+                items = [item for item in block.items if item not in said]
+                kept += [replace(block, items=items)] if items else []
+            elif not (isinstance(block, Words) and block.once and block.text in said):
+                kept.append(block)
+        yield replace(one, blocks=kept)
+        said |= {block.text for block in one.blocks if isinstance(block, Words) and block.once}
 
 
 def moved(drive: Drive) -> Page:

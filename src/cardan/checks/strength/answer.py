@@ -246,9 +246,16 @@ def _counted(result: Strength) -> Text:
                 "damage of all by their shares."
             )
         )
-    if result.shock_factor != 1.0:
+    low, high = (pick(result.shock_factor * one.severity for one in result.cases) for pick in (min, max))
+    if high != 1.0:
         more = _("Torques and stresses are with the service factor {shock}; twist and fatigue are without.")
-        said.append(say(more, shock=Quantity(result.shock_factor, digits=3, trim=True)))
+        if low != high:
+            more = _(
+                "Torques and stresses are with the service factor of each load case, {low} to {shock}; twist and "
+                "fatigue are without."
+            )
+        factors = {"low": Quantity(low, digits=3, trim=True), "shock": Quantity(high, digits=3, trim=True)}
+        said.append(say(more, **factors))
     return Joined(said, between=" ") if len(said) > 1 else said[0]
 
 
@@ -377,6 +384,11 @@ def _left_out(out: LeftOut) -> Iterator[Remark]:
             "With friction, masses, weights and axial forces a journal of joint {number} carries {load}, {more} more "
             "than counted here before the service factor."
         )
+        if out.journal.several:
+            text = _(
+                "Under the torque of the duty a journal of joint {number} carries {load} with friction, masses, "
+                "weights and axial forces, {more} more than without them."
+            )
         load, more = Quantity(out.journal.load, "force"), Quantity(out.journal.more, "share", decimals=1)
         yield Remark(text=say(text, number=out.journal.joint, load=load, more=more), tone="warning")
 

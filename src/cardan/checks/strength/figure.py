@@ -31,7 +31,7 @@ def strength_figures(found: Strength) -> tuple[Figure, ...]:
 
 def role_of(one: Verdict) -> str:
     """Return the colour of a verdict: how near it is to its limit."""
-    return "muted" if one.advice else role(float(one.utilisation))
+    return "muted" if one.advice or one.state == "unconfirmed" else role(float(one.utilisation))
 
 
 def role(used: float) -> str:
@@ -52,7 +52,9 @@ def uses_figure(found: Strength) -> Figure:
     if len(order) < len(found.judged):
         text = _("the {shown} most utilised of {all} checks")
         source.append(say(text, shown=len(order), all=len(found.judged)))
-    if any(one.advice for one in order):
+    if any(one.state == "unconfirmed" for one in order):
+        source.append(_("grey: limits that nothing confirms, and rules of thumb, which fail no drive"))
+    elif any(one.advice for one in order):
         source.append(_("grey: rules of thumb, which fail no drive"))
     rows = [(one.title, float(one.utilisation), role_of(one)) for one in order]
     return Figure(

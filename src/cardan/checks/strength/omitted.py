@@ -24,6 +24,7 @@ class Journal:
     joint: int  # from 1
     load: float  # [N]
     more: float  # share by which that is more than counted
+    several: bool = False  # whether the drive has other load cases beside the torque of the duty, which this is of
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -395,4 +395,5 @@ def _journal(drive: Drive, found: Strength) -> Journal | None:
     if not np.any(np.isfinite(more)):
         return None
     i = int(np.nanargmax(more))
-    return Journal(joint=i + 1, load=float(load[i]), more=float(more[i])) if more[i] > SLIGHT else None
+    several = len(found.cases) > 1
+    return Journal(joint=i + 1, load=float(load[i]), more=float(more[i]), several=several) if more[i] > SLIGHT else None

@@ -323,6 +323,8 @@ def _assumptions(drive: Drive, result: LineWhirl) -> Iterator[Remark]:
         yield Remark(text=say(text, factors=Joined(said)))
     low, high = (float(one) for one in (np.min(result.damping_ratio), np.max(result.damping_ratio)))
     text = _("Damping ratio of the modes {low} to {high}, beside the dampers of the supports.")
+    if high - low < 0.01 * high:
+        text = _("Damping ratio of the modes {high}, beside the dampers of the supports.")
     yield Remark(text=say(text, low=Quantity(low, "share", 2), high=Quantity(high, "share", 2)))
     soft = [number for number in result.support if drive.supports[number - 1].damping is None]
     if soft:

@@ -203,7 +203,8 @@ def _duty_cycle(result: Life) -> Iterator[Table]:
 
 def _named(result: Life) -> list[str]:
     """Return what the parts of the duty are called."""
-    return [part.name or _("as drawn") for part in result.parts]
+    cases = len({part.path for part in result.parts if part.path}) > 1
+    return [part.name or (_("the torque of the duty") if cases else _("as drawn")) for part in result.parts]
 
 
 def _everything(result: Life) -> Table:
@@ -307,7 +308,7 @@ def _vibration(drive: Drive, result: Life) -> Remark:
         text = _("Torsional vibration counts as far as the measured torque holds it.")
     elif has_torsion(drive):
         text = _("Warning: torsional vibration is not counted: no steady motion could be told.")
-    return Remark(text=text, tone="warning" if has_torsion(drive) and result.history is None else "plain")
+    return Remark(text=text, tone="warning" if has_torsion(drive) and result.history is None else "plain", once=True)
 
 
 def _cautions(result: Life) -> Iterator[Remark]:

@@ -24,7 +24,7 @@ from cardan.units import deg
 
 from .columns import COLUMNS
 from .equivalence import SYNCHRONOUS, EquivalentJoint, each_uniform, equivalent_joint, is_rounding
-from .figures.motion import motion_figure, orders_figure, speed_fluctuation_figure
+from .figures.motion import FLOOR, motion_figure, orders_figure, speed_fluctuation_figure
 from .kinds import beside_turning, carried_on, steep_joints
 from .motion import Motion, motion
 from .standing import standing_chain
@@ -339,10 +339,11 @@ def _remarks(drive: Drive, result: Turning) -> Iterator[Remark]:
                 steep=Quantity(float(_largest(result)[-1]), "angular_acceleration"),
             )
         )
-    if not even:
+    if not even and any(wave > FLOOR * deg for _order, wave in _orders(each)):
         parts = [
             say(_("{order} with ±{size}"), order=order, size=Quantity(wave, "angle", 3))
             for order, wave in _orders(each)
+            if wave > FLOOR * deg
         ]
         yield Remark(text=say(_("Orders of the angle error: {orders}."), orders=Joined(parts)))
     if isinstance(each, EquivalentJoint) and not is_rounding(drive, result.fluctuation):
