@@ -48,8 +48,12 @@ def test_what_the_bars_leave_out_is_said():
     found = strength(example("car-propshaft"))
     figure = for_reader(uses_figure(found), USUAL)
     assert f"the 16 most utilised of {len(found.judged)} checks" in figure.source
-    assert "grey: rules of thumb" in figure.source
-    assert "grey" not in for_reader(uses_figure(strength(DRIVE)), USUAL).source
+    assert "grey: limits that nothing confirms; grey: rules of thumb" in figure.source
+    (bars,) = [one for one in figure.rows[0].panels[0].series if isinstance(one, Bars)]
+    worst = sorted(found.judged, key=lambda one: -float(one.utilisation))[: len(bars.roles)]
+    assert [role for role, one in zip(bars.roles, worst, strict=True) if one.state == "unconfirmed"]
+    assert all((role == "muted") >= (one.state == "unconfirmed") for role, one in zip(bars.roles, worst, strict=True))
+    assert "rules of thumb" not in for_reader(uses_figure(strength(DRIVE)), USUAL).source
 
 
 def test_a_drive_that_says_nothing_has_a_figure_too():

@@ -53,8 +53,8 @@ def uses_figure(found: Strength) -> Figure:
         text = _("the {shown} most utilised of {all} checks")
         source.append(say(text, shown=len(order), all=len(found.judged)))
     if any(one.state == "unconfirmed" for one in order):
-        source.append(_("grey: limits that nothing confirms, and rules of thumb, which fail no drive"))
-    elif any(one.advice for one in order):
+        source.append(_("grey: limits that nothing confirms"))
+    if any(one.advice for one in order):
         source.append(_("grey: rules of thumb, which fail no drive"))
     rows = [(one.title, float(one.utilisation), role_of(one)) for one in order]
     return Figure(
