@@ -139,21 +139,6 @@ def _said(on: Subject, limits: Judged) -> Content:
     )
 
 
-def _told_once(pages: Sequence[Page]) -> Iterator[Page]:
-    """Yield the pages of a report; what is said of the drive, whatever is asked, stands on the first that has it."""
-    said: set[str] = set()
-    for one in pages:
-        kept: list[Block] = []
-        for block in one.blocks:
-            if isinstance(block, Points):
-                items = [item for item in block.items if item not in said]
-                kept += [replace(block, items=items)] if items else []
-            elif not (isinstance(block, Words) and block.once and block.text in said):
-                kept.append(block)
-        yield replace(one, blocks=kept)
-        said |= {block.text for block in one.blocks if isinstance(block, Words) and block.once}
-
-
 def moved(drive: Drive) -> Page:
     """Return the page of the motion: joints have their angles on the page before, shafts theirs in a table."""
     said = gather(QUESTIONS["motion"], drive, motion.answer(drive, motion.ask(drive)))
@@ -249,14 +234,17 @@ def _without_verdicts(said: Answer) -> Answer:
 
 
 def _told_once(pages: Sequence[Page]) -> Iterator[Page]:
-    """Yield pages; what is to be minded of several is told on the first of them."""
+    """Yield pages; what is to be minded of several, or is of the drive, is told on the first of them."""
     told: set[str] = set()
     for one in pages:
-        blocks = [
-            replace(block, items=_new(block.items, told)) if isinstance(block, Points) else block
-            for block in one.blocks
-        ]
-        yield replace(one, blocks=[block for block in blocks if not isinstance(block, Points) or block.items])
+        blocks: list[Block] = []
+        for block in one.blocks:
+            if isinstance(block, Points):
+                items = _new(block.items, told)
+                blocks += [replace(block, items=items)] if items else []
+            elif not isinstance(block, Words) or not block.once or _new([block.text], told):
+                blocks.append(block)
+        yield replace(one, blocks=blocks)
 
 
 def _new(items: Sequence[str], told: set[str]) -> list[str]:
