@@ -33,6 +33,9 @@ LEAST_Q = 0.02
 WIDE = 0.1
 """A zone of this share of the window has the names of its edges inside."""
 
+NAMED, LOWER = 0.92, 0.7
+"""Share of the height of a boundary at which its name stands, and that of a₀, which leaves at the side with b₁."""
+
 ROOM = 1.5
 """How much higher than the point of the drive the panel about its zone is."""
 
@@ -201,7 +204,8 @@ def chart_panel(
             inside = np.where((side >= low) & (side <= high), side, np.nan)
             lines.append(Curve(x=inside, y=q, role="ink", width=1.1))
             wide = float(right[-1] - left[-1]) > WIDE * (high - low)
-            lines += _edge_name(inside, q, name + _low(r), top, to_right=(name == "b") == wide)
+            beside = r > 0 and (name == "b") == wide  # a₀ has its name on its other side, away from that of b₁
+            lines += _edge_name(inside, q, name + _low(r), top, to_right=beside, at=NAMED if r else LOWER)
         if damping > 0.0 and r > 0:
             lines += _damped(q, damping, r, low, high, named and r == 1)
     ticks = steps(low, high, 7)
@@ -228,12 +232,12 @@ def _inside(mark: Series, low: float, high: float, top: float) -> Series:
     return replace(mark, x=x0 + share * (x1 - x0), y=y0 + share * (y1 - y0))
 
 
-def _edge_name(x: Array, q: Array, name: str, top: float, *, to_right: bool) -> list[Series]:
-    """Return the name of a boundary beside where it leaves the window."""
+def _edge_name(x: Array, q: Array, name: str, top: float, *, to_right: bool, at: float) -> list[Series]:
+    """Return the name of a boundary beside where it leaves the window, at a share of the height there."""
     seen = np.flatnonzero(np.isfinite(x))
     if not seen.size or q[seen[-1]] < 0.4 * top:
         return []
-    last = int(seen[np.searchsorted(q[seen], 0.92 * q[seen[-1]])])
+    last = int(seen[np.searchsorted(q[seen], at * q[seen[-1]])])
     shift = (4.0, 0.0) if to_right else (-4.0, 0.0)
     return [Note(text=name, x=float(x[last]), y=float(q[last]), side="left" if to_right else "right", shift=shift)]
 

@@ -1,6 +1,7 @@
 """Charts of Mathieu's equation: what is shaded is what grows, and the drive stands where its numbers say."""
 
 from dataclasses import replace
+from itertools import combinations
 from xml.etree import ElementTree
 
 import numpy as np
@@ -8,9 +9,9 @@ import pytest
 from matplotlib.path import Path
 
 from cardan import figures
-from cardan.book.figure import chart_figure
+from cardan.book.figure import chart_figure, chart_panel
 from cardan.book.mathieu_drive import mathieu_reduction
-from cardan.figures.figure import Curve, Shape
+from cardan.figures.figure import Curve, Note, Shape
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.maths.periodic.mathieu import exponents
@@ -90,3 +91,14 @@ def test_damping_draws_its_edges_inside_the_zones():
     assert "grows" in figure.sentence
     assert "dies" in chart_figure(damping=0.1, point=(2.5, 0.1)).sentence
     assert "neither" in chart_figure(point=(2.5, 0.1)).sentence
+
+
+def test_names_of_the_boundaries_keep_apart():
+    """a₀ and b₁ run together where they leave the window: their names stand apart by more than their own height."""
+    panel = chart_panel((-2.0, 18.0), 2.5, (), title="q")
+    notes = [one for one in panel.series if isinstance(one, Note)]
+    assert {"a₀", "b₁", "a₁"} <= {one.text for one in notes}
+    for one, other in combinations(notes, 2):
+        assert abs(one.x - other.x) > 0.2 or one.side != other.side or abs(one.y - other.y) > 0.12
+    (left, right) = (next(one for one in notes if one.text == name) for name in ("a₀", "b₁"))
+    assert abs(left.y - right.y) > 0.25
