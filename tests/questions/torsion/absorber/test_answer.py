@@ -72,6 +72,7 @@ def test_lost_motions_are_told():
         after=np.asarray([[1.0, 2.0], [np.nan, np.nan], [3.0, 1.0]]),
         unstable_after=[],
         unstable_before=[],
+        proof=None,
         play=False,
         cancelled=False,
         converged=True,

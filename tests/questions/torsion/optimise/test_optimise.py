@@ -10,16 +10,19 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.drive.duty import Duty
 from cardan.drive.fields.paths import with_values
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.station import Station
 from cardan.maths.curves.search import Evolution, evolve
+from cardan.questions.torsion.optimise.answer import answer
 from cardan.questions.torsion.optimise.designs import Free
 from cardan.questions.torsion.optimise.optimise import Grid, OptimisedTorsion, optimise_torsion
 from cardan.questions.torsion.steady.run_stability import Verdict, floquet
 from cardan.questions.torsion.steady.steady import periodic_response
-from cardan.questions.torsion.steady.torsion_response import loaded_model
+from cardan.questions.torsion.steady.torsion_response import loaded_model, torsion_response
 from cardan.units import deg
 
 DRIVE = replace(
@@ -313,3 +316,32 @@ def test_tolerances_that_are_none_are_refused_with_their_keys() -> None:
     )
     with pytest.raises(InputError, match="7 tolerances; at most 6"):
         optimise_torsion(DRIVE, free=FREE, method=Grid(points=2), tolerances=many)
+
+
+def test_the_design_is_proved_to_be_stable_or_where_it_is_not() -> None:
+    """A zone too narrow for an even look, found with its edges; Floquet judges on either side of them."""
+    drive = replace(
+        Drive.from_angles([0.12]),
+        shafts=(Shaft(number=1, stiffness=1000.0, damping=0.004),),
+        stations=(Station(shaft=2, inertia=0.4),),
+        duty=Duty(torque=20.0, speed_range=(42.0, 63.0)),
+    )
+    found = optimise_torsion(drive, free={"stations[0].inertia_kg_m2": (0.39, 0.41, 0.01)}, method=Grid(points=3))
+    assert found.proof is not None
+    assert found.proof.proved
+    (low,), (high,) = found.proof.lowest.tolist(), found.proof.highest.tolist()
+    assert high - low < 0.02 * low
+    at = np.asarray([low * 0.9995, low * 1.0005, high * 0.9995, high * 1.0005])
+    judged = torsion_response(found.drive, speed=at).floquet
+    assert judged.stable.tolist() == [True, False, False, True]
+    said = answer(drive, found)
+    assert said.tone == "warning"
+    assert any("not stable everywhere" in told(one.text, USUAL) for one in said.remarks)
+    calm = optimise_torsion(
+        replace(drive, shafts=(replace(drive.shafts[0], damping=2.0),)),
+        free={"stations[0].inertia_kg_m2": (0.39, 0.41, 0.01)},
+        method=Grid(points=3),
+    )
+    assert calm.proof is not None
+    assert calm.proof.stable
+    assert any("throughout the band: proved" in told(one.text, USUAL) for one in answer(drive, calm).remarks)

@@ -17,6 +17,8 @@ from cardan.formulas.pendulum import tuned_length
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torsional_balance import places
 from cardan.questions.torsion.model.torsional_modes import StraightModes, straight_modes
+from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
+from cardan.questions.torsion.stability.torsion_stability import proved_in_band
 from cardan.questions.torsion.steady.alternating_torque import TorqueSwings
 from cardan.questions.torsion.steady.torsion_response import Progress
 from cardan.texts import _
@@ -154,6 +156,8 @@ class Absorber:
         about its pivot), power that its damper turns to heat.
     unstable_before, unstable_after : arrays (k,) [rad/s]
         Speeds, of those looked at, at which a small disturbance grows.
+    proof : ProvedSpeeds or None
+        Where in the band the drive with it is unstable, and whether that is proved to be all; None for a single speed.
     tuned_speed : float or None [rad/s]
         The one speed an absorber without damping is set for.
     evaluations : int
@@ -197,6 +201,7 @@ class Absorber:
     cancelled: bool
     play: bool
     assumed: tuple[str, ...]
+    proof: ProvedSpeeds | None = None
 
     @property
     def inertia_ratio(self) -> float:
@@ -395,6 +400,7 @@ def absorber(
         cancelled=watch.stopped,
         play=bare.play,
         assumed=bare.trains[0].assumed,
+        proof=proved_in_band(better, float(curves.speed[0]), float(curves.speed[-1])),
     )
 
 

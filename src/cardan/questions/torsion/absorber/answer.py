@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import Answer, Column, Remark, Table, Tone
-from cardan.answers.quantity import Joined, Quantity, Say, say
+from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import tree_of
 from cardan.drive.yokes import yokes_estimated
@@ -17,6 +17,7 @@ from cardan.formulas.damping import LOSS, SHAFT_SOURCE
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.torsion.model.answer import lacking, nonsynchronous
+from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
 from cardan.texts import _
 from cardan.units import deg
 
@@ -44,7 +45,7 @@ def answer(drive: Drive, result: Absorber, *, chosen: bool = False) -> Answer:
     chosen: whether the band of speeds was asked for: then it may lie where the drive does not run.
     """
     away = None if chosen else _away(drive, result)
-    tone: Tone = "good" if result.reduction < LITTLE and away is None else "warning"
+    tone: Tone = "good" if result.reduction < LITTLE and away is None and not unstable(result) else "warning"
     return Answer(
         name="absorber",
         title=_("Absorber"),
@@ -252,6 +253,7 @@ def _facts(result: Absorber) -> dict[str, Any]:
         "largest_power_loss": Quantity(float(max(result.heat)), "power"),
         "unstable_before": Quantity(result.unstable_before, "angular_speed"),
         "unstable_after": Quantity(result.unstable_after, "angular_speed"),
+        **proof_facts(result.proof),
         "evaluations": result.evaluations,
         "converged": result.converged,
         "cancelled": result.cancelled,
@@ -349,14 +351,7 @@ def cautions(found: Any) -> Iterator[Remark]:
             "alternating torque."
         )
         yield Remark(text=say(text, lost=lost, count=len(found.after)), tone="warning")
-    if len(found.unstable_after):
-        speeds = Joined([speed(one) for one in found.unstable_after[:NAMED]])
-        text = _("Warning: parametric instability near {speeds}; see cardan torsion stability.")
-        yield Remark(text=say(text, speeds=speeds), tone="warning")
-    elif len(found.unstable_before):
-        yield Remark(
-            text=_("As built, the drive is unstable at some speeds; now it is stable at all of them."), tone="good"
-        )
+    yield from _stability(found)
     if found.play:
         text = _("Backlash counts as closed here; cardan torsion response tells whether the torque changes its sign.")
         yield Remark(text=text, tone="warning")
@@ -379,3 +374,57 @@ def cautions(found: Any) -> Iterator[Remark]:
     if undamped:
         text = _("Assumed: no damping in {paths}; give damping or loss_factor, which set the height of the peaks.")
         yield Remark(text=say(text, paths=", ".join(undamped)))
+
+
+def unstable(found: Any) -> bool:
+    """Tell whether an absorber or a design leaves the drive unstable somewhere in the band."""
+    return len(found.unstable_after) > 0 or (found.proof is not None and len(found.proof.lowest) > 0)
+
+
+def proof_facts(proof: ProvedSpeeds | None) -> dict[str, Any]:
+    """Return what a program is told of the proof of an absorber or a design."""
+    if proof is None:
+        return {"stability_proved": None, "unstable_from": Quantity([], "angular_speed")}
+    return {
+        "stability_proved": proof.proved and proof.looked_at,
+        "unstable_from": Quantity(proof.lowest, "angular_speed"),
+        "unstable_to": Quantity(proof.highest, "angular_speed"),
+    }
+
+
+def _stability(found: Any) -> Iterator[Remark]:
+    """Yield where in the band the drive is unstable, and whether the rest of it is proved to be stable."""
+    proof: ProvedSpeeds | None = found.proof
+    proved = proof is not None and proof.proved and proof.looked_at
+    if unstable(found):
+        where: list[Text] = [speed(one) for one in found.unstable_after[:NAMED]]
+        if proof is not None and len(proof.lowest):
+            pairs = list(zip(proof.lowest, proof.highest, strict=True))[:NAMED]
+            where = [say(_("{low:bare} to {high}"), low=speed(low, 4), high=speed(high, 4)) for low, high in pairs]
+        text = _(
+            "Warning: not stable everywhere in the band: parametric instability at {speeds}; see cardan torsion "
+            "stability."
+        )
+        if proved:
+            text = _(
+                "Warning: not stable everywhere in the band: parametric instability at {speeds}, and proved nowhere "
+                "else; see cardan torsion stability."
+            )
+        yield Remark(text=say(text, speeds=Joined(where)), tone="warning")
+        return
+    if proof is None:
+        return
+    if proved:
+        text = _("Stable throughout the band: proved.")
+        if len(found.unstable_before):
+            text = _("As built, the drive is unstable at some speeds; now it is stable throughout the band: proved.")
+        yield Remark(text=text, tone="good")
+        return
+    if not proof.looked_at:
+        text = _("Stable at the speeds looked at; a proof between them would take too long.")
+        yield Remark(text=text)
+        return
+    pairs = list(zip(*proof.unproved.T.tolist(), strict=True))[:NAMED]
+    where = [say(_("{low:bare} to {high}"), low=speed(low, 4), high=speed(high, 4)) for low, high in pairs]
+    text = _("Stable at the speeds looked at, but not proved at {where}: backlash opens there, or the margin is small.")
+    yield Remark(text=say(text, where=Joined(where)), tone="warning")

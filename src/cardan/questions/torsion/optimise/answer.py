@@ -13,7 +13,16 @@ from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
 from cardan.drive.yokes import yokes_estimated
 from cardan.maths.ties import foremost
-from cardan.questions.torsion.absorber.answer import LITTLE, band, cautions, curves, speed, torque
+from cardan.questions.torsion.absorber.answer import (
+    LITTLE,
+    band,
+    cautions,
+    curves,
+    proof_facts,
+    speed,
+    torque,
+    unstable,
+)
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.texts import _
 
@@ -77,10 +86,10 @@ def _sentence(result: OptimisedTorsion) -> tuple[Tone, Say]:
         before, after = (torque(one.torque) for one in (result.worst_before, result.worst_after))
         text = _("within its tolerances the largest alternating torque falls from ±{before:bare} to ±{after}, {band}.")
         said = say(text, before=before, after=after, band=values["band"])
-        return "warning" if result.worst_after.unstable else "good", said
+        return "warning" if result.worst_after.unstable or unstable(result) else "good", said
     text = _("the largest alternating torque falls from ±{before:bare} to ±{after} ({share}), {band}.")
     share = Quantity(result.reduction, "share", 3)
-    tone: Tone = "warning" if len(result.unstable_after) else "good"
+    tone: Tone = "warning" if unstable(result) else "good"
     return tone, say(text, before=torque(result.peak_before.torque), share=share, **values)
 
 
@@ -290,6 +299,7 @@ def _facts(result: OptimisedTorsion) -> dict[str, Any]:
         "elements": list(result.elements),
         "unstable_before": Quantity(result.unstable_before, "angular_speed"),
         "unstable_after": Quantity(result.unstable_after, "angular_speed"),
+        **proof_facts(result.proof),
         "modes_before": [_rule(one) for one in result.rules_before],
         "modes_after": [_rule(one) for one in result.rules_after],
         "why": list(reasons(result)),

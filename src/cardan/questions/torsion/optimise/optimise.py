@@ -34,6 +34,8 @@ from cardan.questions.torsion.absorber.band import (
     unstable_speeds,
     wanted_band,
 )
+from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
+from cardan.questions.torsion.stability.torsion_stability import proved_in_band
 from cardan.questions.torsion.steady.torsion_response import Progress
 from cardan.texts import _
 
@@ -91,6 +93,9 @@ class OptimisedTorsion:
         Tolerances for which it was searched.
     worst_before, worst_after : Worst or None
         The worst within them as built and with the best values; None without tolerances.
+    proof : ProvedSpeeds or None
+        Where in the band the drive with the best values is unstable, and whether that is proved to be all; None for a
+        single speed.
     limited : (float, float) or None
         Largest share of a limit used as built and with the best values, at the worst of the tolerances; None where no
         limits were given.
@@ -123,6 +128,7 @@ class OptimisedTorsion:
     worst_before: Worst | None = None
     worst_after: Worst | None = None
     limited: tuple[float, float] | None = None
+    proof: ProvedSpeeds | None = None
 
     @property
     def reduction(self) -> float:
@@ -246,6 +252,7 @@ def optimise_torsion(
         worst_before=None if worst is None else worst[0],
         worst_after=None if worst is None else worst[1],
         limited=limited,
+        proof=proved_in_band(chosen, float(curves.speed[0]), float(curves.speed[-1])),
     )
 
 

@@ -237,6 +237,16 @@ def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     return proof.judged_at(floquet_map(parted(model)[0], speed=sense * held).floquet, held)
 
 
+def proved_in_band(drive: Drive, low: float, high: float) -> ProvedSpeeds | None:
+    """Return the unstable ranges of a drive between two speeds [rad/s]; None of a single speed.
+
+    Raises InputError: what the torsional model misses, each with the key to add.
+    """
+    if not 0.0 < low < high:
+        return None
+    return _proved(drive, (low, high), torsional_train(drive, drive.duty, speed=low), 1, LITTLE, None)
+
+
 def _proved(
     drive: Drive,
     between: tuple[float, float],
