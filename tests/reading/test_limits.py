@@ -16,7 +16,7 @@ from cardan.cli.main import main
 from cardan.files import Enclosed
 from cardan.io import loads, loads_mechanism
 from cardan.io.amend import amend
-from cardan.io.drive_file import parsed
+from cardan.io.text import parsed
 from cardan.reading import limits
 from cardan.reading.limits import MAX_BYTES, MAX_JOINTS, MAX_KEYS, MAX_LEVELS, MAX_PAIRS, MAX_TABLES, limits_hold
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,13 +10,14 @@ from typing import Any
 from cardan.catalogue import Catalogue, catalogue, completed, shortened, with_files
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import tree_of
-from cardan.errors import Problem, check, refuse
-from cardan.files import Enclosed, folder_of, refusal
+from cardan.errors import refuse
+from cardan.files import Enclosed, folder_of
 from cardan.mechanism.mechanism import Mechanism
-from cardan.reading.limits import MAX_BYTES, check_lists, check_size, check_text, limited, limits_hold
+from cardan.reading.limits import limits_hold
 from cardan.texts import _
 
-from .reader import drive_from_tree, read_as
+from .reader import drive_from_tree, mechanism_of
+from .text import describes_mechanism, parsed, text_of
 
 
 def load(path: str | Path, *, catalogues: Sequence[str | Path] = (), limits: bool = True) -> Drive:
@@ -62,22 +61,6 @@ def load(path: str | Path, *, catalogues: Sequence[str | Path] = (), limits: boo
         return loads(text, folder=where.parent, form=form, name=str(where), catalogues=catalogues)
 
 
-def text_of(where: Path) -> tuple[str, str]:
-    """Return the text of a file, and whether it is ``"toml"`` or ``"json"``."""
-    try:
-        with where.open("rb") as stream:
-            size = os.fstat(stream.fileno()).st_size
-            check_size(size, str(where))
-            content = stream.read(MAX_BYTES + 1 if limited() else -1)
-        check_size(len(content), str(where))  # of a pipe, which does not say how long it is
-        text = content.decode("utf-8-sig")
-    except OSError as error:
-        raise refuse(str(where), _("cannot be read: {why}").format(why=refusal(error))) from None
-    except UnicodeDecodeError as error:
-        raise refuse(str(where), _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from None
-    return text, where.suffix.lower().lstrip(".") or "toml"
-
-
 def loads(
     text: str,
     *,
@@ -112,13 +95,6 @@ def known_to(drive: Drive, folder: str | Path | Enclosed = ".", catalogues: Sequ
     return with_files(catalogue(), files) if files else catalogue()
 
 
-def describes_mechanism(tree: Mapping[str, Any]) -> bool:
-    """Tell whether nested tables are those of a mechanism file: it names a frame, or links of its joints."""
-    joints = tree.get("joints")
-    linked = isinstance(joints, list) and any(isinstance(one, dict) and "links" in one for one in joints)
-    return "frame" in tree or linked
-
-
 def dumps(thing: Drive | Mechanism, *, form: str = "toml") -> str:
     """Return the text of a drive file, or of a mechanism file; reading it gives an equal one.
 
@@ -126,38 +102,6 @@ def dumps(thing: Drive | Mechanism, *, form: str = "toml") -> str:
     """
     tree = tree_of(shortened(thing) if isinstance(thing, Drive) else thing)
     return json.dumps(tree, ensure_ascii=False, indent=2) + "\n" if form == "json" else toml_text(tree)
-
-
-def parsed(text: str, form: str, name: str) -> dict[str, Any]:
-    """Return the nested tables of a text."""
-    text = text.removeprefix("\ufeff")
-    check_text(text, name)
-    title = "JSON" if form == "json" else "TOML"
-    twice: list[str] = []
-    try:
-        if form == "json":
-            tree = json.loads(text, object_pairs_hook=lambda pairs: _once(pairs, twice))
-        else:
-            tree = tomllib.loads(text)
-    except RecursionError:
-        raise refuse(name, _("is not {format} that can be read: too deeply nested").format(format=title)) from None
-    except ValueError as error:  # that of the parser, or of Python for a number of thousands of digits
-        raise refuse(name, _("is not {format}: {why}").format(format=title, why=error)) from None
-    check(Problem(key, _("stands twice in one table")) for key in twice)
-    if not isinstance(tree, dict):
-        raise refuse(name, _("holds no table"))
-    check_lists(tree, mechanism=describes_mechanism(tree))
-    return tree
-
-
-def _once(pairs: list[tuple[str, Any]], twice: list[str]) -> dict[str, Any]:
-    """Return the table of a JSON object, noting keys that it has more than once."""
-    table: dict[str, Any] = {}
-    for key, value in pairs:
-        if key in table:
-            twice.append(key)
-        table[key] = value
-    return table
 
 
 # From nested tables to the text of a drive file or mechanism file.
@@ -274,11 +218,7 @@ def loads_mechanism(text: str, *, form: str = "toml", name: str = "file") -> Mec
     >>> loads_mechanism(text).links
     ('door',)
     """
-    tree = parsed(text, form, name)
-    if not describes_mechanism(tree):
-        raise refuse(name, _("describes no mechanism: it names neither a frame nor the links of its joints"))
-    mechanism: Mechanism = read_as(Mechanism, tree)
-    return mechanism
+    return mechanism_of(text, form=form, name=name)
 
 
 def load_either(path: str | Path) -> Drive | Mechanism:

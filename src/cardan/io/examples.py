@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-from functools import cache
 from pathlib import Path
 
 from cardan.drive.drive import Drive
@@ -17,14 +16,7 @@ from cardan.units import nearest
 
 from .drive_file import load, load_mechanism
 from .shifts import read_rows
-
-
-@cache
-def _folder() -> Path:
-    """Return where the examples are: in the installed package, or beside ``src`` in a working copy."""
-    package = Path(__file__).parents[1]
-    installed = package / "examples"
-    return installed if installed.is_dir() else package.parents[1] / "examples"
+from .shipped import examples_folder, mechanism_names
 
 
 def example_names() -> tuple[str, ...]:
@@ -35,18 +27,7 @@ def example_names() -> tuple[str, ...]:
     >>> "single-20deg" in example_names()
     True
     """
-    return tuple(sorted(path.stem for path in _folder().glob("*.toml")))
-
-
-def mechanism_names() -> tuple[str, ...]:
-    """Return the names of the shipped examples of mechanisms.
-
-    Examples
-    --------
-    >>> "hooke-stiff-bearings" in mechanism_names()
-    True
-    """
-    return tuple(sorted(path.stem for path in (_folder() / "mechanisms").glob("*.toml")))
+    return tuple(sorted(path.stem for path in examples_folder().glob("*.toml")))
 
 
 def recording_names() -> tuple[str, ...]:
@@ -57,15 +38,15 @@ def recording_names() -> tuple[str, ...]:
     >>> "truck-worn-spline" in recording_names()
     True
     """
-    return tuple(sorted(path.stem for path in (_folder() / "recordings").glob("*.csv")))
+    return tuple(sorted(path.stem for path in (examples_folder() / "recordings").glob("*.csv")))
 
 
 def example_file(name: str) -> Path:
     """Return the file of a shipped example: a drive, a mechanism or a recording."""
     if name in mechanism_names():
-        return _folder() / "mechanisms" / f"{name}.toml"
+        return examples_folder() / "mechanisms" / f"{name}.toml"
     if name in recording_names():
-        return _folder() / "recordings" / f"{name}.csv"
+        return examples_folder() / "recordings" / f"{name}.csv"
     if name not in example_names():
         near = nearest(name, (*example_names(), *mechanism_names(), *recording_names()))
         hint = _("; the nearest is {near}").format(near=near) if near else ""
@@ -75,7 +56,7 @@ def example_file(name: str) -> Path:
                 name=repr(name), hint=hint, names=", ".join(example_names())
             ),
         )
-    return _folder() / f"{name}.toml"
+    return examples_folder() / f"{name}.toml"
 
 
 def example_text(name: str) -> str:

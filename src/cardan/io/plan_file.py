@@ -23,7 +23,8 @@ from cardan.files import Enclosed, folder_of
 from cardan.reading.table import Table
 from cardan.texts import _
 
-from .drive_file import known_to, load, parsed, text_of
+from .drive_file import known_to, load
+from .text import parsed, text_of
 
 FORMAT = 1  # version of the plan file
 ENGINES = ("in-process", "processes", "cluster")  # where a sweep may be worked on

@@ -19,6 +19,7 @@ from cardan.drive.movement import Table
 from cardan.drive.shaft import Shaft
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.files import Enclosed
+from cardan.mechanism.mechanism import Mechanism
 from cardan.reading.fields import fields_of, numbers_in, scaled, spellings_of
 from cardan.reading.scalar import as_given
 from cardan.reading.tree import Form, Place, read_table
@@ -26,6 +27,8 @@ from cardan.texts import _
 from cardan.units import DIMENSIONS, label, nearest
 
 from .shifts import read_shifts, read_torques
+from .shipped import examples_folder, mechanism_names
+from .text import describes_mechanism, parsed, text_of
 
 HELPED = 100  # unknown keys of a file that are told the nearest known one, which takes a millisecond each
 
@@ -82,10 +85,16 @@ def _index(cls: Any, table: Any, k: int) -> int:
 
 
 def _with_rows(folder: Path | Enclosed, thing: Any, here: Place) -> Any:
-    """Return a movement, a torque or a history with the rows of its CSV file, all else as it is."""
-    if not isinstance(thing, Table | TorqueHistory | History) or f"{here.path}.file" in here.found.doubtful:
+    """Return a movement, a torque, a history or a joint with what its file holds, all else as it is."""
+    drawn_by = getattr(thing, "with_drawing", None)
+    if (
+        not (isinstance(thing, Table | TorqueHistory | History) or (drawn_by and thing.file))
+        or f"{here.path}.file" in here.found.doubtful
+    ):
         return thing
     try:
+        if drawn_by is not None:
+            return drawn_by(mechanism_from(folder, thing.file))
         if isinstance(thing, Table):
             times, shifts = read_shifts(folder / thing.file)
             return replace(thing, times=times, shifts=shifts)
@@ -97,6 +106,22 @@ def _with_rows(folder: Path | Enclosed, thing: Any, here: Place) -> Any:
         for problem in error.problems:
             at.refuse(f"{problem.field} {problem.message}")
         return thing
+
+
+def mechanism_from(folder: Path | Enclosed, name: str) -> Mechanism:
+    """Return the mechanism that a file of a folder describes, or a shipped one by its bare name."""
+    where = examples_folder() / "mechanisms" / f"{name}.toml" if name in mechanism_names() else folder / name
+    text, form = text_of(where)
+    return mechanism_of(text, form=form, name=str(where))
+
+
+def mechanism_of(text: str, *, form: str, name: str) -> Mechanism:
+    """Return the mechanism that a text describes."""
+    tree = parsed(text, form, name)
+    if not describes_mechanism(tree):
+        raise refuse(name, _("describes no mechanism: it names neither a frame nor the links of its joints"))
+    mechanism: Mechanism = read_as(Mechanism, tree)
+    return mechanism
 
 
 def _changes(value: Any, here: Place) -> Any:

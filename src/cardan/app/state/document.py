@@ -14,7 +14,7 @@ from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, refuse
 from cardan.files import Enclosed, write_text
 from cardan.io import dumps, loads
-from cardan.io.drive_file import parsed, text_of
+from cardan.io.text import parsed, text_of
 from cardan.reading.limits import check_size
 from cardan.texts import _
 

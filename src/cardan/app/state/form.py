@@ -14,7 +14,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import KINDS, NAMED
 from cardan.errors import InputError, Problem
 from cardan.io.amend import kind_at, steps_of
-from cardan.io.drive_file import parsed
+from cardan.io.text import parsed
 from cardan.reading.fields import WORD_OR_FLAG, Field, fields_of
 from cardan.texts import _, visible
 
