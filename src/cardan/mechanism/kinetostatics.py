@@ -25,6 +25,9 @@ ROUNDS = 200
 RESTS = 1e-14
 """Change of the friction in a round over the largest reaction at which the rounds end."""
 
+NO_SIZE = 1e-12
+"""Distance [m] of points below which all stand in one: no mechanism is so small."""
+
 SLOW = 1e-12
 """Speeds below this share of the largest are rounding, and rub nowhere."""
 
@@ -48,7 +51,8 @@ class Placed:
     def size(self) -> float:
         """Length that counts as one [m]."""
         flat = np.reshape(self.point, (-1, 3))
-        return float(np.max(frames.norm(flat - np.mean(flat, axis=0)))) or 1.0
+        found = float(np.max(frames.norm(flat - np.mean(flat, axis=0))))
+        return found if found > NO_SIZE else 1.0
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -214,6 +214,10 @@ class Pair:
     axis: Point | None = plain(None, doc="its axis, or the normal of its plane; any length [x, y, z]")
     axis2: Point | None = plain(None, doc="second axis of a universal pair, axis of the cylinder on a plane [x, y, z]")
     pitch: float | None = quantity("pitch", None, doc="lead of a helical pair, right-handed positive")
+    diameter: float | None = quantity("length", None, doc="diameter of its pin or ball, at which it rubs", above=0.0)
+    bearing_distance: float | None = quantity(
+        "length", None, doc="distance of the two bearings of its pin, on which a couple across the pin rests", above=0.0
+    )
     misalignment: Point = quantity("length", (0.0, 0.0, 0.0), doc="how far its second half is off as built [x, y, z]")
     misalignment_turn: Point = quantity("angle", (0.0, 0.0, 0.0), doc="how far its second half is turned off [x, y, z]")
 
@@ -221,6 +225,12 @@ class Pair:
     def kind(self) -> Kind:
         """What is known of its kind."""
         return PAIRS[self.type]
+
+    @property
+    def rubs(self) -> bool:
+        """Whether it is known how what turns in it rubs; what only slides rubs by its force alone."""
+        pin = self.kind.turns != "axis" or self.bearing_distance is not None
+        return not self.kind.turns or (self.diameter is not None and pin)
 
     @property
     def along(self) -> Array:
