@@ -36,6 +36,7 @@ def test_all_of_them_are_there() -> None:
         "pto-flywheel-absorber",
         "single-20deg",
         "six-joints",
+        "thompson-drive",
         "three-joints-unequal",
         "tracta-steered-axle",
         "truck-duty-cycle",

@@ -23,7 +23,10 @@ from cardan.texts import LANGUAGES, speaking
 from tests.cli.conftest import cardan, drive_file  # noqa: F401 - fixtures
 from tests.fixtures.toy_joint import TOYS
 
-KINDS = tuple(toy.kind for toy in TOYS)
+KEYS = {"mechanism": 'file = "hooke-stiff-bearings"'}
+"""Kind -> keys without which it is nothing: a joint of one's own is asked as those that someone adds."""
+
+KINDS = (*(toy.kind for toy in TOYS), *KEYS)
 
 PLACES = ("first", "second", "alone")
 """Where the toy stands in a drive."""
@@ -42,6 +45,7 @@ TOY = """
 [[joints]]
 kind = "{kind}"
 name = "clever {{thing}}"
+{keys}
 centre_mm = {centre}
 rating = {{ max_torque_Nm = 900, max_joint_angle_deg = 30 }}
 """
@@ -57,7 +61,7 @@ frequency_Hz = 2
 
 def file_of(kind: str, where: str, *, moving: bool = False) -> str:
     """Return a drive file with all that any question asks for."""
-    toy = TOY.format(kind=kind, centre="{centre}")
+    toy = TOY.format(kind=kind, keys=KEYS.get(kind, ""), centre="{centre}")
     joints = {"first": (toy, CROSS), "second": (CROSS, toy), "alone": (toy,)}[where]
     centres = ("[0, 0, 0]", "[600, 0, 30]")
     last = len(joints) + 1
@@ -116,16 +120,10 @@ def toys():
     JOINTS.update(before)
 
 
-def every():
-    """Ask for both toys, wherever they may stand in a drive."""
-    return pytest.mark.parametrize("where", PLACES), pytest.mark.parametrize("kind", KINDS)
-
-
 def with_every_toy(test):
-    """Run a test for both toys at every place."""
-    for one in every():
-        test = one(test)
-    return test
+    """Run a test for the toys at every place, and for what is read from a file at one."""
+    pairs = [(kind, where) for kind in KINDS for where in PLACES if kind not in KEYS or where == "first"]
+    return pytest.mark.parametrize(("kind", "where"), pairs)(test)
 
 
 @with_every_toy
@@ -215,9 +213,10 @@ def test_the_keys_of_its_file_are_told(kind, cardan):  # noqa: F811
     listed = {one["kind"]: one for one in cardan("joint", "--json").content["kinds"]}
     assert [key["key"] for key in listed[kind]["keys"]]
     assert listed[kind]["types"] == []
-    (by_itself,) = cardan("joint", kind, "--json", "--joint-angle-deg", "20").content["joints"]
+    keys = [KEYS[kind].replace(" ", "").replace('"', "")] if kind in KEYS else []
+    (by_itself,) = cardan("joint", kind, *keys, "--json", "--joint-angle-deg", "20").content["joints"]
     assert by_itself["speed_fluctuation_percent"] > 0.0
-    assert kind in cardan("joint", kind, "hooke", "--joint-angle-deg", "20").out
+    assert kind in cardan("joint", kind, *keys, "hooke", "--joint-angle-deg", "20").out
 
 
 @with_every_toy

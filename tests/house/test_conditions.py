@@ -130,7 +130,7 @@ output_error_deg = 1
 def plain(kind="hooke"):
     """Return a drive that every question answers, in one condition; its first joint may be of another kind."""
     other = f'[[joints]]\nkind = "{kind}"\ncentre_mm = [0, 0, 0]\n{KEYS[kind]}\n'
-    bearing = BEARING if JOINTS[kind].loose else ""
+    bearing = BEARING if JOINTS[kind].loose is True else ""
     return loads(WHOLE.replace("@", FIRST if kind == "hooke" else other) + bearing)
 
 

@@ -18,6 +18,7 @@ from cardan.questions.forces.assembly import assembly
 from cardan.questions.life.life import life
 from cardan.questions.motion.joint_mechanism import joint_carried, rubbed_share
 from cardan.questions.motion.motion import motion
+from tests.fixtures.joint_keys import KEYS
 
 SIZES = {
     "tripod": "track_radius_mm = 19",
@@ -30,6 +31,7 @@ SIZES = {
     "pin_coupling": "driving_distance_mm = 50\ndriven_distance_mm = 60",
     "clemens": "driving = {axial_mm = 50, radial_mm = 20, radius_mm = 60}\n"
     "driven = {axial_mm = 50, radial_mm = 21, radius_mm = 60}",
+    "mechanism": KEYS["mechanism"],
 }
 """Uneven where a kind can be."""
 
@@ -51,8 +53,9 @@ def drive_of(kind: str, first: bool) -> Drive:
     made = JOINTS[kind]
     own = CROSS if kind == "hooke" else f'kind = "{kind}"\n{SIZES.get(kind, "")}\n'
     one, other = (own, CROSS) if first else (CROSS, own)
-    spline = "" if made.slides or made.loose else SLIDING
-    bearing = BEARING.format(100 if first else 800) if made.loose else ""
+    loose = made.loose is True  # of a joint of one's own its file says it: this one is fixed
+    spline = "" if made.slides is True or loose else SLIDING
+    bearing = BEARING.format(100 if first else 800) if loose else ""
     return loads(f"""format = 1
 [input]
 point_mm = [-500, 0, 0]

@@ -19,6 +19,7 @@ from cardan.figures import palette
 from cardan.io import example_names
 from cardan.scene.scene import scene, use_colour
 from cardan.units import deg
+from tests.fixtures.joint_keys import OWN
 
 SPATIAL = Drive.from_angles(
     [0.3, 0.5, 0.2, 0.25], plane_twists=[0.7, -2.0, 0.4], yoke_angles=[0.4, -1.1, 0.9], start_phase=0.3
@@ -58,7 +59,7 @@ def test_every_example_has_a_sound_and_light_scene(name):
 
 @pytest.mark.parametrize("kind", kinds.JOINTS.values())
 def test_joints_of_every_kind_can_be_described(kind):
-    sizes = {kinds.OffsetCross: {"offset": 0.02, "reach": 0.4}}.get(kind, {})
+    sizes = {kinds.OffsetCross: {"offset": 0.02, "reach": 0.4}}.get(kind, OWN.get(kind.kind, {}))
     joint = kind(joint_angle=min(0.3, 0.9 * kind.steepest), **sizes)
     drive = Drive(joints=(kinds.Hooke(joint_angle=0.1), joint, kinds.Hooke(joint_angle=0.1)))
     json.dumps(scene(drive, frames=12, with_forces=True, with_modes=True).described(), allow_nan=False)

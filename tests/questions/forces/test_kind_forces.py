@@ -27,6 +27,7 @@ from cardan.drive.models.geometry import geometry
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 from cardan.errors import InputError
+from tests.fixtures.joint_keys import OWN
 
 DUTY = Duty(torque=400.0, speed=120.0, acceleration=30.0)
 
@@ -148,7 +149,7 @@ def test_a_joint_that_turns_as_a_cross_carries_as_one():
 
 @pytest.mark.parametrize("kind", sorted(JOINTS))
 def test_kinds_that_statics_cannot_tell_are_refused_by_name(kind):
-    known = {"offset_cross": {"offset": 0.01, "reach": 0.3}}.get(kind, {})
+    known = {"offset_cross": {"offset": 0.01, "reach": 0.3}, **OWN}.get(kind, {})
     joint = JOINTS[kind](joint_angle=0.04, **known)
     drive = Drive(joints=(Hooke(joint_angle=0.1), joint))
     if joint.fixed:

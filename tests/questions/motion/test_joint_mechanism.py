@@ -76,7 +76,7 @@ def test_mechanisms_turn_by_the_closed_forms(joint):
 
 
 def test_every_kind_is_there():
-    assert {joint.kind for joint in LAWFUL} | {"offset_cross"} == set(JOINTS)
+    assert {joint.kind for joint in LAWFUL} | {"offset_cross", "mechanism"} == set(JOINTS)
 
 
 @pytest.mark.parametrize("joint", [one for one in LAWFUL if one.has_map], ids=lambda one: one.kind)

@@ -6,6 +6,7 @@ from .double_cardan import DoubleCardan
 from .half_cardan import ElasticHalfCardan, HalfCardan
 from .hooke import Hooke
 from .joint import Joint
+from .mechanism import MechanismJoint
 from .offset_cross import OffsetCross
 from .pin_coupling import PinCoupling
 from .rzeppa import Rzeppa
@@ -36,10 +37,11 @@ def other_kinds(joint: Joint, name: str) -> list[str]:
 
 register(
     Hooke, OffsetCross, DoubleCardan, ConstantVelocity, Tracta, Rzeppa, Weiss, Tripod, HalfCardan, ElasticHalfCardan,
-    PinCoupling, Clemens,
+    PinCoupling, Clemens, MechanismJoint,
 )  # fmt: skip
 
 __all__ = [
     "DEFAULT", "JOINTS", "Clemens", "ConstantVelocity", "DoubleCardan", "ElasticHalfCardan", "HalfCardan", "Hooke",
-    "Joint", "OffsetCross", "PinCoupling", "Profile", "Rzeppa", "Tracta", "Tripod", "Weiss", "other_kinds", "register",
+    "Joint", "MechanismJoint", "OffsetCross", "PinCoupling", "Profile", "Rzeppa", "Tracta", "Tripod", "Weiss",
+    "other_kinds", "register",
 ]  # fmt: skip

@@ -18,6 +18,7 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``centred``          no: what it passes on needs no housing that centres its shafts
 ``loose``            no: it holds its shafts in its centre, but for sliding
 ``twist_spring``     none: it does not give under torque
+``stuck``            its kind and the joint angle at which it does not turn
 ``inside``           nothing else moves in it
 ``inner``            pins of a cross, a contact, a slide or two axes in the bisecting plane, as the marks above say
 ``rubbing``          no: what rubs in it is not counted
@@ -246,6 +247,11 @@ class Joint:
         """Whether it turns its driven shaft as its driving one, at every joint angle."""
         pair = self.pair(np.asarray(0.1))
         return pair is not None and bool(abs(pair[1]) == 0.0)
+
+    def stuck(self, joint_angle: float) -> str:
+        """Return in a sentence that it does not turn at a joint angle [rad], and why where it is known."""
+        text = _("a joint of kind {kind} with these sizes does not turn at its joint angle of {joint_angle:.6g}°")
+        return text.format(kind=self.kind, joint_angle=math.degrees(joint_angle))
 
     @property
     def twist_spring(self) -> tuple[float, float] | None:

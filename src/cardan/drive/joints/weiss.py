@@ -217,14 +217,18 @@ def course(angle: Array, angle_error: Callable[[Array], Array]) -> tuple[Array, 
     >>> print([f"{float(one):.9f}" for one in found])
     ['0.078332691', '1.186482990', '-0.704994219']
     """
+    return waved(angle, np.asarray(angle_error(np.arange(SAMPLES) * (2.0 * np.pi / SAMPLES)), dtype=float))
+
+
+def waved(angle: Array, samples: Array) -> tuple[Array, Array, Array]:
+    """Return the same of a law given by its leads at even places of a turn, array (p,) [rad]."""
     theta = np.asarray(angle, dtype=float)
-    samples = np.asarray(angle_error(np.arange(SAMPLES) * (2.0 * np.pi / SAMPLES)), dtype=float)
     if not np.all(np.isfinite(samples)):
         nothing = theta + np.nan
         return nothing, nothing, nothing
-    wave = np.fft.rfft(samples) / SAMPLES
+    wave = np.fft.rfft(samples) / len(samples)
     wave[1:] *= 2.0
-    orders = np.flatnonzero(np.abs(wave[: SAMPLES // 2]) > NOISE)
+    orders = np.flatnonzero(np.abs(wave[: len(samples) // 2]) > NOISE)
     turn = np.exp(1j * theta[..., None] * orders)
     parts = wave[orders]
     return ((turn @ parts).real, 1.0 + (turn @ (1j * orders * parts)).real, (turn @ (-(orders**2) * parts)).real)

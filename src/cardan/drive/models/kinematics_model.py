@@ -271,6 +271,4 @@ def _turns(joint: Joint, joint_angle: Array, values: Array, i: int) -> None:
     stuck = ~xp.isfinite(values)
     if bool(xp.any(stuck)):
         most = float(xp.max(xp.where(stuck, joint_angle, 0.0)))
-        text = _("a joint of kind {kind} with these sizes does not turn at its joint angle of {joint_angle:.6g}°")
-        message = text.format(kind=joint.kind, joint_angle=np.degrees(most))
-        raise InputError([Problem(f"joints[{i}].joint_angle", message, "out_of_range")], where=stuck)
+        raise InputError([Problem(f"joints[{i}].joint_angle", joint.stuck(most), "out_of_range")], where=stuck)

@@ -141,10 +141,7 @@ def joint_turn(joint: Joint, joint_angle: float, angle: ArrayLike | None = None)
     phi = np.asarray(TURN if angle is None else angle, dtype=float)
     law = _law(joint, joint_angle, phi)
     if not all(np.all(np.isfinite(one)) for one in law):
-        text = _("a joint of kind {kind} with these sizes does not turn at {joint_angle}°")
-        raise refuse(
-            "joint_angle", text.format(kind=joint.kind, joint_angle=f"{joint_angle / deg:.6g}"), "out_of_range"
-        )
+        raise refuse("joint_angle", joint.stuck(joint_angle), "out_of_range")
     return JointTurn(joint=joint, joint_angle=joint_angle, angle=phi, angle_error=law[0], ratio=law[1], slope=law[2])
 
 

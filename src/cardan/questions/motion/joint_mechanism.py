@@ -16,7 +16,6 @@ from cardan.maths.kernel import frames
 from cardan.mechanism.constraints import FRAME
 from cardan.mechanism.kinetostatics import Carried, Placed, carried
 from cardan.mechanism.mechanism import PAIRS
-from cardan.texts import _
 
 BEFORE, ASIDE, NORMAL = np.eye(3)
 """Driving shaft, direction in the plane of the shafts across it toward the driven one, and normal of that plane."""
@@ -113,10 +112,8 @@ def joint_carried(
         table = [getattr(one, name) if getattr(one, name) is not None else NORMAL for one in pairs]
         return np.stack([np.broadcast_to(one, wide) for one in table], axis=-2)
 
-    text = _("a joint of kind {kind} with these sizes does not turn at its joint angle of {joint_angle:.6g}°")
     if not np.all(np.isfinite(rows("point"))) or not np.all(np.isfinite(stance.driven)):
-        said = text.format(kind=joint.kind, joint_angle=np.degrees(joint_angle))
-        raise refuse("joint_angle", said, "out_of_range")
+        raise refuse("joint_angle", joint.stuck(joint_angle), "out_of_range")
     placed = Placed(
         links=len(moving),
         ends=tuple((number[link_of(one, 0)], number[link_of(one, 1)]) for one in pairs),

@@ -338,6 +338,4 @@ def wobbled(drive: Drive, angle: Array) -> dict[str, Any]:
 
 def _not_turning(drive: Drive, i: int, joint_angle: float) -> Problem:
     """Return the problem that a joint, counted from 0, does not turn at its joint angle [rad]."""
-    text = _("a joint of kind {kind} with these sizes does not turn at its joint angle of {joint_angle:.6g}°")
-    said = text.format(kind=drive.joints[i].kind, joint_angle=np.degrees(joint_angle))
-    return Problem(f"joints[{i}].joint_angle", said, "out_of_range")
+    return Problem(f"joints[{i}].joint_angle", drive.joints[i].stuck(joint_angle), "out_of_range")

@@ -1,0 +1,199 @@
+"""Joints of one's own: their laws against closed forms and an own loop closure, and what is no joint."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import root
+
+from cardan import Drive, InputError, example, forces, losses, motion
+from cardan.drive.cross import Cross
+from cardan.drive.joints import Hooke, MechanismJoint
+from cardan.io import dumps, load
+from cardan.io.drive_file import loads, loads_mechanism
+from cardan.io.examples import example_mechanism
+from cardan.mechanism.mechanism import Mechanism
+from cardan.questions.motion.joint_mechanism import joint_carried, rubbed_share
+from cardan.units import deg
+
+ANGLE = np.linspace(0.0, 2.0 * np.pi, 37)[:-1] + 0.021
+
+
+def joint_of(name: str, **changes) -> MechanismJoint:
+    """Return a shipped mechanism as a joint, pairs changed by name."""
+    drawing = example_mechanism(name)
+    joints = tuple(replace(one, **changes.get(one.id.replace(" ", "_"), {})) for one in drawing.joints)
+    return MechanismJoint(file=f"{name}.toml", drawing=replace(drawing, joints=joints))
+
+
+def hooke(**sizes) -> MechanismJoint:
+    """Return a Hooke joint as a mechanism, drawn with its pins anywhere."""
+    made = joint_of("hooke-stiff-bearings")
+    joints = tuple(replace(one, **sizes) for one in made.drawing.joints)
+    return replace(made, drawing=replace(made.drawing, joints=joints))
+
+
+@pytest.mark.parametrize("joint_angle", [0.02, 0.3, 0.6])
+def test_a_cross_as_a_mechanism_turns_as_hookes_joint(joint_angle):
+    """Whatever position it is drawn in: angles count from the arms of its cross."""
+    joint = hooke()
+    assert joint.has_map
+    quarter = 0.0 if joint.pair(np.asarray(0.3))[1].real < 0.0 else 0.5 * np.pi  # the nearer arm: that of either yoke
+    own = joint.deviation(ANGLE, np.asarray(joint_angle))
+    known = Hooke().deviation(ANGLE + quarter, np.asarray(joint_angle))
+    for one, other in zip(own, known, strict=True):
+        assert np.abs(one - other).max() < 1e-10
+
+
+@pytest.mark.parametrize("name", ["thompson", "reuleaux"])
+@pytest.mark.parametrize("joint_angle", [0.05, 0.2, 0.4, 0.6])
+def test_mirror_images_are_exactly_uniform(name, joint_angle):
+    joint = joint_of(name)
+    assert np.abs(joint.deviation(ANGLE, np.asarray(joint_angle))[0]).max() == 0.0
+    carried = joint_carried(joint, joint_angle, ANGLE)
+    assert np.abs(carried.ratio - 1.0).max() < 1e-12
+    assert np.abs(carried.input_torque - 1.0).max() < 1e-12
+    assert np.max(carried.found.open) < 1e-12
+
+
+def test_a_thompson_coupling_holds_its_centre_and_a_reuleaux_coupling_nothing():
+    one, other = joint_of("thompson"), joint_of("reuleaux")
+    assert (one.fixed, one.slides, one.loose, one.even) == (True, False, False, True)
+    assert (other.fixed, other.slides, other.loose, other.even) == (False, False, True, True)
+    assert np.abs(joint_carried(one, 0.4, ANGLE).wrench[:, 3:]).max() < 1e-9
+
+
+DETUNED = {"arm_1,_driven_shaft": {"point": (0.031, 0.019, 0.0), "axis": (31.0, 19.0, 0.0)}}
+"""A Thompson coupling one of whose arms stands 2.3° off."""
+
+
+def turned(axis, angle, vector):
+    """Turn a vector about an axis (Rodrigues)."""
+    a = np.asarray(axis) / np.linalg.norm(axis)
+    v = np.asarray(vector, dtype=float)
+    return v * np.cos(angle) + np.cross(a, v) * np.sin(angle) + a * (a @ v) * (1.0 - np.cos(angle))
+
+
+def own_closure(theta, joint_angle, last):
+    """Return the turn of the driven shaft by directions on the sphere: nothing of the program is used.
+
+    Unknown: the turn of the driven shaft, the pin p of the yoke, its axis k, and the scissor hinges q and r.
+    """
+    drawn = 2.0 * np.arctan(7.0 / 24.0)
+    e1 = np.asarray([24.0, 7.0, 0.0]) / 25.0
+    normal = np.asarray([0.0, 0.0, -1.0])
+    bent = joint_angle - drawn
+    e2 = turned(normal, bent, [24.0 / 25.0, -7.0 / 25.0, 0.0])
+
+    def unit(*v):
+        return np.asarray(v) / np.linalg.norm(v)
+
+    u, f1, g1 = (turned(e1, theta, unit(*v)) for v in ((-7, 24, 0), (-31, 17, 0), (-17, -31, 0)))
+    cos_driving, cos_driven, cos_other = (unit(0, 31, 17) @ unit(*v) for v in ((-31, 17, 0), (31, 19, 0), (31, 19, 0)))
+    cos_second = unit(0, -17, 31) @ unit(-17, -31, 0)
+    assert cos_driven == cos_other
+
+    def rest(x):
+        turn, p, k, q, r = x[0], x[1:4], x[4:7], x[7:10], x[10:13]
+        v, f2, g2 = (turned(e2, turn, turned(normal, bent, unit(*w))) for w in ((7, 24, 0), (31, 19, 0), (17, -31, 0)))
+        return [
+            p @ u, p @ v, p @ p - 1.0, k @ p, k @ k - 1.0, k @ q, k @ r, q @ q - 1.0, r @ r - 1.0,
+            q @ f1 - cos_driving, q @ f2 - cos_driven, r @ g1 - cos_second, r @ g2 - cos_second,
+        ]  # fmt: skip
+
+    found = root(rest, last, tol=1e-13).x
+    assert np.abs(rest(found)).max() < 1e-12
+    return found
+
+
+def test_a_detuned_thompson_coupling_turns_as_an_own_closure_says():
+    """The arm that stands off is drawn with its shaft: at the joint angle drawn all loops close at angle 0."""
+    joint = joint_of("thompson", **DETUNED)
+    joint_angle, inside = 2.0 * np.arctan(7.0 / 24.0), joint._inside()
+    theta = np.linspace(0.0, 2.0 * np.pi, 361)
+    last = np.concatenate(
+        ([0.0], [0, 0, 1], [1, 0, 0], [0, 31 / 1250**0.5, 17 / 1250**0.5], [0, -17 / 1250**0.5, 31 / 1250**0.5])
+    )
+    rows, leads = [last, last], []
+    for angle in theta:
+        rows.append(own_closure(angle, joint_angle, 2.0 * rows[-1] - rows[-2]))
+        leads.append(rows[-1][0] - angle)
+    found = joint.deviation(theta + inside.start, np.asarray(joint_angle))[0]
+    assert np.ptp(leads) > 0.01
+    assert np.abs(found - leads + np.mean(leads[:-1])).max() < 1e-10
+    carried = joint_carried(joint, joint_angle, theta[::10] + inside.start)
+    assert np.abs(carried.ratio - joint.deviation(theta[::10] + inside.start, np.asarray(joint_angle))[1]).max() < 1e-9
+
+
+def test_forces_and_losses_of_a_cross_as_a_mechanism_are_those_of_hookes_joint():
+    sizes = {"diameter": 0.02, "bearing_distance": 0.08}
+    known = example("z-arrangement")
+    duty = replace(known.duty, torque=200.0, speed=100.0)
+    cross = Cross(span=0.08, journal=0.02)
+
+    def drive_of(joint):
+        first, last = known.joints
+        placed = replace(joint, centre=first.centre, joint_angle=first.joint_angle, friction=0.05)
+        return replace(known, joints=(placed, replace(last, friction=0.05, cross=cross)), duty=duty, movements=())
+
+    plain, own = drive_of(Hooke(cross=cross)), drive_of(hooke(**sizes))
+    assert np.max(forces(own).power_left) < 1e-12
+    shares = [
+        rubbed_share(joint, 0.3, ANGLE + shift)
+        for joint, shift in ((replace(plain.joints[0], friction=0.05), 0.5 * np.pi), (own.joints[0], 0.0))
+    ]
+    assert shares[0] == pytest.approx(np.asarray(shares[1]), rel=1e-9)
+    # the closed form loads the journals by the couple along their normal alone, and the share is a table of 5° steps
+    assert losses(own).joints[0] == pytest.approx(losses(plain).joints[0], rel=0.01)
+
+
+def changed(text: str, old: str, new: str) -> Mechanism:
+    assert old in text
+    return loads_mechanism(text.replace(old, new))
+
+
+def refusal(drawing: Mechanism, **keys) -> str:
+    with pytest.raises(InputError) as found:
+        Drive(joints=(MechanismJoint(file="own.toml", drawing=drawing, joint_angle=0.3, **keys),))
+    (problem,) = found.value.problems
+    return f"{problem.field}: {problem.message}"
+
+
+def test_what_is_no_joint_is_refused_with_link_angle_and_amount():
+    drawing = example_mechanism("thompson")
+    text = dumps(drawing)
+    said = refusal(drawing, driven="lever 9")
+    assert said.startswith("joints[0].driven: the mechanism has no moving link 'lever 9'")
+    without = replace(drawing, joints=tuple(one for one in drawing.joints if "lever 2" not in one.links))
+    assert "'driven shaft' is not held: with 'driving shaft' at rest it has 1 motion" in refusal(without)
+    straight = changed(text, "axis = [24, -7, 0]", "axis = [24, 7, 0]")
+    assert "its shafts lie in one line" in refusal(straight)
+    apart = changed(text, "point_mm = [144, -42, 0]", "point_mm = [144, -42, 3]")
+    assert "its shafts pass each other 3 mm apart" in refusal(apart)
+    short = loads_mechanism(text.replace("[0, -17, 31]", "[0, -17, 5]"))  # arms of 33° reach no further than 33°
+    said = refusal(short)
+    assert "cannot follow: with the driving link turned by" in said
+    assert "mm and" in said
+    assert "needs one pair with the frame" in refusal(example_mechanism("hooke-cured"))
+    assert "missing: neither this key nor input_link" in refusal(replace(drawing, input_link=""))
+
+
+def test_a_joint_angle_at_which_it_binds_is_refused_where_the_motion_is_asked():
+    drive = Drive(joints=(replace(joint_of("thompson"), joint_angle=50 * deg),))
+    with pytest.raises(InputError, match="cannot follow: with the driving link turned by"):
+        motion(drive)
+
+
+def test_the_file_is_read_beside_the_drive_file(tmp_path):
+    drive = example("thompson-drive")
+    (tmp_path / "own.toml").write_text(dumps(example_mechanism("thompson")), "utf-8")
+    text = dumps(drive).replace('file = "thompson"', 'file = "own.toml"')
+    (tmp_path / "drive.toml").write_text(text, "utf-8")
+    assert load(tmp_path / "drive.toml").joints[0].drawing == drive.joints[0].drawing
+    with pytest.raises(InputError, match=r"joints\[0\].file: .*missing.toml.* cannot be read"):
+        loads(text.replace("own.toml", "missing.toml"), folder=tmp_path)
+    (tmp_path / "own.toml").write_text("format = 1\n[[joints]]\nid = 'a'\nlinks = ['a', 'b']\n", "utf-8")
+    with pytest.raises(InputError, match=r"joints\[0\].file"):
+        load(tmp_path / "drive.toml")
