@@ -145,7 +145,7 @@ def test_the_limits_are_lifted_by_keyword_environment_and_option(
 def test_a_large_file_is_not_read_to_its_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     file = tmp_path / "large.toml"
     file.write_text("#" * (MAX_BYTES + 1))
-    monkeypatch.setattr("cardan.io.drive_file.check_text", lambda *_given, **_named: pytest.fail("was read"))
+    monkeypatch.setattr("cardan.io.text.check_text", lambda *_given, **_named: pytest.fail("was read"))
     with pytest.raises(InputError, match="2000001 bytes given; the limit is 2000000"):
         load(file)
 

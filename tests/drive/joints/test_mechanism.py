@@ -65,6 +65,18 @@ def test_a_thompson_coupling_holds_its_centre_and_a_reuleaux_coupling_nothing():
     assert np.abs(joint_carried(one, 0.4, ANGLE).wrench[:, 3:]).max() < 1e-9
 
 
+def test_a_slipper_joint_slides_and_turns_as_hookes_joint():
+    joint = joint_of("slipper-joint")
+    assert (joint.fixed, joint.slides, joint.loose) == (True, True, False)
+    quarter = 0.0 if joint.pair(np.asarray(0.15))[1].real < 0.0 else 0.5 * np.pi
+    own, known = joint.deviation(ANGLE, np.asarray(0.15)), Hooke().deviation(ANGLE + quarter, np.asarray(0.15))
+    assert max(np.abs(one - other).max() for one, other in zip(own, known, strict=True)) < 1e-10
+    carried = joint_carried(joint, 0.15, ANGLE)
+    along = carried.wrench[:, 3:] @ np.asarray([1.0, 0.0, 0.0])
+    assert np.abs(along).max() < 1e-9
+    assert np.abs(carried.input_torque - carried.ratio).max() < 1e-12
+
+
 DETUNED = {"arm_1,_driven_shaft": {"point": (0.031, 0.019, 0.0), "axis": (31.0, 19.0, 0.0)}}
 """A Thompson coupling one of whose arms stands 2.3° off."""
 

@@ -65,7 +65,7 @@ class MechanismJoint(Joint):
     """Mechanism of one's own: links and pairs between the shafts, from a mechanism file."""
 
     kind: ClassVar[str] = "mechanism"
-    title: ClassVar[str] = mark("mechanism of one's own")
+    title: ClassVar[str] = mark("own mechanism")
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("file",)
     steepest: ClassVar[float] = 0.5 * math.pi
