@@ -66,6 +66,7 @@ class MechanismJoint(Joint):
 
     kind: ClassVar[str] = "mechanism"
     title: ClassVar[str] = mark("own mechanism")
+    any_type: ClassVar[bool] = True
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("file",)
     steepest: ClassVar[float] = 0.5 * math.pi
