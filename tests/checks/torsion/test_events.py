@@ -9,6 +9,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from cardan import Drive, InputError
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.checks import check
 from cardan.checks.design import design
 from cardan.checks.strength.answer import answer, ask
@@ -24,6 +26,7 @@ from cardan.drive.station import Station
 from cardan.questions.life.rainflow import rainflow
 from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.transient.torsion_transient import _length, event_torque
+from cardan.texts import speaking
 from cardan.units import deg, mm, rpm
 
 FIRST, SECOND, STIFFNESS, SPEED, LOAD = 0.3, 0.8, 5000.0, 100.0, 60.0
@@ -190,3 +193,18 @@ def test_events_need_a_speed_and_a_torque() -> None:
         replace(line(), duty=Duty(torque=10.0, events=(STEP,)))
     with pytest.raises(InputError, match=r"duty\.events\[0\]\.start: belongs to a clutch"):
         replace(line(), duty=Duty(speed=9.0, torque=10.0, events=(replace(STEP, start=3.0),)))
+
+
+def test_an_event_that_cannot_be_followed_tells_why() -> None:
+    """A clutch that passes on less than the drive resists slips for ever: check and strength say so, by its message."""
+    drive = tube(events=(replace(CLUTCH, torque=20.0, name="half clutch"),))
+    (verdict,) = check(drive, only=["start_fatigue"])
+    assert not verdict.run
+    assert not verdict.missing
+    assert "slips without end" in verdict.unfit
+    ((name, why),) = ask(drive).lost
+    assert name == "half clutch"
+    assert why.startswith("duty.events.torque: 20 N·m given; the clutch slips without end")
+    assert any("half clutch" in told(one.text, USUAL) for one in answer(drive, ask(drive)).remarks)
+    with speaking("ru"):
+        assert ask(drive).lost[0][1] != why

@@ -21,7 +21,7 @@ from cardan.drive.torsional_layout import has_torsion
 from cardan.drive.yokes import yokes_estimated
 from cardan.texts import _, mark, plural
 
-from .event_damage import cheapest, event_damages, ramp_damages
+from .event_damage import cheapest, event_damages, events_lost, ramp_damages
 from .figure import strength_figures
 from .omitted import LeftOut, Vibration
 from .part_strength import ShaftStrength
@@ -125,7 +125,7 @@ def _ending(drive: Drive, result: Strength, tired: Sequence[ShaftStrength]) -> S
 
 def with_events(drive: Drive, found: Strength) -> Strength:
     """Return a strength with what starts and events cost."""
-    return replace(found, events=event_damages(drive), ramps=ramp_damages(drive))
+    return replace(found, events=event_damages(drive), ramps=ramp_damages(drive), lost=events_lost(drive))
 
 
 def _tables(drive: Drive, result: Strength) -> Iterator[Table]:
@@ -308,6 +308,9 @@ def _remarks(result: Strength) -> Iterator[Remark]:
         )
         yield Remark(text=text.format(count=left), tone="warning")
         yield Remark(text=_("Which keys it lacks:"), command=("cardan", "check", FILE, "--missing"), tone="next")
+    for name, why in result.lost:
+        text = _("Warning: the damage of {event} is not told, as it cannot be followed in time: {why}.")
+        yield Remark(text=say(text, event=name, why=why), tone="warning")
     yield from _ramp(result)
     counted = result.vibration is not None or (out is not None and out.journal is not None)
     if result.dynamic_factor > LITTLE and not counted:

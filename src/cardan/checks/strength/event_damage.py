@@ -37,10 +37,20 @@ class EventDamage:
 
 
 def event_damages(drive: Drive) -> tuple[EventDamage, ...]:
-    """Return what every event of a duty costs; those that cannot be followed are left out, the check says why."""
+    """Return what every event of a duty costs; those that cannot be followed are left out, see `events_lost`."""
     subject = design(drive)
     found = (_damage(subject, one, float(np.max(count))) for one, count in events_of(subject))
     return tuple(one for one in found if one is not None)
+
+
+def events_lost(drive: Drive) -> tuple[tuple[str, str], ...]:
+    """Return the events of a duty that cannot be followed, each with why."""
+    subject = design(drive)
+    bare = replace(subject.drive, poses=())
+    every = [(one, start_cycles(bare, one)) for one, _count in events_of(subject)] if has_torsion(drive) else []
+    return tuple(
+        (event_name(one), "; ".join(dict.fromkeys(map(str, found)))) for one, found in every if isinstance(found, tuple)
+    )
 
 
 def ramp_damages(drive: Drive) -> tuple[EventDamage, ...]:

@@ -17,13 +17,13 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import History
 from cardan.drive.machine import Event, RunUp
 from cardan.drive.shaft import Notch
-from cardan.errors import InputError
+from cardan.errors import InputError, Problem
 from cardan.formulas.shaft_strength import Fatigue, fatigue_cycles, shaft_fatigue
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import foremost_of
 from cardan.questions.life.rainflow import Cycles, Levels, rainflow, speed_at_level, time_at_level
 from cardan.questions.torsion.transient.torsion_transient import event_torque, run_up_torque
-from cardan.texts import _, mark
+from cardan.texts import _, language, mark
 
 from .section import Section, sections
 
@@ -198,20 +198,26 @@ def _of_start(design: Design, k: int, section: Section, event: Event | RunUp | N
     return np.asarray(np.sum(cycles.count / np.maximum(loads.cycles, 1.0), axis=-1))
 
 
-@lru_cache(maxsize=32)
-def start_cycles(drive: Drive, event: Event | RunUp | None = None) -> dict[int, Cycles] | tuple[str, ...]:
-    """Return the cycles of the torque of every shaft that can twist in one event; or the paths that it lacks.
+def start_cycles(drive: Drive, event: Event | RunUp | None = None) -> dict[int, Cycles] | tuple[Problem, ...]:
+    """Return the cycles of the torque of every shaft that can twist in one event; or why it cannot be followed.
 
     event: a run-up is one in place of that of the duty, which counts when nothing is given.
     """
+    return _cycles(drive, event, language())
+
+
+@lru_cache(maxsize=32)
+def _cycles(drive: Drive, event: Event | RunUp | None, _language: str) -> dict[int, Cycles] | tuple[Problem, ...]:
+    """Return the same; why not is told in a language."""
     if isinstance(event, RunUp):
         drive = replace(drive, duty=replace(drive.duty, run_up=event))
     try:
         torque, shafts = event_torque(drive, event) if isinstance(event, Event) else run_up_torque(drive)
     except InputError as error:
-        return tuple(problem.field for problem in error.problems)
+        return error.problems
     if not np.all(np.isfinite(torque)):
-        return ("duty.events" if isinstance(event, Event) else "duty.run_up",)
+        path = "duty.events" if isinstance(event, Event) else "duty.run_up"
+        return (Problem(path, _("its torques could not be followed to the end")),)
     worst = {
         k: max((e for e, own in enumerate(shafts) if own == k), key=lambda e: np.ptp(torque[:, e])) for k in shafts
     }

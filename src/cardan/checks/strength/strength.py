@@ -118,6 +118,8 @@ class Strength:
         Load case that has this torque; empty where there is one only.
     events, ramps : tuple of EventDamage
         What starts and events cost, and a start with run-ups of other times, where that was asked.
+    lost : tuple of (str, str)
+        Events that cannot be followed, each with why.
     """
 
     cases: tuple[Case, ...]
@@ -134,6 +136,7 @@ class Strength:
     case: str = ""
     events: tuple[EventDamage, ...] = ()
     ramps: tuple[EventDamage, ...] = ()
+    lost: tuple[tuple[str, str], ...] = ()
 
     @property
     def judged(self) -> tuple[Verdict, ...]:

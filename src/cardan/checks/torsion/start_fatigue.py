@@ -37,9 +37,13 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
     if not has_torsion(design.drive):
         lacking = (*NO_MODEL, *lacking)
     every = [] if lacking else [start_cycles(replace(design.drive, poses=()), one) for one, _count in events]
-    short = [path for cycles in every if isinstance(cycles, tuple) for path in cycles]
-    if lacking or short:
-        yield Verdict(missing=(*lacking, *dict.fromkeys(short)))
+    short = [one for cycles in every if isinstance(cycles, tuple) for one in cycles]
+    absent = dict.fromkeys(one.field for one in short if one.code == "missing")
+    if lacking or absent:
+        yield Verdict(missing=(*lacking, *absent))
+        return
+    if short:
+        yield Verdict(unfit="; ".join(dict.fromkeys(map(str, short))))
         return
     if not any(k in cycles for cycles in every):
         return
