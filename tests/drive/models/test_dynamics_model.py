@@ -12,7 +12,7 @@ from cardan.drive.cross import Cross
 from cardan.drive.joints import Hooke
 from cardan.drive.material import Material
 from cardan.drive.models.dynamics_model import train, train_of_points
-from cardan.drive.shaft import Shaft
+from cardan.drive.shaft import PointMass, Shaft, Spline
 from cardan.drive.support import Support
 
 DRIVE = Drive.from_points([(-0.3, 0, 0), (0, 0, 0), (1.0, 0, 0), (1.5, 0, -0.1)])
@@ -77,3 +77,14 @@ def test_drives_through_points_take_any_parts() -> None:
     many = train_of_points(points, start_phase=0.3, inertia=np.ones((2, 3)))
     assert many.joints == 2
     assert many.chain.start_phase.tolist() == [0.3, 0.3]
+
+
+def test_an_end_shaft_is_parted_by_its_spline_too():
+    """A uniform tube of 0.6 m: behind a spline 0.2 m before the joint lies its last third and what it carries there."""
+    lumps = PointMass(position=-0.05, mass=0.5), PointMass(position=-0.4, mass=0.7)
+    shaft = Shaft(number=1, length=0.6, outer=0.05, wall=0.002, spline=Spline(position=-0.2), masses=lumps)
+    made = train(replace(Drive.from_angles([0.2]), shafts=(shaft,)))
+    tube = 0.25 * np.pi * (0.05**2 - 0.046**2) * 7850.0 * 0.2
+    assert made.cut[0] == pytest.approx(0.4)
+    assert made.behind[0, 0] == pytest.approx(tube + 0.5)
+    assert made.behind[0, 1] == pytest.approx((tube * 0.5 + 0.5 * 0.55) / (tube + 0.5))

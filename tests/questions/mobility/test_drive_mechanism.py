@@ -5,7 +5,19 @@ import pytest
 
 from cardan import Drive, InputError, assembly, example
 from cardan.drive.cross import Cross
-from cardan.drive.joints import JOINTS, OffsetCross, PinCoupling
+from cardan.drive.joints import (
+    JOINTS,
+    Clemens,
+    DoubleCardan,
+    HalfCardan,
+    OffsetCross,
+    PinCoupling,
+    Rzeppa,
+    Tracta,
+    Tripod,
+    Weiss,
+)
+from cardan.drive.joints.clemens import Profile
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.kinematics_model import chain
 from cardan.drive.models.machine_held import machine_held
@@ -15,8 +27,8 @@ from cardan.drive.support import Support
 from cardan.io import example_names
 from cardan.questions.forces.kinetostatics import standing
 from cardan.questions.mobility.constraint_release import repairs
-from cardan.questions.mobility.drive_mechanism import mechanism_of, unheld
-from cardan.questions.mobility.finite_mobility import mobility_over_turn
+from cardan.questions.mobility.drive_mechanism import joint_freedoms, mechanism_of, unheld
+from cardan.questions.mobility.finite_mobility import locks_at, mobility_over_turn
 from cardan.questions.mobility.mobility import mobility
 from cardan.reading.fields import fields_of
 from tests.fixtures.joint_keys import OWN
@@ -96,6 +108,21 @@ def test_a_spline_parts_its_shaft_where_it_is():
     assert mechanism_of(middle).joints[-1].links[1] == "shaft 2 behind its spline"
 
 
+@pytest.mark.parametrize("number", [1, 3])
+def test_a_slip_yoke_on_an_end_shaft_frees_the_length_of_the_drive(number):
+    """R-P-RR-RR-R: the spline slides on the shaft of the machine, whose bearings stand beyond it."""
+    drive = Drive.from_angles([0.3, 0.3])
+    middle = Shaft(number=2, length=0.8)
+    end = Support(shaft=4 - number, position=0.2 if number == 1 else -0.2, **FIRM)
+    drive = held(drive, end, shafts=(middle, Shaft(number=number, spline=Spline())))
+    made = machine_held(drive)
+    found = mobility(made)
+    assert (found.mobility, found.redundant, found.parasitic, found.driven) == (1, 0, 0, 1)
+    assert assembly(made).degree == 0
+    own = next(one.position for one in made.supports if one.shaft == number)
+    assert own < -0.1 if number == 1 else own > 0.1
+
+
 def test_a_cross_that_slides_frees_its_pins():
     firm = two(FIRM)
     sliding = replace(firm, joints=(replace(SINGLE.joints[0], cross=Cross(slides=True)),))
@@ -133,7 +160,7 @@ def test_joints_of_every_kind_are_pairs(kind):
     assert found.parasitic == 0
     assert found.driven == (0 if kind == "offset_cross" else 1), "its shaft has to wobble"
     held = {"tripod": 2, "half_cardan": 2, "offset_cross": 2, "mechanism": 15}  # five loops of axes that meet
-    loose = ("elastic_half_cardan", "pin_coupling", "clemens")
+    loose = ("elastic_half_cardan", "pin_coupling", "clemens", "tracta")
     assert found.redundant == (0 if kind in loose else held.get(kind, 3))
 
 
@@ -182,10 +209,76 @@ def test_a_coupling_that_holds_nothing_but_the_torque_is_told_by_bending():
     pins = replace(SINGLE, joints=(PinCoupling(joint_angle=0.4),))
     assert unheld(pins) == (0,)
     every = {kind: unheld(replace(SINGLE, joints=(one,))) for kind, one in KINDS.items()}
-    assert {kind for kind, found in every.items() if found} == {"pin_coupling", "clemens", "elastic_half_cardan"}
+    loose = {"pin_coupling", "clemens", "elastic_half_cardan", "tracta"}
+    assert {kind for kind, found in every.items() if found} == loose
 
 
 KINDS = {
     kind: made(joint_angle=0.2, **({"offset": 0.01, "reach": 0.3} if kind == "offset_cross" else OWN.get(kind, {})))
     for kind, made in JOINTS.items()
 }
+
+
+ARM = Profile(axial=0.05, radial=0.02, radius=0.06)
+SIZED = [
+    (DoubleCardan(centring_ratio=0.55), "RRRR-SG", 2),
+    (DoubleCardan(centring_ratio=0.45, ball_on="driven"), "RRRR-SG", 2),
+    (Tracta(driving_distance=0.03, driven_distance=0.036), "RER", 5),
+    (Rzeppa(driving_offset=0.004, driven_offset=0.004, groove_radius=0.03), "RRSS", 2),
+    (Rzeppa(driving_offset=0.004, driven_offset=0.005, groove_radius=0.03), "RRSS", 2),
+    (Weiss(driving_offset=0.004, driven_offset=0.004, groove_radius=0.03), "RRSS", 2),
+    (HalfCardan(), "PRR", 3),
+    (Tripod(track_radius=0.02), "P-SG-P-SG-P-SG", 3),
+    (PinCoupling(driving_distance=0.05, driven_distance=0.06), "P-SG", 5),
+    (Clemens(driving=ARM, driven=replace(ARM, radial=0.021)), "RRS", 5),
+]
+"""Joints with their sizes, the pairs that they are, and the ways they leave free: Book p. 88-96, spec structure."""
+
+
+@pytest.mark.parametrize(("joint", "pairs", "free"), SIZED, ids=[one.kind for one, _pairs, _free in SIZED])
+def test_a_joint_stands_in_a_drive_as_the_mechanism_that_it_is(joint, pairs, free):
+    drive = two(FIRM)
+    drive = replace(drive, joints=(replace(joint, joint_angle=0.3),))
+    whole = mechanism_of(drive)
+    assert "".join(one.type for one in whole.joints[:-2]) == pairs.replace("-", "")
+    assert joint_freedoms(drive) == (free,)
+    found = mobility(whole)
+    assert found.agrees
+    assert found.mobility - found.redundant == 1 + free + 1 - 6  # two hinges and the joint around one loop
+
+
+def test_a_tracta_joint_between_fixed_bearings_is_not_redundant_and_turns():
+    """R-R-E-R-R, also with forks at unequal distances; spec structure, worked results."""
+    for joint in (Tracta(), Tracta(driving_distance=0.03, driven_distance=0.036)):
+        drive = replace(two(FIRM), joints=(replace(joint, joint_angle=0.3),))
+        found = mobility(drive)
+        assert (found.mobility, found.redundant, found.driven) == (1, 0, 1)
+        assert locks_at(mechanism_of(drive)) is None
+
+
+def test_balls_and_faces_repeat_what_the_first_of_them_holds():
+    """Weiss with two balls that carry and a centre ball between fixed bearings: q = 4; the square bell: q = 1."""
+    weiss = Weiss(driving_offset=0.004, driven_offset=0.004, groove_radius=0.03, joint_angle=0.3)
+    assert mobility(replace(two(FIRM), joints=(weiss,))).redundant + weiss.repeated == 4
+    bell = HalfCardan(joint_angle=0.05)
+    assert mobility(replace(two({"radial": True, "axial": True}), joints=(bell,))).redundant + bell.repeated == 1
+    assert Rzeppa().repeated == 5
+
+
+def test_a_tripod_needs_a_shaft_that_gives_way_to_its_spider():
+    """Its spider orbits: two fixed bearings lock it, the joint at the far end of a half shaft lets it."""
+    tripod = Tripod(track_radius=0.02, joint_angle=0.3)
+    assert mobility(replace(two(FIRM), joints=(tripod,))).driven == 0
+    grooves = Rzeppa(driving_offset=0.004, driven_offset=0.004, groove_radius=0.03, joint_angle=0.3)
+    ends = Support(shaft=1, position=-0.2, **FIRM), Support(shaft=3, position=0.2, **FIRM)
+    half = Drive(joints=(tripod, grooves), shafts=(Shaft(number=2, length=0.4),), supports=ends)
+    found = mobility(half)
+    assert (found.mobility, found.redundant, found.driven) == (1, 0, 1)
+    assert locks_at(mechanism_of(half)) is None
+
+
+def test_grooves_that_do_not_meet_are_no_mechanism():
+    apart = Rzeppa(driving_offset=0.03, driven_offset=0.03, groove_radius=0.005, joint_angle=0.6)
+    with pytest.raises(InputError, match="does not turn") as caught:
+        mobility(replace(two(FIRM), joints=(apart,)))
+    assert caught.value.field == "joints[0].joint_angle"

@@ -31,7 +31,7 @@ def part_problems(drive: Described) -> Iterator[Problem]:
             yield from _crack(shaft, path)
             for k, lump in enumerate(shaft.masses):
                 yield from place_problems(shaft.number, lump.position, len(drive.joints), length, f"{path}.masses[{k}]")
-            yield from _spline(shaft, length.get(shaft.number), f"{path}.spline")
+            yield from _spline(shaft, len(drive.joints), length, f"{path}.spline")
     for k, support in enumerate(drive.supports):
         yield from _support(support, len(drive.joints), length, f"supports[{k}]")
     ranges = [("duty", drive.duty.speed_range)]
@@ -59,6 +59,21 @@ def known_lengths(drive: Described) -> dict[int, float]:
         if length is not None and math.isfinite(length):
             known[k] = length
     return known
+
+
+def spline_place(drive: Described, number: int, length: float) -> float:
+    """Return where the spline of a shaft is, from the joint before it, on shaft 1 from joint 1 [m].
+
+    length [m]: of the shaft. Where the file does not say, it is in the middle of the shaft; of an end shaft between its
+    joint and the nearest support.
+    """
+    spline = drive.shafts[number - 1].spline
+    if spline is not None and spline.position is not None:
+        return spline.position
+    if 1 < number <= len(drive.joints):
+        return 0.5 * length
+    reach = min((abs(one.position) for one in drive.supports if one.shaft == number), default=length)
+    return math.copysign(0.5 * reach, number - 1.5)
 
 
 def _joint(joint: Joint, path: str) -> Iterator[Problem]:
@@ -106,7 +121,7 @@ def _crack(shaft: Shaft, path: str) -> Iterator[Problem]:
         yield Problem(f"{path}.crack.losses", _("needs to be at least 0 and below 1"), "out_of_range")
 
 
-def _spline(shaft: Shaft, length: float | None, path: str) -> Iterator[Problem]:
+def _spline(shaft: Shaft, joints: int, length: dict[int, float], path: str) -> Iterator[Problem]:
     spline = shaft.spline
     if spline is None:
         return
@@ -117,8 +132,7 @@ def _spline(shaft: Shaft, length: float | None, path: str) -> Iterator[Problem]:
         for name, there in (("sliding", spline.sliding != "both"), ("pressure_angle", spline.pressure_angle != 0.0)):
             if there:
                 yield Problem(f"{path}.{name}", _("counts only with friction, which is not given"))
-    if spline.position is not None and not inside(spline.position, length):
-        yield Problem(f"{path}.position", outside(spline.position, shaft.number, length))
+    yield from place_problems(shaft.number, spline.position, joints, length, path)
 
 
 def _support(support: Support, joints: int, length: dict[int, float], path: str) -> Iterator[Problem]:

@@ -181,16 +181,15 @@ def shaft_problems(shafts: Sequence[Shaft], n: int) -> Iterator[Problem]:
         if shaft.number in seen:
             yield Problem(f"{path}.number", _("shaft {number} is described twice").format(number=shaft.number))
         seen.add(shaft.number)
+        teeth = shaft.spline.teeth if shaft.spline else None
+        if teeth is not None and math.isfinite(teeth) and teeth != int(teeth):
+            yield Problem(f"{path}.spline.teeth", _("{teeth} is not a whole number").format(teeth=teeth))
         if 1 < shaft.number <= n:
-            teeth = shaft.spline.teeth if shaft.spline else None
-            if teeth is not None and math.isfinite(teeth) and teeth != int(teeth):
-                yield Problem(f"{path}.spline.teeth", _("{teeth} is not a whole number").format(teeth=teeth))
             continue
         for name, unused in (
             ("yoke_angle", shaft.yoke_angle != 0.0),
             ("yoke_fixed", shaft.yoke_fixed),
             ("weight", shaft.weight != 1.0),
-            ("spline", shaft.spline is not None),
         ):
             if unused:
                 text = _("shaft {number} is an end shaft; only a shaft between two joints has this")

@@ -80,7 +80,7 @@ class Clemens(Joint):
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the two hinged arms that meet and carry; a contact without their profile."""
         if self.driving is None:
-            yield from self.inner(stance)
+            yield from Joint.mechanism(self, stance)
             return
         one, other = self.driving, self.driving if self.driven is None else self.driven
         sides = [Circle(axial=side.axial, radial=side.radial, radius=side.radius) for side in (one, other)]

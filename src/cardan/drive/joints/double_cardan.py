@@ -77,7 +77,7 @@ class DoubleCardan(Joint):
         Without a ball it is told as what its exact device holds.
         """
         if self.centring_ratio is None:
-            yield from self.inner(stance)
+            yield from Joint.mechanism(self, stance)
             return
         before, behind = self._spread(stance.joint_angle, self.centre_distance or APART * stance.length)
         one, two = stance.centre - before * stance.before, stance.centre + behind * stance.after

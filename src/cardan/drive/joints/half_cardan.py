@@ -59,6 +59,11 @@ class HalfCardan(Joint):
         for pin in crossed(stance, journal=2.0 * (self.face_radius or 0.0), span=2.0 * (self.face_radius or math.inf)):
             yield replace(pin, links=(part, pin.links[1]) if pin.links[0] == DRIVING else pin.links)
 
+    @property
+    def repeated(self) -> int:
+        """The pairs of faces beyond the first: each could carry alone."""
+        return self.pairs - 1
+
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield the play that it needs."""
         text = _("play that its pairs of faces need to turn at this joint angle")

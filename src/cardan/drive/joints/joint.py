@@ -20,9 +20,10 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``twist_spring``     none: it does not give under torque
 ``stuck``            its kind and the joint angle at which it does not turn
 ``inside``           nothing else moves in it
-``inner``            pins of a cross, a contact, a slide or two axes in the bisecting plane, as the marks above say
 ``rubbing``          no: what rubs in it is not counted
-``mechanism``        the same as ``inner``: it has no more links inside
+``mechanism``        pins of a cross, a contact, a slide or two axes in the bisecting plane, as the marks above say
+``centring``         nothing holds its centre beside its mechanism
+``repeated``         0: no parts alike hold the same
 ``loaded``           nothing: no load in it is told
 ``rated``            no keys: no bearing in it has a life
 ``pressed``          no keys: no contact in it is judged
@@ -292,8 +293,12 @@ class Joint:
         """Yield what else moves in it at a joint angle [rad], as far as its sizes are given."""
         yield from ()
 
-    def inner(self, stance: Stance) -> Iterator[InnerPair]:
-        """Yield the pairs between its shafts, of its inner mechanism or of what holds and frees as much."""
+    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield the pairs of its inner mechanism, which work as it does at every place of a turn.
+
+        Its stance is at one place of a turn or at many (...); points and axes of the pairs have the same axes. By
+        default, and where sizes are missing, those of what holds and frees as much.
+        """
         if self.loose:
             yield from inner.touching(stance)
         elif self.slides:
@@ -305,12 +310,14 @@ class Joint:
         else:
             yield from inner.bending(stance)
 
-    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
-        """Yield its pairs with all its inner links, which work as it does at every place of a turn; `inner` by default.
+    def centring(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield what holds its centre beside the pairs of its mechanism: a cage, a centre ball."""
+        yield from ()
 
-        Its stance is at one place of a turn or at many (...); points and axes of the pairs have the same axes.
-        """
-        yield from self.inner(stance)
+    @property
+    def repeated(self) -> int:
+        """How many constraints parts of it that are alike repeat; play or give lets them share the load."""
+        return 0
 
     def loaded(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the pairs whose loads it tells, as many as carry its torque; none where its sizes are not given."""

@@ -160,10 +160,10 @@ class MechanismJoint(Joint):
             found[:, here] = waved(whole[0][here], self._inside().law(float(alpha)))
         return found[0], found[1], found[2]
 
-    def inner(self, stance: Stance) -> Iterator[InnerPair]:
+    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the pairs of its mechanism, where they stand, without the bearings of the shafts."""
         if self.drawing is None:
-            yield from super(MechanismJoint, self).inner(stance)
+            yield from super(MechanismJoint, self).mechanism(stance)
             return
         here = self._inside()
         point, axis, second = here.placed(stance)

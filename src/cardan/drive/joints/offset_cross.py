@@ -70,7 +70,7 @@ class OffsetCross(Joint):
         text = _("half angle of the cone on which the driven shaft wobbles, twice a turn")
         yield Inside(key="wobble", meaning=text, value=float(wobble(joint_angle, self.offset, self.reach)))
 
-    def inner(self, stance: Stance) -> Iterator[InnerPair]:
+    def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield both pins, a distance apart."""
         journal, span = self.journal_diameter or 0.0, self.journal_span or math.inf
         return crossed(stance, offset=self._aside, journal=journal, span=span)

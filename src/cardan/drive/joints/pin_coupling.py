@@ -104,7 +104,7 @@ class PinCoupling(Joint):
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield both its pins, along which the point slides in which they touch; a contact without their distances."""
         if self.driving_distance is None or self.driven_distance is None:
-            yield from self.inner(stance)
+            yield from Joint.mechanism(self, stance)
             return
         one, other = self._slants
         found = pin_contact(

@@ -18,7 +18,7 @@ from cardan.units import plain, quantity
 from .common import laws as shared_turn
 from .common import laws as tilted_plane
 from .common import site as drawn
-from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
+from .common.inner import DRIVEN, DRIVING, InnerPair, Stance, centred
 from .common.site import Site
 from .joint import CROSS_ONLY, NO_BEARING, REFUSALS, Inside, Joint, both_or_none
 from .weiss import (
@@ -102,7 +102,7 @@ class Rzeppa(Joint):
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield its grooves with the balls; what holds as much where the grooves are not given."""
         if self.driving_offset is None or self.driven_offset is None or self.groove_radius is None:
-            return self.inner(stance)
+            return Joint.mechanism(self, stance)
         return groove_mechanism(stance, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
 
     def loaded(self, stance: Stance) -> Iterator[InnerPair]:
@@ -110,6 +110,16 @@ class Rzeppa(Joint):
         sizes = self.driving_offset, self.groove_radius, self.pressure_angle
         if None not in sizes and self.driven_offset == self.driving_offset:
             yield from _contacts(self, stance)
+
+    def centring(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield its cage, which both races centre, as far as its grooves are given."""
+        if self.groove_radius is not None:
+            yield centred(mark("cage of joint {number}"), stance)
+
+    @property
+    def repeated(self) -> int:
+        """The balls beyond the first: each could carry alone."""
+        return self.balls - 1
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield what its balls do beside turning."""

@@ -17,7 +17,7 @@ from cardan.units import quantity
 
 from .common import laws as tilted_plane
 from .common import site as drawn
-from .common.inner import DRIVEN, DRIVING, InnerPair, Stance, carried
+from .common.inner import ARM, DRIVEN, DRIVING, InnerPair, Stance, carried
 from .common.site import Site
 from .joint import CROSS_ONLY, Inside, Joint, both_or_none, missed
 
@@ -66,13 +66,14 @@ class Tracta(Joint):
         return pair(joint_angle, self.driving_distance, self.driven_distance)
 
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
-        """Yield its two halves, each swivelling in its fork, and the face on which they slide on each other."""
-        if self.driving_distance is None or self.driven_distance is None:
-            yield from self.inner(stance)
-            return
+        """Yield its two halves, each swivelling in its fork, and the face on which they slide on each other.
+
+        Its forks stand alike where their distances are not given.
+        """
+        usual = ARM * stance.length
         one, two = mark("driving half of joint {number}"), mark("driven half of joint {number}")
-        first = stance.centre - self.driving_distance * stance.before
-        last = stance.centre + self.driven_distance * stance.after
+        first = stance.centre - (self.driving_distance or usual) * stance.before
+        last = stance.centre + (self.driven_distance or usual) * stance.after
         u, v = stance.driving, stance.driven
         face = frames.unit(frames.cross(u, last - first + 0.0 * u))
         lever, spread = 0.5 * (self.swivel_diameter or 0.0), self.swivel_length or math.inf

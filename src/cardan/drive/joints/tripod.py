@@ -88,7 +88,7 @@ class Tripod(Joint):
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield its three tracks and the arms on which its rollers slide; nothing but a slide without its size."""
         if self.track_radius is None:
-            yield from self.inner(stance)
+            yield from Joint.mechanism(self, stance)
             return
         for k, (way, at) in enumerate(self._rollers(stance), 1):
             link, track = mark("roller {count} of joint {number}"), mark("track {count} of joint {number}")

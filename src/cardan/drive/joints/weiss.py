@@ -17,7 +17,7 @@ from cardan.texts import _, mark
 from cardan.units import deg, plain, quantity
 
 from .common import site as drawn
-from .common.inner import DRIVEN, DRIVING, Contact, InnerPair, Stance, carried
+from .common.inner import DRIVEN, DRIVING, Contact, InnerPair, Stance, carried, centred
 from .common.site import Site
 from .joint import CROSS_ONLY, NO_BEARING, REFUSALS, Inside, Joint, both_or_none, missed
 
@@ -90,9 +90,17 @@ def groove_mechanism(stance: Stance, first: float, second: float, radius: float,
             (name[1], (two, DRIVEN), pivots[1], axes[1]),
         ):
             yield InnerPair(
-                name=groove, type="R", links=links, point=pivot, axis=axis, count=k + 1, rubs=True, lever=radius
+                name=groove,
+                type="R",
+                links=links,
+                point=pivot,
+                axis=axis,
+                count=k + 1,
+                repeats=k > 0,
+                rubs=True,
+                lever=radius,
             )
-        yield InnerPair(name=ball, type="S", links=(one, two), point=at, axis=way, count=k + 1)
+        yield InnerPair(name=ball, type="S", links=(one, two), point=at, axis=way, count=k + 1, repeats=k > 0)
 
 
 def groove_contact(diameter: float | None, conformity: float | None, *, bent: float = 0.0) -> Contact | None:
@@ -161,7 +169,7 @@ class Weiss(Joint):
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield its grooves with the balls that carry; what holds as much where the grooves are not given."""
         if self.driving_offset is None or self.driven_offset is None or self.groove_radius is None:
-            return self.inner(stance)
+            return Joint.mechanism(self, stance)
         return groove_mechanism(stance, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
 
     def loaded(self, stance: Stance) -> Iterator[InnerPair]:
@@ -170,6 +178,16 @@ class Weiss(Joint):
         touching = groove_contact(self.ball_diameter, self.groove_conformity)
         for pair in self.mechanism(stance) if self.groove_radius is not None and fits else ():
             yield replace(pair, told=pair.type == "S", contact=touching if pair.type == "S" else None)
+
+    def centring(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield its centre ball, as far as its grooves are given."""
+        if self.groove_radius is not None:
+            yield centred(mark("centre ball of joint {number}"), stance)
+
+    @property
+    def repeated(self) -> int:
+        """The balls beyond the first: each could carry alone."""
+        return self.balls - 1
 
     def carried(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield bearings of both shafts: it does not hold its centre by itself."""

@@ -12,7 +12,7 @@ import numpy as np
 from cardan.drive.accuracy import Error
 from cardan.drive.body import body_length, pieces, softness, weight
 from cardan.drive.drive import Drive
-from cardan.drive.fields.parts import known_lengths
+from cardan.drive.fields.parts import known_lengths, spline_place
 from cardan.drive.joints import Joint
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
@@ -148,7 +148,8 @@ def train(drive: Drive, *, kinds: bool = False) -> Train:
     offset = [length[0], *[0.0] * len(drive.joints)]
     centre = [0.0 if body[3] is None else body[3] + start for body, start in zip(bodies, offset, strict=True)]
     splined = [shaft for shaft in drive.shafts if shaft.spline is not None]
-    behind = np.asarray([_behind(shaft, length[shaft.number - 1]) for shaft in splined]).reshape(-1, 3)
+    cuts = [spline_place(drive, shaft.number, length[shaft.number - 1]) + offset[shaft.number - 1] for shaft in splined]
+    behind = [_behind(shaft, length[shaft.number - 1], cut) for shaft, cut in zip(splined, cuts, strict=True)]
     for shaft, (heavy, far, _own) in zip(splined, behind, strict=True):
         # Both parts are moved by themselves, so what they add to the inertia across by their distance does not count.
         k = shaft.number - 1
@@ -180,9 +181,9 @@ def train(drive: Drive, *, kinds: bool = False) -> Train:
         crossed=tuple(joint.single_cross for joint in drive.joints),
         kinds=tuple(drive.joints),
         splines=tuple(shaft.number - 1 for shaft in splined),
-        cut=np.asarray([_cut(shaft, length[shaft.number - 1]) for shaft in splined]),
+        cut=np.asarray(cuts),
         grip=np.asarray([_grip(shaft) for shaft in splined]),
-        behind=behind if splined else None,
+        behind=np.asarray(behind) if splined else None,
         sliding=np.asarray([SLIDING[shaft.spline.sliding] for shaft in splined if shaft.spline is not None]),
         stiffness=np.asarray([_stiffness(support) for support in drive.supports]),
         offset=np.asarray([support.offset for support in drive.supports]),
@@ -233,19 +234,15 @@ def _slides(joint: Joint) -> tuple[bool, bool, bool]:
     return along is True or along == "driving", along is True or along == "driven", False
 
 
-def _cut(shaft: Shaft, length: float) -> float:
-    given = shaft.spline.position if shaft.spline else None
-    return 0.5 * length if given is None else given
-
-
-def _behind(shaft: Shaft, length: float) -> tuple[float, float, float]:
+def _behind(shaft: Shaft, length: float, cut: float) -> tuple[float, float, float]:
     """Return mass [kg], centre of mass [m] and inertia [kg m²] of a shaft behind its spline, parts it carries included.
 
+    cut [m]: place of the spline from the beginning of the shaft, from which the centre of mass counts too.
     A stretch that the spline parts counts on both sides. Where mass and centre of mass are given, or no body, each part
     is uniform, and both together have them.
     """
-    cut, whole = _cut(shaft, length), weight(shaft, length)
-    lumps = [one for one in shaft.masses if one.position >= cut]
+    whole, origin = weight(shaft, length), length if shaft.number == 1 else 0.0
+    lumps = [one for one in shaft.masses if one.position + origin >= cut]
     body = [
         (one, max(one.start, cut), one.start + one.length)
         for one in pieces(shaft, length)
@@ -257,10 +254,10 @@ def _behind(shaft: Shaft, length: float) -> tuple[float, float, float]:
         parts = [(scale * one.mass * (end - start) / one.length, 0.5 * (start + end)) for one, start, end in body]
     else:
         bare = weight(replace(shaft, masses=()), length)
-        mass, centre = bare.mass or 0.0, 0.5 * length if bare.centre is None else bare.centre
+        mass, centre = bare.mass or 0.0, 0.5 * length if bare.centre is None else bare.centre + origin
         far = min(max((2.0 * centre - cut) / length, 0.0), 1.0)
         parts = [(far * mass, 0.5 * (cut + length) if 0.0 < far < 1.0 else centre)]
-    parts += [(one.mass, one.position) for one in lumps]
+    parts += [(one.mass, one.position + origin) for one in lumps]
     mass = sum(part for part, _place in parts)
     centre = sum(part * place for part, place in parts) / mass if mass else length
     bare_inertia = (whole.inertia or 0.0) - sum(one.polar_inertia for one in shaft.masses)

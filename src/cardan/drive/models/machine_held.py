@@ -9,10 +9,12 @@ from dataclasses import replace
 from cardan.answers.answer import Remark
 from cardan.answers.quantity import Joined, say
 from cardan.drive.drive import Drive
-from cardan.drive.fields.parts import known_lengths
+from cardan.drive.fields.parts import known_lengths, spline_place
 from cardan.drive.support import Support
 from cardan.errors import InputError
 from cardan.texts import _, plural
+
+from .geometry import geometry
 
 NEAR = 0.9  # share of its length at which a shaft is proposed to have its centre bearing: before its second joint
 REACH = 0.1  # distance [m] of the proposed bearings of an end shaft from its joint and from each other
@@ -33,7 +35,10 @@ def machine_held(drive: Drive) -> Drive:
     made = list(drive.supports)
     for number in machines_of(drive):
         axial = not any(one.axial and _segment(drive, one) == _segment_of(drive, number) for one in made)
-        one = Support(name=_("machine"), shaft=number, position=0.0, axial=axial, tilt=True, bore=1e-3, friction=0.0)
+        place = 0.0
+        if drive.shafts[number - 1].spline is not None:  # beyond it, as it slides on the shaft of the machine
+            place = 2.0 * spline_place(drive, number, float(geometry(drive).length[number - 1]))
+        one = Support(name=_("machine"), shaft=number, position=place, axial=axial, tilt=True, bore=1e-3, friction=0.0)
         made.append(one)
     return replace(drive, supports=tuple(made))
 
@@ -63,12 +68,9 @@ def _beginnings(drive: Drive) -> list[tuple[int, float]]:
 def _segment(drive: Drive, support: Support) -> int:
     """Return in which part of the drive, cut where it slides, a support stands."""
     before = _cuts(drive, support.shaft)
-    spline = drive.shafts[support.shaft - 1].spline
-    if spline is None:
+    if drive.shafts[support.shaft - 1].spline is None:
         return before
-    cut = spline.position
-    if cut is None:
-        cut = 0.5 * known_lengths(drive).get(support.shaft, 0.0)
+    cut = spline_place(drive, support.shaft, known_lengths(drive).get(support.shaft, 0.0))
     return before + int(support.position > cut)
 
 

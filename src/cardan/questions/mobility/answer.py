@@ -55,7 +55,7 @@ def lacking(drive: Drive) -> Lacking:
 def ask(drive: Drive) -> Mobility | None:
     """Return the mobility of a drive; None where its file leaves bearings out."""
     found = mobility(drive)
-    return None if found.parasitic or found.driven == 0 else found
+    return None if found.parasitic else found
 
 
 def otherwise(drive: Drive) -> str:
@@ -106,7 +106,7 @@ def answer(thing: Drive | Mechanism, result: Mobility, around: Turned | None = N
                 value=Quantity(float(result.redundant), decimals=0),
             ),
         ),
-        facts=_facts(result, counted, remedies, around),
+        facts=_facts(thing, result, counted, remedies, around),
         full=lambda: _joints(result, result.joints, links=True),
     )
 
@@ -189,6 +189,7 @@ def _remarks(
     if isinstance(thing, Drive):
         own = ball_held(thing)
         yield from held_by_machines(tuple(number for number in machines_of(thing) if number - 2 not in own))
+        yield from _repeated(thing)
     if result.misalignment:
         text = _("Warning: as given the parts do not fit: {gap} have to be forced into place.")
         yield Remark(text=say(text, gap=Quantity(result.misalignment, "length", 3)), tone="warning")
@@ -206,6 +207,20 @@ def _remarks(
     if around is None and (result.mechanism.input_link or not isinstance(thing, Mechanism)):
         text = _("Over a turn of the input:")
         yield Remark(text=text, command=("cardan", "mobility", FILE, "--turn"), tone="next")
+
+
+def _repeated(drive: Drive) -> Iterator[Remark]:
+    """Yield what parts alike within its joints hold more than once, which the numbers of the drive leave out."""
+    for number, joint in enumerate(drive.joints, 1):
+        if joint.repeated:
+            text = plural(
+                "Joint {number} ({kind}) repeats {n} constraint within itself, not counted here: its parts share the "
+                "load by play or give.",
+                "Joint {number} ({kind}) repeats {n} constraints within itself, not counted here: its parts share the "
+                "load by play or give.",
+                joint.repeated,
+            )
+            yield Remark(text=say(text, number=number, kind=joint.in_words(), n=joint.repeated))
 
 
 def _loose(result: Mobility) -> Iterator[Remark]:
@@ -312,7 +327,11 @@ def _keys(thing: Drive | Mechanism, repair: Repair) -> Iterator[str]:
 
 
 def _facts(
-    result: Mobility, counted: Partition | None, remedies: Sequence[Repair], around: Turned | None
+    thing: Drive | Mechanism,
+    result: Mobility,
+    counted: Partition | None,
+    remedies: Sequence[Repair],
+    around: Turned | None,
 ) -> dict[str, Any]:
     facts: dict[str, Any] = {
         "name": result.mechanism.name,
@@ -361,6 +380,8 @@ def _facts(
             for one in remedies
         ],
     }
+    if isinstance(thing, Drive):
+        facts["repeated_within_joints"] = [joint.repeated for joint in thing.joints]
     if counted is not None:
         groups = counted.groups
         facts["by_graph"] = {

@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.drive.fields.parts import known_lengths
+from cardan.drive.fields.parts import known_lengths, spline_place
 from cardan.drive.joints.common.inner import DRIVEN, DRIVING, Stance
 from cardan.drive.models.geometry import Geometry, geometry
 from cardan.drive.models.machine_held import machine_held
 from cardan.drive.models.wobble import Course, course
 from cardan.drive.support import Support
-from cardan.errors import Problem, check
+from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames, screws
 from cardan.mechanism.constraints import constraints
@@ -45,8 +45,7 @@ def mechanism_of(drive: Drive, angle: float = 0.0) -> Mechanism:
     Returns Mechanism: links: the frame, the shafts (two parts where a spline slides), the crosses. Joints: pins,
     splines, supports.
     A radial support is a sphere in a cylinder (SG), with an axial hold a sphere (S), with a hold against tilting a
-    cylinder or hinge (C, R). A cross has hinges, or cylinders along journals that slide. Joints of other kinds stand as
-    pairs that turn about two axes of the bisecting plane, unless they slide as well or hold nothing but the torque.
+    cylinder or hinge (C, R). Joints stand with their inner mechanism, with the first of parts alike that hold the same.
     """
     check(_problems(drive))
     balls, drive = ball_held(drive), machine_held(drive)
@@ -158,11 +157,7 @@ def _at(drive: Drive, place: Geometry, lying: Sequence[_Line], number: int, posi
 
 
 def _spline_place(drive: Drive, place: Geometry, number: int) -> float:
-    spline = drive.shafts[number - 1].spline
-    if spline is not None and spline.position is not None:
-        return spline.position
-    half = 0.5 * float(place.length[number - 1])
-    return -half if number == 1 else half
+    return spline_place(drive, number, float(place.length[number - 1]))
 
 
 def _row(vector: Array) -> Point:
@@ -200,9 +195,13 @@ def _inside(drive: Drive, place: Geometry, known: Course, i: int, ends: Mapping[
         driven=known.driven[i, 0],
         length=float(place.length[i + 1]),
     )
-    for one in drive.joints[i].inner(stance):
-        first, second = (ends.get(link) or _(link).format(number=i + 1) for link in one.links)
-        name = _(one.name).format(number=i + 1)
+    joint = drive.joints[i]
+    pairs = [one for one in (*joint.mechanism(stance), *joint.centring(stance)) if not one.repeats]
+    if not all(np.all(np.isfinite(one.point)) for one in pairs):
+        raise refuse(f"joints[{i}].joint_angle", joint.stuck(float(stance.joint_angle)), "out_of_range")
+    for one in pairs:
+        first, second = (ends.get(link) or _(link).format(number=i + 1, count=one.count) for link in one.links)
+        name = _(one.name).format(number=i + 1, count=one.count)
         yield _pair(name, one.type, (first, second), _row(one.point), one.axis, one.second)
 
 
@@ -211,18 +210,27 @@ def unheld(drive: Drive) -> tuple[int, ...]:
 
     Such a shaft stands where its own bearings hold it, not where the joint is.
     """
-    place, known = geometry(drive), course(drive, np.zeros(1), still=True)
     found = []
+    for i, (twists, along) in enumerate(_freed(drive)):
+        shifts = screws.null_spaces(twists[:, :3].T)[2] @ twists[:, 3:]
+        if np.any(frames.norm(shifts - (shifts @ along)[:, None] * along) > ACROSS):
+            found.append(i)
+    return tuple(found)
+
+
+def joint_freedoms(drive: Drive) -> tuple[int, ...]:
+    """Return in how many ways each joint lets its driven shaft move against its driving one."""
+    return tuple(len(screws.independent(twists)) for twists, _along in _freed(drive))
+
+
+def _freed(drive: Drive) -> Iterator[tuple[Array, Array]]:
+    """Yield the motions (m, 6) of its driven against its driving shaft that each joint leaves, and this one's axis."""
+    place, known = geometry(drive), course(drive, np.zeros(1), still=True)
     for i in range(len(drive.joints)):
         pairs = tuple(_inside(drive, place, known, i, {DRIVING: DRIVING, DRIVEN: DRIVEN}))
         inner = Mechanism(frame=DRIVING, output_link=DRIVEN, joints=pairs)
         motions = screws.null_spaces(constraints(inner).matrix())[2]
-        twists = motions.reshape(len(motions), -1, 6)[:, inner.links.index(DRIVEN)]
-        shifts = screws.null_spaces(twists[:, :3].T)[2] @ twists[:, 3:]
-        across = shifts - (shifts @ known.axis[i, 0])[:, None] * known.axis[i, 0]
-        if np.any(frames.norm(across) > ACROSS):
-            found.append(i)
-    return tuple(found)
+        yield motions.reshape(len(motions), -1, 6)[:, inner.links.index(DRIVEN)], known.axis[i, 0]
 
 
 def _support(drive: Drive, place: Geometry, lying: Sequence[_Line], support: Support, index: int) -> Iterator[Pair]:

@@ -79,6 +79,7 @@ class InnerPair:
     axis: Array  # (3,)
     second: Array | None = None  # (3,): second axis, of kinds that have two
     count: int = 1  # which of several pairs and links alike, from 1
+    repeats: bool = False  # whether it holds what others alike hold already, but for play or give
     rubs: bool = False  # whether it rubs where the joint has a coefficient of friction
     lever: float = 0.0  # [m]: at which what turns in it rubs
     spread: float = math.inf  # [m]: between its two bearings, where it has two
@@ -104,6 +105,11 @@ def sliding(stance: Stance) -> Iterator[InnerPair]:
 def _bending(name: str, links: tuple[str, str], stance: Stance) -> InnerPair:
     second = frames.cross(stance.middle, stance.normal)
     return InnerPair(name=name, type="U", links=links, point=stance.centre, axis=stance.normal, second=second)
+
+
+def centred(name: str, stance: Stance) -> InnerPair:
+    """Return what holds the centre of a joint and leaves all turns free."""
+    return InnerPair(name=name, type="S", links=(DRIVING, DRIVEN), point=stance.centre, axis=stance.before)
 
 
 def touching(stance: Stance) -> Iterator[InnerPair]:
