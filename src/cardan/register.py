@@ -26,6 +26,7 @@ DESIGNED = mark(
 )
 ANGLES = mark("The movement does not count here: the map runs over joint angles, those that it passes among them.")
 WHIRLS = mark("Poses and movements do not count here: the shaft whirls at the length that it is drawn with.")
+HELD = mark("Layouts are made for the drive as drawn at its duty.")
 CHOSEN = mark("Errors of the joints as made do not count here: types and sizes are chosen by loads and angles.")
 
 QUESTIONS: dict[str, Question] = {
@@ -365,6 +366,22 @@ QUESTIONS: dict[str, Question] = {
             examples=(
                 "cardan mobility pump.toml",
                 "cardan mobility slider.toml --turn --plot slider.svg",
+            ),
+        ),
+        Question(
+            name="layouts",
+            module="cardan.choices.bearing_layouts_answer",
+            title=mark("Statically determinate layouts"),
+            group=SUPPORTS,
+            help=mark("Which bearings, splines and joints make a drive statically determinate, best first."),
+            quick=False,
+            report=False,
+            takes=("other_joints",),
+            command="mobility --layouts",
+            without={"pose": HELD, "movement": HELD, "case": HELD, "error": MINUTES},
+            examples=(
+                "cardan mobility truck.toml --layouts",
+                "cardan mobility truck.toml --layouts --apply 1 -o better.toml",
             ),
         ),
         Question(

@@ -140,3 +140,49 @@ def test_another_question_sends_a_mechanism_here(cardan):
 def test_the_schema_of_the_mechanism_file(cardan):
     assert json.loads(cardan("schema", "--mechanism").out) == files.mechanism_schema()
     assert json.loads(cardan("schema").out) == files.schema()
+
+
+TWO = """# two joints
+format = 1
+[[joints]]
+joint_angle_deg = 12  # the first
+[[joints]]
+kind = "half_cardan"
+joint_angle_deg = 3
+pairs = 3
+[[shafts]]
+number = 2
+length_mm = 800
+[[supports]]
+shaft = 1
+position_mm = -100
+"""
+
+
+def test_a_layout_is_written_into_a_copy_of_the_file(cardan, drive_file, tmp_path):
+    copy = tmp_path / "held.toml"
+    told = cardan("mobility", drive_file(TWO), "--layouts", "-o", str(copy))
+    assert told.code == 0
+    assert "are statically determinate by their graph" in one_line(told.out)
+    assert "# the first" in copy.read_text("utf-8")
+    found = mobility(files.load(copy))
+    assert (found.mobility, found.redundant, found.parasitic) == (1, 0, 0)
+    other = tmp_path / "other.toml"
+    cardan("mobility", drive_file(TWO), "--layouts", "--other-joints", "--apply", "2", "-o", str(other))
+    assert mobility(files.load(other)).redundant == 0
+
+
+@pytest.mark.parametrize(
+    ("options", "field"),
+    [
+        (["--apply", "1"], "--apply"),
+        (["--layouts", "--apply", "1"], "--apply"),
+        (["--layouts", "--apply", "99", "-o", "held.toml"], "--apply"),
+        (["--other-joints"], "--other-joints"),
+        (["--layouts", "--turn"], "--turn"),
+    ],
+)
+def test_options_of_layouts_are_refused_where_they_mean_nothing(cardan, drive_file, options, field):
+    told = cardan("mobility", drive_file(TWO), *options)
+    assert told.code == 2
+    assert field in told.err
