@@ -179,7 +179,9 @@ def with_layout(drive: Drive, layout: Layout, own: tuple[int, ...]) -> Drive:
         for bearing, (start, end) in zip(parts, ends, strict=True):
             inside = [one for one in stood if start < one < end]
             supports += _supports(bearing, k + 1, start, end, inside)
-    return replace(drive, joints=joints, shafts=tuple(shafts), supports=tuple(supports), poses=(), movements=())
+    limits = drive.limits if layout.splines else replace(drive.limits, spline_overlap=None)
+    held = replace(drive, poses=(), movements=(), limits=limits)
+    return replace(held, joints=joints, shafts=tuple(shafts), supports=tuple(supports))
 
 
 def _supports(bearing: str, shaft: int, start: float, end: float, stood: list[float]) -> Iterator[Support]:

@@ -103,8 +103,8 @@ def layouts(joints: Sequence[Sequence[int]], *, splines: int | None = None) -> I
     >>> for one in layouts([[2]], splines=1):
     ...     print(one.shafts)
     (('R',), ('SG',))
-    (('R',), ('', 'S'))
     (('R', ''), ('S',))
+    (('R',), ('', 'S'))
     """
     most = len(joints) + 1 if splines is None else splines
     least = _least(tuple(map(tuple, joints)))

@@ -17,6 +17,7 @@ from cardan.cli.shared.progress import watching
 from cardan.cli.shared.source import STDIN, AsCsv, AsJson, Force, Plot, form_of, read_with_text, stdin_text
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
+from cardan.drive.duty import Limits
 from cardan.errors import Problem, check, refuse
 from cardan.io import dumps, load_either, loads_either
 from cardan.io.amend import amend, insert
@@ -98,6 +99,10 @@ def _written(drive: Drive, held: Drive, text: str, out: Path) -> str:
     if is_json(out, text):
         return dumps(held, form="json" if out.suffix.lower() == ".json" else "toml")
     values: dict[str, Any] = {"supports": None}
+    if held.limits != drive.limits:  # one of splines, where none is left
+        values |= {
+            f"limits.{key}": None for key, (name, _f) in spellings_of(Limits).items() if name == "spline_overlap"
+        }
     for k, (was, joint) in enumerate(zip(drive.joints, held.joints, strict=True)):
         if joint is not was:
             own = [key for key, (name, _factor) in spellings_of(type(was)).items() if name not in KEPT]
