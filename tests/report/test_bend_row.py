@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from cardan.checks import check
+from cardan.checks.verdict_table import tone_of
 from cardan.drive.drive import Drive
 from cardan.io import example
 from cardan.units import deg
@@ -22,7 +23,7 @@ def test_the_rating_of_the_joint_is_the_limit_in_both_places(name):
     shown = row(drive)
     assert float(shown[3].full) == pytest.approx(worst.limit / deg)
     assert float(shown[4].full) == pytest.approx(worst.utilisation)
-    assert (shown[0].text[-1], shown[5].tone) == (worst.title[-1], "good")
+    assert (shown[0].text[-1], shown[5].tone) == (worst.title[-1], tone_of(worst))
 
 
 def test_a_joint_without_a_rating_passes_nothing_but_nears_the_utmost_of_its_kind():

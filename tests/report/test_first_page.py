@@ -73,3 +73,9 @@ def test_what_is_said_of_the_drive_stands_on_one_page_of_the_report():
     said = [block.text for _name, block in held]
     assert any("are held by their machines" in text for text in said)
     assert len(said) == len(set(said))
+
+
+def test_a_joint_angle_that_an_unconfirmed_rating_allows_is_not_green():
+    drive = example("car-propshaft")  # its sizes are made up
+    (found,) = [one for one in key_rows(drive) if one[0].text.startswith("largest joint angle")]
+    assert (found[-1].text, found[-1].tone) == ("met, unconfirmed rating", "warning")

@@ -15,6 +15,7 @@ from cardan.texts import _
 from .design import Design
 from .moving import WORSE, posed
 from .verdict import AMBER, Verdict
+from .verdict_table import word_of
 
 
 def key_figures(drive: Drive, verdicts: Sequence[Verdict]) -> Iterator[KeyFigure]:
@@ -61,6 +62,8 @@ def _joint_angle(drive: Drive, allowed: dict[str, Verdict]) -> KeyFigure:
         return KeyFigure(name="joint_angle", title=title, place=at, value=value)
     tone: Tone = "good" if use < AMBER else "failed" if use > 1.0 and judged else "warning"
     verdict = _("passed") if use < AMBER else _("near the limit") if use <= 1.0 else _("too much")
+    if judged and allowed[f"joints[{joint - 1}]"].state == "unconfirmed":
+        tone, verdict = "warning", word_of(allowed[f"joints[{joint - 1}]"])
     bound = Quantity(limit, "angle", 6, trim=True)
     return KeyFigure(
         name="joint_angle",

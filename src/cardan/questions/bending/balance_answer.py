@@ -176,7 +176,7 @@ def _remarks(result: Balance) -> Iterator[Remark]:
     if result.grade is not None:
         yield Remark(text=_("Grade {grade}: {source}.").format(grade=result.grade.id, source=result.grade.source))
     if result.assumed:
-        text = _("Neither grade nor vehicle is given; {grade} is usual for these shafts.")
+        text = _("No balance grade is given (duty.balance_grade); {grade} is usual for these shafts.")
         yield Remark(text=text.format(grade=result.grade.id if result.grade else ""))
     if result.norm is not None:
         text = _("Vehicle standard: {note}; {source}.")
