@@ -27,7 +27,12 @@ def test_all_kinds_are_listed_with_their_keys(cardan):
     assert [one["kind"] for one in said["kinds"]] == list(JOINTS)
     keys = {one["kind"]: [key["key"] for key in one["keys"]] for one in said["kinds"]}
     assert keys["hooke"] == []
-    assert keys["double_cardan"] == ["centring_ratio", "ball_on"]
+    assert keys["pin_coupling"] == [
+        "driving_slant_deg",
+        "driven_slant_deg",
+        "driving_distance_mm",
+        "driven_distance_mm",
+    ]
     assert "centre_mm" not in {key for several in keys.values() for key in several}
     table = list(csv.DictReader(io.StringIO(cardan("joint", "--csv").out)))
     assert [row["kind"] for row in table] == list(JOINTS)
