@@ -21,6 +21,10 @@ from cardan.units import deg
 ANGLE = np.linspace(0.0, 2.0 * np.pi, 37)[:-1] + 0.021
 
 
+DETUNED = {"arm_1,_driven_shaft": {"point": (0.031, 0.019, 0.0), "axis": (31.0, 19.0, 0.0)}}
+"""A Thompson coupling one of whose arms stands 2.3° off."""
+
+
 def joint_of(name: str, **changes) -> MechanismJoint:
     """Return a shipped mechanism as a joint, pairs changed by name."""
     drawing = example_mechanism(name)
@@ -47,7 +51,20 @@ def test_a_cross_as_a_mechanism_turns_as_hookes_joint(joint_angle):
         assert np.abs(one - other).max() < 1e-10
 
 
-@pytest.mark.parametrize("name", ["thompson", "reuleaux"])
+@pytest.mark.parametrize("name", ["hooke-stiff-bearings", "thompson"])
+def test_the_law_at_many_joint_angles_is_that_at_each(name):
+    """By polynomials between full degrees, which pass through the straight joint."""
+    joint = joint_of(name, **(DETUNED if name == "thompson" else {}))
+    angles = np.linspace(0.003, 0.5, 40)
+    many = joint.deviation(ANGLE[:, None], angles)
+    for k in (0, 3, 20, 39):
+        for one, other in zip(many, joint.deviation(ANGLE, angles[k]), strict=True):
+            assert np.abs(one[:, k] - other).max() < 1e-9
+    if joint.has_map:
+        assert joint.near_pair(angles)[1][7] == pytest.approx(joint.near_pair(angles[7])[1], abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["thompson", "reuleaux", "weiss-straight"])
 @pytest.mark.parametrize("joint_angle", [0.05, 0.2, 0.4, 0.6])
 def test_mirror_images_are_exactly_uniform(name, joint_angle):
     joint = joint_of(name)
@@ -60,6 +77,7 @@ def test_mirror_images_are_exactly_uniform(name, joint_angle):
 
 def test_a_thompson_coupling_holds_its_centre_and_a_reuleaux_coupling_nothing():
     one, other = joint_of("thompson"), joint_of("reuleaux")
+    assert joint_of("weiss-straight").fixed
     assert (one.fixed, one.slides, one.loose, one.even) == (True, False, False, True)
     assert (other.fixed, other.slides, other.loose, other.even) == (False, False, True, True)
     assert np.abs(joint_carried(one, 0.4, ANGLE).wrench[:, 3:]).max() < 1e-9
@@ -75,10 +93,6 @@ def test_a_slipper_joint_slides_and_turns_as_hookes_joint():
     along = carried.wrench[:, 3:] @ np.asarray([1.0, 0.0, 0.0])
     assert np.abs(along).max() < 1e-9
     assert np.abs(carried.input_torque - carried.ratio).max() < 1e-12
-
-
-DETUNED = {"arm_1,_driven_shaft": {"point": (0.031, 0.019, 0.0), "axis": (31.0, 19.0, 0.0)}}
-"""A Thompson coupling one of whose arms stands 2.3° off."""
 
 
 def turned(axis, angle, vector):

@@ -53,8 +53,18 @@ MEET = 1e-6
 MOVES = 1e-6
 """Share of a small motion that is none."""
 
+NODES = 8
+DEGREE = 1.0 * deg
+"""Joint angles through which a polynomial goes, and their step."""
+
+MANY = 2 * NODES
+"""More joint angles than these are not all looked at by themselves."""
+
 KEPT = 64
 """Joint angles whose poses are kept."""
+
+LAWS = 1000
+"""Joint angles whose laws are kept."""
 
 ASKED = 0.1
 """Joint angle [rad] at which a law is looked at for its form, beside the one drawn."""
@@ -143,8 +153,10 @@ class MechanismJoint(Joint):
 
     def near_pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the map with the second order of its law, the identity where it is uniform."""
-        every = [self._inside().steepness(float(one)) if self.drawing else 0.0 for one in np.ravel(joint_angle)]
-        tau = np.reshape(np.asarray(every), np.shape(joint_angle))
+        alpha = np.asarray(joint_angle, dtype=float)
+        known, place = np.unique(alpha, return_inverse=True)
+        every = [steepness(one) for one in self._inside().several(known)] if self.drawing else np.zeros(known.shape)
+        tau = np.reshape(np.asarray(every)[np.ravel(place)], alpha.shape)
         root = np.sqrt(1.0 - tau * tau)
         with np.errstate(invalid="ignore"):  # not a number where it does not turn
             return (1.0 + 0.0j) / root, (-1.0 + 0.0j) * tau / root
@@ -155,9 +167,10 @@ class MechanismJoint(Joint):
             return 0.0 * angle, 1.0 + 0.0 * angle, 0.0 * angle
         whole = np.broadcast_arrays(np.asarray(angle, dtype=float), np.asarray(joint_angle, dtype=float))
         found = np.zeros((3, *whole[0].shape))
-        for alpha in np.unique(whole[1]):
+        known = np.unique(whole[1])
+        for alpha, leads in zip(known, self._inside().several(known), strict=True):
             here = whole[1] == alpha
-            found[:, here] = waved(whole[0][here], self._inside().law(float(alpha)))
+            found[:, here] = waved(whole[0][here], leads)
         return found[0], found[1], found[2]
 
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
@@ -314,6 +327,8 @@ class Inside:
     def law(self, joint_angle: float) -> Array:
         """Return leads at even places of a turn, as many as tell all harmonics, array (p,) [rad]; nan if stuck."""
         if joint_angle not in self.laws:
+            if len(self.laws) >= LAWS:
+                self.laws.clear()
             poses = self.turn(joint_angle)
             leads, count = self._leads(poses, joint_angle), PLACES
             while count < FINEST and np.all(np.isfinite(leads)):
@@ -348,16 +363,34 @@ class Inside:
         """Direction of the driven shaft as drawn, array (3,)."""
         return math.cos(self.drawn_angle) * self.basis[0] + math.sin(self.drawn_angle) * self.basis[1]
 
-    def steepness(self, joint_angle: float) -> float:
-        """Return τ of the map with the second order of its law."""
+    def several(self, joint_angles: Array) -> Iterator[Array]:
+        """Yield the leads over a turn at each of some joint angles (m,) [rad].
+
+        Many by polynomials in the joint angle through the nearest `NODES` full degrees: they miss the law by rounding.
+        """
+        for alpha in joint_angles.tolist():
+            first = math.floor(alpha / DEGREE) - NODES // 2 + 1
+            near = [(first + k) * DEGREE for k in range(NODES)] if len(joint_angles) > MANY else []
+            table = [self._fine(abs(one)) for one in near]
+            if not near or not np.all(np.isfinite(table)):
+                yield self.law(alpha)
+                continue
+            weight = [math.prod((alpha - b) / (a - b) for b in near if b != a) for a in near]
+            # a joint bent the other way stands as half a turn on
+            turned = [np.roll(row, FINEST // 2) if one < 0.0 else row for one, row in zip(near, table, strict=True)]
+            yield np.tensordot(np.asarray(weight), np.stack(turned), axes=1)
+
+    def _fine(self, joint_angle: float) -> Array:
+        """Return leads at `FINEST` places of a turn."""
         leads = self.law(joint_angle)
-        return float(2.0 * np.mean(leads * np.sin(4.0 * np.pi * np.arange(len(leads)) / len(leads))))
+        return leads if len(leads) == FINEST else waved(np.arange(FINEST) * (2.0 * np.pi / FINEST), leads)[0]
 
     @property
     def mapped(self) -> bool:
         """Whether its law is of the form tan θ' = κ tan θ."""
         for alpha in (ASKED, self.drawn_angle):
-            leads, tau = self.law(alpha), self.steepness(alpha)
+            leads = self.law(alpha)
+            tau = steepness(leads)
             places = unit_complex(np.arange(len(leads)) * (4.0 * np.pi / len(leads)))
             root = math.sqrt(max(1.0 - tau * tau, 0.0))
             if not np.all(np.isfinite(leads)) or not root:
@@ -448,6 +481,11 @@ class Inside:
             angle=theta / deg,
             joint_angle=joint_angle / deg,
         )
+
+
+def steepness(leads: Array) -> float:
+    """Return τ of the map with the second order of a law, from its leads at even places of a turn."""
+    return float(2.0 * np.mean(leads * np.sin(4.0 * np.pi * np.arange(len(leads)) / len(leads))))
 
 
 @lru_cache(maxsize=64)
