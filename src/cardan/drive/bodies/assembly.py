@@ -27,7 +27,8 @@ from cardan.maths.kernel import frames
 from cardan.maths.kernel.meshes import Surface, joined, placed, plate, revolved, toothed
 from cardan.texts import _
 
-from .build import Build, Track, bearing_radius, sizes
+from .build import Build, Track
+from .sizes import bearing_radius, sizes
 from .solids import Arms, arms
 
 FRAMES = 120  # places of a turn
