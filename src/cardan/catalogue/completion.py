@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
@@ -51,6 +52,13 @@ def filled(drive: Drive, known: Catalogue | None = None) -> Drive:
         if not drive.settings.catalogues:
             raise
         return drive
+
+
+def sized(drive: Drive, known: Catalogue | None = None) -> Drive:
+    """Return a drive completed for a picture: one whose joints name sizes that nobody knows is drawn without them."""
+    with suppress(InputError):
+        return filled(drive, known) if any(joint.size for joint in drive.joints) else drive
+    return drive
 
 
 def shortened(drive: Drive, known: Catalogue | None = None) -> Drive:

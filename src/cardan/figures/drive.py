@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cardan.answers.reader import fixed, half_turn
+from cardan.catalogue.completion import sized
 from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.maths.arrays import Array
@@ -44,7 +45,7 @@ MARGIN = 0.34
 
 def drive_figures(drive: Drive) -> tuple[Figure, ...]:
     """Return all drawings of a drive."""
-    seen = solids(drive)
+    seen = solids(sized(drive))
     clocks = (yoke_figure(drive, seen),) if len(drive.joints) > 1 else ()
     return (views_figure(drive, seen), space_figure(drive, seen), *clocks)
 
@@ -59,8 +60,7 @@ def views_figure(drive: Drive, seen: Solids) -> Figure:
         name="views",
         title=_("Side and plan view"),
         sentence=_(
-            "Yokes stand at the start position, each in the colour of its shaft; places and directions are exact, "
-            "sizes are not."
+            "Yokes stand at the start position, each in the colour of its shaft, to scale where the file gives sizes."
         ),
         source=_("Geometry: plain vectors through the joint centres, Kozhevnikov & Perfil'ev (1978), eq. 87–89"),
         rows=tuple(

@@ -10,6 +10,7 @@ import numpy as np
 
 from cardan.book.evidence import SelfCheck, evidence, swing_by_vectors
 from cardan.catalogue import Catalogue
+from cardan.catalogue.completion import sized
 from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.conditions import in_poses
 from cardan.drive.drive import Drive
@@ -64,7 +65,7 @@ class Subject:
     @cached_property
     def seen(self) -> Solids:
         """What it looks like."""
-        return solids(self.drive)
+        return solids(sized(self.drive, self.known))
 
     @cached_property
     def whole(self) -> EquivalentJoint:

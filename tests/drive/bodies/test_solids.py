@@ -5,6 +5,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from cardan import example
+from cardan.catalogue.completion import sized
+from cardan.drive.bodies.assembly import assembled
 from cardan.drive.bodies.solids import arms, solids
 from cardan.drive.drive import Drive
 from cardan.drive.models.geometry import geometry
@@ -63,6 +66,31 @@ def test_arms_turn_as_the_motion_says_and_crosses_stay_square():
         expected = frames.rotate(np.broadcast_to(start, (13, 3)), place.axis[i + 1], turned[i + 1])
         # A yoke is a line: compare up to sign. Some ten roundings of turns of six radians.
         np.testing.assert_allclose(np.abs(frames.dot(expected, found.driven[i])), 1.0, atol=1e-13)
+
+
+@pytest.mark.parametrize("name", ["truck-supports", "car-propshaft", "pto-drive"])
+def test_pictures_are_as_large_as_the_bodies_that_turn(name):
+    drive = sized(example(name))
+    turning, seen = assembled(drive, count=4), solids(drive)
+
+    def reach(part, number):
+        whole = [one for one in turning.solids if one.part == part and one.number == number]
+        return max(float(np.max(np.linalg.norm(one.surface.positions[:, 1:], axis=1))) for one in whole)
+
+    for body in seen.bodies:
+        if body.part == "tube":
+            k = body.number - 1
+            spread = body.corners - seen.place.points[max(k, 1)]
+            radius = float(np.max(np.linalg.norm(np.cross(spread, seen.place.axis[k]), axis=1)))
+            assert radius == pytest.approx(turning.body_radius(body.number), rel=1e-9)
+        elif body.part == "driven yoke":
+            k = body.number - 1
+            spread = body.corners - seen.place.points[k]
+            radius = float(np.max(np.linalg.norm(np.cross(spread, seen.place.axis[k]), axis=1)))
+            # Ears are round outside on the one and square on the other, as thick as they are wide.
+            assert radius == pytest.approx(reach("driven yoke", body.number), rel=0.2)
+    ends = np.linalg.norm(seen.ends - seen.centres[[0, -1]], axis=1)
+    np.testing.assert_allclose(ends, turning.sizes.ends, rtol=1e-9)
 
 
 def test_a_single_yoke_angle_turns_the_picture():

@@ -1,11 +1,11 @@
 """Yokes, crosses and tubes as simple bodies: what a drive looks like, at any input angle.
 
-A file rarely gives dimensions yet, so the bodies are drawn in proportion to the shafts; only their places and
-directions are the drive's.
+They are as large as those that turn in space, see `sizes`, and simpler, so that many of them can be printed.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
@@ -18,6 +18,8 @@ from cardan.drive.models.geometry import Geometry, geometry
 from cardan.drive.models.kinematics_model import Chain, given_chain
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames
+
+from .sizes import ROOM, sizes
 
 Part: TypeAlias = Literal["driving yoke", "driven yoke", "cross", "tube"]
 
@@ -91,7 +93,7 @@ class Solids:
     bodies: tuple[Body, ...]  # tubes, yokes and crosses
     centres: Array  # (n, 3) [m]: joint centres
     ends: Array  # (2, 3) [m]: where the drawing cuts the input and the output shaft
-    radius: float  # [m]: half the distance between the ears of a yoke, assumed
+    radius: float  # [m]: of the largest joint
     place: Geometry  # where the drive lies
     arms: Arms  # where its yokes stand
 
@@ -100,32 +102,35 @@ def solids(drive: Drive, angle: float = 0.0) -> Solids:
     """Return a drive as bodies in space.
 
     angle [rad]: input angle φ_1 from the start position.
-    Returns Solids: sizes are in proportion to the shafts; the end shafts are cut or lengthened to show a yoke and a
-    piece of tube.
+    Returns Solids: sizes are those of the file, where it gives them, else in proportion, see `sizes`; what is drawn of
+    the end shafts shows all that stands on them.
     """
     place, train = geometry(drive), given_chain(drive)
     stand = arms(place, train, angle, drive.joints)
     centres = place.points[1:-1]
-    size, radius = _sizes(place)
-    reach = np.clip(place.length[[0, -1]], 2.4 * radius, size)
-    ends = np.stack((centres[0] - reach[0] * place.axis[0], centres[-1] + reach[1] * place.axis[-1]))
+    size = sizes(drive, place)
+    radius = [one.outer for one in size.joints]
+    ends = np.stack((centres[0] - size.ends[0] * place.axis[0], centres[-1] + size.ends[1] * place.axis[-1]))
     stations = np.concatenate((ends[:1], centres, ends[1:]))
+    # How far the yokes of each joint reach along their shafts, in yoke radii: as far as there is room on short shafts.
+    room = [math.inf, *(ROOM * float(one) for one in place.length[1:-1]), math.inf]
+    slim = [[min(_NECK, room[k] / one) / _NECK for k in (i, i + 1)] for i, one in enumerate(radius)]
     bodies: list[Body] = []
     for k, along in enumerate(place.axis):
-        start = stations[k] + (_NECK * radius * along if k else 0.0)
-        end = stations[k + 1] - (_NECK * radius * along if k < len(centres) else 0.0)
-        bodies.append(_tube(k + 1, start, end, 0.42 * radius))
-    for i, centre in enumerate(centres):
+        start = stations[k] + (_NECK * slim[k - 1][1] * radius[k - 1] * along if k else 0.0)
+        end = stations[k + 1] - (_NECK * slim[k][0] * radius[k] * along if k < len(centres) else 0.0)
+        bodies.append(_tube(k + 1, start, end, size.bodies[k]))
+    for i, (centre, own) in enumerate(zip(centres, radius, strict=True)):
         u, v = stand.driving[i], stand.driven[i]
         before, after = place.axis[i], place.axis[i + 1]
         if not drive.joints[i].crossed:
-            bodies += _bells(i, centre, before, after, radius)
+            bodies += _bells(i, centre, slim[i][0] * before, slim[i][1] * after, own)
             continue
-        bodies.append(_yoke("driving yoke", i + 1, centre, -before, u, radius))
-        bodies.append(_yoke("driven yoke", i + 2, centre, after, v, radius))
-        bodies.append(_beam(i + 1, centre, u, frames.unit(frames.cross(v, u)), radius))
-        bodies.append(_beam(i + 1, centre, v, frames.unit(frames.cross(u, v)), radius))
-    return Solids(bodies=tuple(bodies), centres=centres, ends=ends, radius=radius, place=place, arms=stand)
+        bodies.append(_yoke("driving yoke", i + 1, centre, -before, u, own, slim[i][0]))
+        bodies.append(_yoke("driven yoke", i + 2, centre, after, v, own, slim[i][1]))
+        bodies.append(_beam(i + 1, centre, u, frames.unit(frames.cross(v, u)), own))
+        bodies.append(_beam(i + 1, centre, v, frames.unit(frames.cross(u, v)), own))
+    return Solids(bodies=tuple(bodies), centres=centres, ends=ends, radius=max(radius), place=place, arms=stand)
 
 
 _NECK = 1.35  # where a yoke ends and its tube begins, in yoke radii from the joint centre
@@ -138,23 +143,13 @@ _FORK = (
 """Outline of a yoke in yoke radii: along its arm, and outward from the joint centre."""
 
 
-def _sizes(place: Geometry) -> tuple[float, float]:
-    """Return how long end shafts are drawn at most, and the yoke radius."""
-    between = place.length[1:-1]
-    if not between.size:
-        size = 1.5 * float(np.min(place.length))
-        return size, 0.11 * size
-    size = max(0.6 * float(np.max(between)), float(np.min(between)))
-    whole = float(np.sum(between)) + 2.0 * size
-    return size, min(0.045 * whole, 0.3 * float(np.min(between)))
-
-
-def _yoke(part: Part, shaft: int, centre: Array, outward: Array, arm: Array, radius: float) -> Body:
+def _yoke(part: Part, shaft: int, centre: Array, outward: Array, arm: Array, radius: float, slim: float) -> Body:
     """Return a fork: two ears at the ends of the arm, joined behind the joint.
 
     outward (3,): from the joint centre into the yoke's own shaft; arm (3,): direction of the cross arm it holds.
+    slim: share of its usual length along its shaft.
     """
-    half = np.asarray(_FORK)
+    half = np.asarray(_FORK) * (1.0, slim)
     across = frames.cross(arm, outward)
     flat = radius * (half[:, :1] * arm + half[:, 1:] * outward)
     thick = 0.3 * radius * across

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from cardan.answers.quantity import Quantity, say
+from cardan.catalogue.completion import sized
 from cardan.drive.bodies.solids import solids
 from cardan.figures.axes import axis, clear_way, steps, written
 from cardan.figures.drive import views_figure
@@ -313,7 +314,7 @@ def sensitivity_figure(found: Phasing) -> Figure:
 
 def layout_figures(found: Layout) -> tuple[Figure, ...]:
     """Return the figures of a layout."""
-    return (joint_angles_figure(found), views_figure(found.drive, solids(found.drive)))
+    return (joint_angles_figure(found), views_figure(found.drive, solids(sized(found.drive))))
 
 
 def joint_angles_figure(found: Layout) -> Figure:

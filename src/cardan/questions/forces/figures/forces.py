@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cardan.answers.quantity import Quantity, Say, numbered, say
+from cardan.catalogue.completion import sized
 from cardan.drive.bodies.solids import solids
 from cardan.drive.drive import Drive
 from cardan.drive.models.geometry import geometry
@@ -356,7 +357,7 @@ class _Loads:
         points, axis = np.asarray(place.points), np.asarray(place.axis)
         rows = [points[max(one.shaft - 1, 1)] + one.position * axis[one.shaft - 1] for one in drive.supports]
         self.drive = drive
-        self.seen = solids(drive)
+        self.seen = solids(sized(drive))
         self.feet = np.stack(rows) / mm
         self.force = np.asarray(most.forces.reaction)[:, most.when]
         self.most = most
