@@ -14,7 +14,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath
 
 from cardan import figures
-from cardan.answers.reader import USUAL
+from cardan.answers.reader import USUAL, Reader, reading
 from cardan.book.comparison import book_comparison
 from cardan.book.figure import book_figure
 from cardan.drive.drive import Drive
@@ -79,6 +79,21 @@ def test_plotly_accepts_what_is_described():
     graphs = pytest.importorskip("plotly.graph_objects")
     for figure in every(DRIVES["pto-hitch"]) + every(SIX):
         graphs.Figure(described(figure))
+
+
+def test_one_box_tells_all_curves_with_four_digits_and_units():
+    who = Reader(units={"angle": "rad"}, decimal=",")
+    (first, *_rest) = figures.for_result(motion(example("two-piece-rear-drive")))
+    with reading(who):
+        shown = described(for_reader(first, who))
+    assert shown["layout"]["hovermode"] == "x unified"
+    assert shown["layout"]["separators"].startswith(",")
+    curves = [one for one in shown["data"] if one.get("hoverinfo") != "skip"]
+    assert all(".4r" in one["hovertemplate"] for one in curves)
+    assert any(" rad" in one["hovertemplate"] for one in curves)
+    for tail, scale in shown["layout"]["meta"]["turning"]:  # the cursor stands on an axis in radians too
+        assert 360.0 * scale == pytest.approx(2.0 * np.pi)
+        assert shown["layout"][f"xaxis{tail}"]["range"][1] == pytest.approx(2.0 * np.pi)
 
 
 @pytest.mark.slow

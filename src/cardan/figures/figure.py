@@ -172,6 +172,9 @@ class Axis:
     # whether it is the input angle from the start position [°] that runs along it: a place on it is a position of the
     # drive
     turning: bool = False
+    # whether it is the time of the drive's movements [s]
+    timed: bool = False
+    scale: float = 1.0  # how many of its units one of those is that it was made in
 
     @property
     def title(self) -> str:

@@ -87,7 +87,7 @@ def _axis(old: Axis, scale: float, reader: Reader) -> Axis:
             ticks = decades(low, high) if old.log else steps(low, high, max(len(old.ticks) - 1, 3))
         texts = ("",) * len(ticks)
     made = replace(old, label=label, unit=_printed(old, reader), dimension="", low=low, high=high)
-    return replace(made, ticks=ticks, texts=texts, numeric=numeric)
+    return replace(made, ticks=ticks, texts=texts, numeric=numeric, scale=old.scale * scale)
 
 
 def _printed(what: Axis | Panel, reader: Reader) -> str:

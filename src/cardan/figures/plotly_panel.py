@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from cardan.maths.arrays import Array
+from cardan.units import label as printed
 
 from . import palette
 from .figure import Axis, Band, Bars, Cells, Curve, Mesh, Note, Panel, Rule, Series, Shape
@@ -25,9 +26,23 @@ class PanelWriter:
 
     spec: data and layout of the whole figure, added to; page: the laid-out figure; box: where.
     number: number of the panel, from 1; shown: labels that stand in the legend already, added to.
+    along: unit of the axis that runs to the right, where it is that of another panel; together: whether one box tells
+    the values of all curves where somebody points.
     """
 
-    def __init__(self, spec: Spec, page: Page, panel: Panel, box: Box, number: int, shown: set[str]) -> None:
+    def __init__(
+        self,
+        spec: Spec,
+        page: Page,
+        panel: Panel,
+        box: Box,
+        number: int,
+        shown: set[str],
+        *,
+        along: str = "",
+        together: bool = False,
+    ) -> None:
+        self.along, self.together = panel.x.unit or along, together
         self.data: list[Spec] = spec["data"]
         self.layout: Spec = spec["layout"]
         self.panel = panel
@@ -64,9 +79,12 @@ class PanelWriter:
         panel = self.panel
         x, y = ranges(panel, self.box)
         self.layout[f"xaxis{self.tail}"] = _axis(panel.x, x, panel.bare, self.across, f"y{self.tail}", panel.x.title)
+        suffix = _behind(self.along) if self.together else ""
+        self.layout[f"xaxis{self.tail}"] |= {"hoverformat": ".4r", "ticksuffix": suffix}
         self.layout[f"yaxis{self.tail}"] = _axis(panel.y, y, panel.bare, self.upright, f"x{self.tail}", "")
-        if panel.x.turning:
-            self.layout["meta"]["turning"].append(self.tail)
+        for name, here in (("turning", panel.x.turning), ("timed", panel.x.timed)):
+            if here:
+                self.layout["meta"][name].append([self.tail, panel.x.scale])
 
     def _flat(self, item: Series) -> None:
         if isinstance(item, Curve):
@@ -111,7 +129,7 @@ class PanelWriter:
             y=[None] if empty else _list(y),
             line={"color": tint, "width": item.width * 1.4, "dash": _DASHES[item.dash]},
             marker={"color": tint, "size": item.marker * 1.5},
-            **({"hoverinfo": "skip"} if self.panel.bare else {"hovertemplate": "%{y:.8g} @ %{x:.6g}"}),
+            **({"hoverinfo": "skip"} if self.panel.bare else {"hovertemplate": self._pointed()}),
             **self._named(item.label),
         )
         if item.arrow and len(x) > 1:
@@ -119,6 +137,11 @@ class PanelWriter:
             refs = {f"{a}{end}ref": f"{end}{self.tail}" for a in ("", "a") for end in "xy"}
             head = {"arrowhead": 2, "arrowsize": 1.2, "arrowwidth": max(1.0, item.width), "arrowcolor": tint}
             self.layout["annotations"].append({**places, **refs, "text": "", "showarrow": True, **head})
+
+    def _pointed(self) -> str:
+        """Return what stands beside the pointer: four digits with their units."""
+        height = f"%{{y:.4r}}{_behind(self.panel.y.unit or self.panel.unit)}"
+        return height if self.together else f"{height} @ %{{x:.4r}}{_behind(self.along)}"
 
     def _bars(self, item: Bars) -> None:
         lengths = [float(size) - (0.0 if self._log(item) else item.base) for size in item.ends]
@@ -134,7 +157,7 @@ class PanelWriter:
             textposition="outside",
             cliponaxis=False,
             marker={"color": [palette.colour(item.roles[k % len(item.roles)]) for k in range(len(at))]},
-            hovertemplate="%{x:.8g}" if item.lying else "%{y:.8g}",
+            hovertemplate="%{x:.4r}" if item.lying else f"%{{y:.4r}}{_behind(self.panel.y.unit or self.panel.unit)}",
             **self._named(item.label),
         )
 
@@ -148,7 +171,7 @@ class PanelWriter:
             zmax=float(item.high) if item.high > item.low else float(item.low) + 1.0,
             colorscale=[[k / 16.0, palette.scale(k / 16.0)] for k in range(17)],
             showscale=False,
-            hovertemplate="%{z:.8g} @ %{x:.6g}, %{y:.6g}<extra></extra>",
+            hovertemplate="%{z:.4r} @ %{x:.4r}, %{y:.4r}<extra></extra>",
         )
 
     def _log(self, item: Bars) -> bool:
@@ -177,7 +200,7 @@ class PanelWriter:
             log = self.panel.x.log if item.upright else self.panel.y.log
             at = float(np.log10(high)) if log else high
             x, y, side, level = (at, 1.0, "left", "top") if item.upright else (1.0, at, "right", "bottom")
-            font = {"size": 11, "color": palette.colour(item.role)}
+            font = {"size": 12, "color": palette.colour(item.role)}
             place = {"x": x, "y": y, **here, "xanchor": side, "yanchor": level}
             self.layout["annotations"].append({"text": escape(item.text), "showarrow": False, "font": font, **place})
 
@@ -203,6 +226,23 @@ class PanelWriter:
         self.data.append({**trace, "xaxis": f"x{self.tail}", "yaxis": f"y{self.tail}"})
 
 
+def _behind(unit: str) -> str:
+    """Return a unit as it stands behind a number."""
+    return "" if unit in ("", "-", "–") else f" {escape(printed(unit))}"
+
+
+def runs(panel: Panel) -> bool:
+    """Return whether all that a panel shows runs from left to right, so that one box can tell all values at a place."""
+    if panel.bare or panel.equal or panel.view is not None:
+        return False
+    return all(
+        not isinstance(one, Cells)
+        and not (isinstance(one, Bars) and one.lying)
+        and not (isinstance(one, Curve) and bool(np.any(np.diff(np.asarray(one.x, dtype=float)) < 0.0)))
+        for one in panel.series
+    )
+
+
 def _axis(one: Axis, span: tuple[float, float], bare: bool, domain: list[float], anchor: str, title: str) -> Spec:
     log = bool(one.log)
     made: Spec = {
@@ -216,7 +256,7 @@ def _axis(one: Axis, span: tuple[float, float], bare: bool, domain: list[float],
         "gridcolor": palette.colour("grid"),
         "tickvals": [float(v) for v in one.ticks],
         "ticktext": list(one.texts) or [""] * len(one.ticks),
-        "tickfont": {"size": 11, "color": palette.colour("muted")},
+        "tickfont": {"size": 12, "color": palette.colour("muted")},
     }
     if title and not bare:
         made["title"] = {"text": escape(title), "font": {"size": 12, "color": palette.colour("muted")}, "standoff": 6}

@@ -6,13 +6,14 @@ import json
 from collections.abc import Sequence
 from html import escape
 
+from cardan.answers.reader import reader
 from cardan.later import later
 from cardan.texts import language
 
 from . import palette
-from .figure import Figure
+from .figure import Axis, Figure
 from .page import laid_out
-from .plotly_panel import PanelWriter, Spec
+from .plotly_panel import PanelWriter, Spec, runs
 
 plotly = later("plotly.offline")
 
@@ -69,29 +70,43 @@ def fragment(figure: Figure) -> str:
     )
 
 
+def same_span(one: Axis, other: Axis) -> bool:
+    """Return whether two axes have the same range."""
+    return (one.low, one.high) == (other.low, other.high)
+
+
 def described(figure: Figure) -> Spec:
     """Return a figure as plotly's data and layout."""
     page = laid_out(figure, words=False)
+    together = all(map(runs, figure.panels))
     spec: Spec = {
         "data": [],
         "layout": {
             "height": page.height * INCH,
             "margin": {"l": 0, "r": 34, "t": 0, "b": 0},
-            "modebar": {"orientation": "v", "color": "#c5ccd6"},
+            "modebar": {"orientation": "v", "color": "#c5ccd6", "bgcolor": "rgba(0,0,0,0)"},
             "font": {"family": FONT, "size": 12, "color": palette.colour("ink")},
             "paper_bgcolor": "white",
             "plot_bgcolor": "rgba(0,0,0,0)",
-            "hovermode": "closest",
+            "hovermode": "x unified" if together else "closest",
+            "hoverlabel": {"bgcolor": palette.colour("paper"), "font": {"size": 12, "color": palette.colour("ink")}},
+            "separators": f"{reader().sign} ",
             "showlegend": bool(page.legend),
             "legend": {"orientation": "h", "x": 0.0, "xanchor": "left", "y": 1.0, "yanchor": "top"},
             "shapes": [],
             "annotations": [],
-            # Tails of the axes, as in "xaxis2", along which the input angle runs; whether circles must stay round, and
-            # at which width they do.
-            "meta": {"turning": [], "equal": any(panel.equal for panel in figure.panels), "width": page.width * INCH},
+            # Tails of the axes, as in "xaxis2", along which the input angle runs, and along which the time of a
+            # movement does; whether circles must stay round, and at which width they do.
+            "meta": {
+                "turning": [],
+                "timed": [],
+                "equal": any(panel.equal for panel in figure.panels),
+                "width": page.width * INCH,
+            },
         },
     }
     shown: set[str] = set()
     for number, (panel, box) in enumerate(page.panels, start=1):
-        PanelWriter(spec, page, panel, box, number, shown).draw()
+        along = next((one.x.unit for one in figure.panels if one.x.unit and same_span(one.x, panel.x)), "")
+        PanelWriter(spec, page, panel, box, number, shown, along=along, together=together).draw()
     return spec

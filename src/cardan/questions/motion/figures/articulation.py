@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from cardan.answers.quantity import Quantity, say
@@ -175,4 +177,4 @@ def _time(times: Array, *, named: bool = False) -> Axis:
         margin=0.0,
         count=8,
     )
-    return made
+    return replace(made, timed=True)
