@@ -159,6 +159,30 @@ def test_arrows_are_the_forces_of_the_drive_to_one_scale():
     assert legend["forces"].startswith("The longest arrow is 7.5")
 
 
+def test_an_arrow_says_in_the_reader_s_unit_what_a_metre_of_it_stands_for():
+    drive = example("truck-supports")
+    with reading(Reader(units={"force": "lbf"}, decimal=",")):
+        shown = scene(drive, with_forces=True, frames=24)
+    found = np.asarray(forces(drive, angle=shown.angle).reaction)
+    arrow = next(one for one in shown.arrows if one.group == "forces")
+    np.testing.assert_allclose(arrow.scale * arrow.vector, found[0] / 4.4482216152605, rtol=1e-9)
+    assert (arrow.unit, arrow.decimal) == ("lbf", ",")
+
+
+def test_parts_tell_their_joint_angle_torque_and_force():
+    drive = example("truck-supports")
+    shown = scene(drive, with_forces=True, frames=24)
+    found = forces(drive, angle=shown.angle)
+    texts = {body.path: body.text for body in shown.bodies}
+    angle = math.degrees(float(geometry(drive).joint_angle[1]))
+    assert f"joint angle {angle:.2f}°" in texts["joints[1]"]
+    sizes = np.linalg.norm(np.asarray(found.joint_force)[1], axis=-1)
+    assert f"to {np.max(sizes) / 1000.0:.2f} kN" in texts["joints[1]"]
+    assert f"to {float(np.max(found.shaft_torque[0])) / 1000.0:.3g} kN·m" in texts["shafts[0]"]
+    assert "force " in texts["supports[0]"]
+    assert "torque" not in {body.path: body.text for body in scene(drive, frames=8).bodies}["shafts[0]"]
+
+
 def test_what_cannot_be_shown_names_the_key_that_would_allow_it():
     missing = scene(SPATIAL, with_forces=True, with_modes=True, frames=8).missing
     assert missing["forces"].startswith("duty.torque: missing")

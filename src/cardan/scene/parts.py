@@ -81,6 +81,9 @@ class SceneArrow:
     curl: bool
     start: Array
     vector: Array
+    scale: float  # what a metre of drawing stands for, in `unit`
+    unit: str  # as it is printed
+    decimal: str  # sign between whole and part
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

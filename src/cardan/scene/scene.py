@@ -6,14 +6,13 @@ Lengths in m, turns in rad; a renderer only interpolates between frames and draw
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from cardan.answers.quantity import Quantity, told
 from cardan.answers.reader import reader
-from cardan.catalogue.completion import filled
+from cardan.catalogue.completion import sized
 from cardan.checks.verdict import AMBER, Verdict
 from cardan.checks.verdict_table import share as used_share
 from cardan.drive.bodies.assembly import FRAMES, assembled, extent, turns
@@ -31,10 +30,11 @@ from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.questions.bending.bending import CriticalSpeeds, bending_speeds
 from cardan.questions.bending.figure import mode_name
-from cardan.questions.forces.forces import forces
+from cardan.questions.forces.forces import Forces, forces
 from cardan.questions.motion.moving_points import moving_points
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
 from cardan.texts import _
+from cardan.units import label as printed
 
 from .lines import drawn_round
 from .parts import Scene, SceneArrow, SceneBody, SceneCurve, SceneGroup, SceneMode
@@ -95,19 +95,21 @@ def scene(
     >>> len(shown.bodies), shown.angle.size, [group.name for group in shown.groups][:3]
     (15, 24, ['names', 'axes', 'planes'])
     """
-    whole = _filled(drive)
+    whole = sized(drive)
     build = _built(whole, pose, time, frames)
     centre, size = _extent(build)
     lines, areas, labels, groups = drawn_round(build, size)
     missing = _stuck(whole, build)
     arrows: tuple[SceneArrow, ...] = ()
     modes: tuple[SceneMode, ...] = ()
+    facts = _joint_angles(build)
     if with_forces:
-        arrows, more, told = loads(build.drive, build, size)
-        groups, missing = (*groups, *more), {**missing, **told}
+        arrows, more, lacking, borne = loads(build.drive, build, size)
+        groups, missing = (*groups, *more), {**missing, **lacking}
+        facts = {path: "; ".join(filter(None, (facts.get(path), borne.get(path)))) for path in facts | borne}
     if with_modes:
-        modes, told = shapes(build.drive, build, size)
-        missing = {**missing, **told}
+        modes, lacking = shapes(build.drive, build, size)
+        missing = {**missing, **lacking}
     uses = used(verdicts)
     return Scene(
         name=drive.name,
@@ -115,7 +117,7 @@ def scene(
         size=size,
         angle=np.arange(frames) * (2.0 * np.pi / frames),
         tracks=tuple(build.tracks),
-        bodies=tuple(_body(solid, k, uses) for k, solid in enumerate(build.solids)),
+        bodies=tuple(_body(solid, k, uses, facts) for k, solid in enumerate(build.solids)),
         lines=lines,
         areas=areas,
         labels=labels,
@@ -125,12 +127,6 @@ def scene(
         scale=scale() if verdicts else (),
         missing=missing,
     )
-
-
-def _filled(drive: Drive) -> Drive:
-    with suppress(InputError):
-        return filled(drive) if any(joint.size for joint in drive.joints) else drive
-    return drive
 
 
 def _built(drive: Drive, pose: int | None, time: float | None, frames: int) -> Build:
@@ -179,10 +175,18 @@ def _stuck(drive: Drive, build: Build) -> dict[str, str]:
     return {"motion": text.format(number=", ".join(numbers))}
 
 
-def _body(solid: Solid, k: int, uses: Callable[[Solid], Use | None]) -> SceneBody:
+def _joint_angles(build: Build) -> dict[str, str]:
+    """Return path of each joint -> its joint angle in words."""
+    angles = (Quantity(float(one), "angle", decimals=2).told(reader()) for one in build.place.joint_angle)
+    return {f"joints[{i}]": _("joint angle {angle}").format(angle=angle) for i, angle in enumerate(angles)}
+
+
+def _body(solid: Solid, k: int, uses: Callable[[Solid], Use | None], facts: Mapping[str, str]) -> SceneBody:
+    """facts: path of a joint, shaft or support -> what it bears, in words."""
     found = uses(solid)
     share, words = found or (None, "")
-    text = "; ".join(filter(None, (told(solid.text, reader()), words)))
+    borne = facts.get(solid.path.partition(".")[0], "")
+    text = "\n".join(filter(None, (told(solid.text, reader()), borne, words)))
     return SceneBody(
         name=f"{solid.part} {solid.number}-{k}",
         part=solid.part,
@@ -431,22 +435,22 @@ LONGEST = 0.16
 LEAST = 1e-9
 """Forces and couples below this share of the largest are none."""
 
-Loads = tuple[tuple[SceneArrow, ...], tuple[SceneGroup, ...], dict[str, str]]
+Loads = tuple[tuple[SceneArrow, ...], tuple[SceneGroup, ...], dict[str, str], dict[str, str]]
 
 
 def loads(drive: Drive, build: Build, size: float) -> Loads:
-    """Return arrows of the forces and couples of a drive as drawn, their switches, and why there are none.
+    """Return arrows of the forces and couples of a drive as drawn, their switches, why there are none, what parts bear.
 
     build: its bodies; in a pose or while it moves no arrows are drawn that belong to another place.
     size [m].
     """
     if not np.allclose(build.place.points, geometry(drive).points, rtol=0.0, atol=1e-9 * size):
-        return (), (), _both(_("Forces are shown for the drive as drawn and in its poses, not while it moves."))
+        return (), (), _both(_("Forces are shown for the drive as drawn and in its poses, not while it moves.")), {}
     angle = np.arange(build.frames) * (2.0 * np.pi / build.frames)
     try:
         found = forces(drive, angle=angle)
     except InputError as error:
-        return (), (), _both(sentence(error))
+        return (), (), _both(sentence(error)), {}
     missing: dict[str, str] = {}
     arrows: list[SceneArrow] = []
     groups: list[SceneGroup] = []
@@ -474,7 +478,26 @@ def loads(drive: Drive, build: Build, size: float) -> Loads:
     if whole:
         arrows += whole
         groups.append(SceneGroup(name="couples", title=_("Couples"), on=False, text=text))
-    return tuple(arrows), tuple(groups), missing
+    return tuple(arrows), tuple(groups), missing, _borne(found)
+
+
+def _borne(found: Forces) -> dict[str, str]:
+    """Return path of each shaft, joint and support -> the torque or force that it bears over the turn, in words."""
+    told = {}
+    for k, torque in enumerate(np.abs(found.shaft_torque)):
+        told[f"shafts[{k}]"] = _("torque {amount}").format(amount=_over_turn(torque, "Nm"))
+    for name, pressed in (("joints", found.joint_force), ("supports", found.reaction)):
+        for k, force in enumerate(() if pressed is None else frames.norm(np.asarray(pressed))):
+            told[f"{name}[{k}]"] = _("force {amount}").format(amount=_over_turn(force, "N"))
+    return told
+
+
+def _over_turn(sizes: Array, unit: str) -> str:
+    """Return the range of sizes over a turn in words."""
+    low, high = float(np.min(sizes)), float(np.max(sizes))
+    if high - low <= 1e-3 * high:
+        return amount(high, unit)
+    return _("{low} to {high}").format(low=amount(low, unit), high=amount(high, unit))
 
 
 def _both(text: str) -> dict[str, str]:
@@ -514,15 +537,23 @@ def _scaled(
         return [], ""
     made = []
     for (name, foot, vector, role), one in zip(rows, sizes, strict=True):
-        low, high = float(np.min(one)), float(np.max(one))
+        high = float(np.max(one))
         if high <= LEAST * most:
             continue
-        low = low if low > LEAST * high else 0.0
-        text = _("{name}: {low} to {high}") if high - low > 1e-3 * high else _("{name}: {high}")
-        text = text.format(name=name, low=amount(low, unit), high=amount(high, unit))
-        colour = palette.colour(role)
+        text = f"{name}: {_over_turn(np.where(one > LEAST * high, one, 0.0), unit)}"
+        own, factor = reader().unit(*_unit(high, unit))
         made.append(
-            SceneArrow(group=group, text=text, colour=colour, curl=curl, start=foot, vector=longest / most * vector)
+            SceneArrow(
+                group=group,
+                text=text,
+                colour=palette.colour(role),
+                curl=curl,
+                start=foot,
+                vector=longest / most * vector,
+                scale=most / longest / factor,
+                unit=printed(own),
+                decimal=reader().sign,
+            )
         )
     return made, _("The longest arrow is {size}; all are drawn to one scale.").format(size=amount(most, unit))
 
@@ -533,5 +564,10 @@ def amount(value: float, unit: str) -> str:
     >>> amount(2314.0, "N"), amount(0.04, "Nm")
     ('2.31 kN', '0.0400 N·m')
     """
-    usual = f"k{unit}" if abs(value) >= 1e3 else unit
-    return Quantity(value, "force" if unit == "N" else "torque", 3, unit=usual).told(reader())
+    dimension, usual = _unit(value, unit)
+    return Quantity(value, dimension, 3, unit=usual).told(reader())
+
+
+def _unit(value: float, unit: str) -> tuple[str, str]:
+    """Return the dimension of forces in N or couples in N·m, and the unit that a value is usually told in."""
+    return "force" if unit == "N" else "torque", f"k{unit}" if abs(value) >= 1e3 else unit
