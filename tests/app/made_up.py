@@ -180,6 +180,9 @@ def scene(*, radius: float = 0.035, frames: int = FRAMES) -> dict[str, Any]:
                 "curl": False,
                 "from": flat(still),
                 "vector": flat(force),
+                "scale": 4000.0,
+                "unit": "N",
+                "decimal": ".",
             },
             {
                 "group": "couples",
@@ -188,6 +191,9 @@ def scene(*, radius: float = 0.035, frames: int = FRAMES) -> dict[str, Any]:
                 "curl": True,
                 "from": list(CENTRES[2]),
                 "vector": [0.2, 0.0, 0.05],
+                "scale": 400.0,
+                "unit": "N·m",
+                "decimal": ".",
             },
         ],
         "modes": [
@@ -211,6 +217,10 @@ def scene(*, radius: float = 0.035, frames: int = FRAMES) -> dict[str, Any]:
         "groups": [
             {"name": name, "title": name.capitalize(), "on": name in {"axes", "names"}}
             for name in ("axes", "planes", "names", "forces", "couples")
+        ],
+        "scale": [
+            {"value": 0.0, "colour": "#d8e6f3", "text": "unused"},
+            {"value": 1.0, "colour": "#b3261e", "text": "over the limit"},
         ],
         "missing": {},
     }

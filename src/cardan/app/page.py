@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -15,11 +16,14 @@ from nicegui.client import ClientConnectionTimeout
 from starlette.requests import ClientDisconnect
 from starlette.responses import Response
 
+from cardan.catalogue.completion import sized
 from cardan.drive.bodies.solids import solids
 from cardan.errors import InputError
 from cardan.figures.drive import space_figure
 from cardan.figures.render_svg import inline_svg
 from cardan.io import example, example_names, example_text, starter
+from cardan.io.examples import USES, about, template
+from cardan.report.block import capital
 from cardan.texts import _, visible
 
 from .parts import widgets as toasts
@@ -30,7 +34,7 @@ from .parts.editor import Editor
 from .parts.header import Header
 from .parts.verdicts import Verdicts
 from .parts.view import View
-from .parts.widgets import Apart, Timer
+from .parts.widgets import Apart, Live, Timer, escaped
 from .state.jobs import Jobs
 from .state.kept import Kept
 from .state.recordings import DIAGNOSIS
@@ -80,32 +84,53 @@ class Keys:
 FIRST = ("truck-printed-angles", "car-propshaft", "two-piece-rear-drive", "pto-drive", "mill-spindle", "truck-supports")
 """Examples shown first."""
 
+LAST = 8  # files of the folder that are offered, the one changed last first
+
 
 class Start:
     """What the user sees before a drive is open."""
 
     def __init__(self, session: Session) -> None:
         self.session = session
-        with ui.element("main").classes("start"):
+        with ui.element("main").classes("start").props("id=main"):
             ui.label(_("Which drive?")).classes("title").props("role=heading aria-level=1")
             with ui.row().classes("choices"):
                 ui.button(_("New drive"), icon="add", on_click=lambda: session.open(starter(), saved=False)).props(
                     "no-caps unelevated"
                 ).props('data-mark="new"')
-                for name in session.workspace.names()[:6]:
-                    ui.button(visible(name), icon="description", on_click=lambda name=name: self._open(name)).props(
-                        "no-caps outline"
-                    )
+            files = session.workspace.names()[:LAST]
+            if files:
+                self._choices(
+                    _("Last files"), "description", {name: visible(name) for name in files}, self._open, "file"
+                )
+            uses = {use: capital(_(title)) for use, title in USES.items()}
+            self._choices(_("Start from"), "note_add", uses, self._begin, "template")
             ui.label(_("Examples")).classes("head").props("role=heading aria-level=2")
             with ui.element("div").classes("cards"):
                 for name in (*FIRST, *(one for one in example_names() if one not in FIRST)):
                     self._card(name)
+
+    def _choices(
+        self, title: str, icon: str, named: Mapping[str, str], chosen: Callable[[str], object], mark: str
+    ) -> None:
+        """Offer things to begin with, one button each."""
+        ui.label(title).classes("head").props("role=heading aria-level=2")
+        with ui.row().classes("choices"):
+            for name, said in named.items():
+                button = ui.button(said, icon=icon, on_click=lambda name=name: chosen(name))
+                button.props(f'no-caps outline data-mark="{mark}-{escaped(name)}"')
+
+    def _begin(self, use: str) -> None:
+        """Begin with the drive of a use."""
+        with self.session.speaking():
+            self.session.open(template(use, ""), saved=False)
 
     def _card(self, name: str) -> None:
         drive = example(name)
         with ui.element("button").classes("card").props(f'data-mark="example-{name}"') as card:
             ui.element("img").props(f'src="/cardan-examples/{name}.svg" loading=lazy alt=""')
             ui.label(drive.name or name).classes("head")
+            ui.label(about(name)).classes("about")
             count = len(drive.joints)
             ui.label(_("joints: {count}").format(count=count)).classes("hint")
         card.on("click", lambda: open_example(self.session, name))
@@ -161,7 +186,7 @@ def example_picture(name: str) -> str:
     if name not in example_names():
         return ""
     drive = example(name)
-    return inline_svg(space_figure(drive, solids(drive), name="sketch"))
+    return inline_svg(space_figure(drive, solids(sized(drive)), name="sketch"))
 
 
 def kept_choices(cookies: Mapping[str, str]) -> Mapping[str, Any]:
@@ -242,6 +267,7 @@ def dress() -> None:
     """Give the page its looks, before anything stands on it."""
     for name in ("app", "answers", "variants"):
         ui.add_head_html(f'<link rel="stylesheet" href="/cardan/{name}.css">')
+    ui.add_head_html('<script type="module" src="/cardan/desk.js"></script>')
 
 
 def build(session: Session, jobs: Jobs, keep: Callable[[Kept], None]) -> None:
@@ -304,15 +330,39 @@ def _parts(session: Session, jobs: Jobs) -> Header:
     if session.empty:
         Start(session)
         return head
-    with ui.element("main").classes("desk"):
-        with ui.element("section").classes("pane file").props(f'aria-label="{_("Drive file")}"'):
+    with ui.element("main").classes("desk").props("id=main"):
+        with _pane("file", _("Drive file")):
             Editor(session)
-        with ui.element("section").classes("pane view").props(f'aria-label="{_("The drive turning")}"'):
+        _edge("--file", _("width of the drive file"), 23)
+        with _pane("view", _("The drive turning")):
             head.report.snapshot = View(session, jobs).scene.snapshot
-        with ui.element("section").classes("pane answers").props(f'aria-label="{_("Answers")}"'):
+        _edge("--view", _("height of the view"), 46)
+        with _pane("answers", _("Answers")):
             export = Exports(session, jobs)
             answers = Answers(session, jobs, export=export)
             answers.add(DIAGNOSIS, _("Diagnosis"), lambda: Diagnosis(session, jobs, export))
-        with ui.element("section").classes("pane verdicts").props(f'aria-label="{_("Verdicts")}"'):
+        _edge("--verdicts", _("width of the verdicts"), 20)
+        with _pane("verdicts", _("Verdicts")):
             Verdicts(session, jobs, compare=head.variants.compare)
     return head
+
+
+@contextmanager
+def _pane(name: str, title: str) -> Iterator[None]:
+    """Build a pane of the desk around what is built within, with its heading and the button that enlarges it."""
+    with ui.element("section").classes(f"pane {name}").props(f'aria-labelledby="pane-{name}"'):
+        Live(escaped(title), tag="h2").classes("unseen").props(f'id="pane-{name}"')
+        told = _("enlarge {pane}").format(pane=title)
+        enlarge = ui.button(icon="open_in_full").props(f'flat dense size=sm aria-label="{told}" title="{told}"')
+        enlarge.props(f'aria-pressed=false data-mark="enlarge-{name}"').classes("enlarge")
+        yield
+
+
+def _edge(share: str, title: str, usual: int) -> None:
+    """Build the edge between two panes.
+
+    share: property of the desk's style that it moves; usual: what that is at first, in per cent.
+    """
+    lies = "horizontal" if share == "--view" else "vertical"
+    edge = ui.element("div").classes(f"edge {share[2:]}-edge").props(f'role=separator tabindex=0 data-share="{share}"')
+    edge.props(f'aria-orientation={lies} aria-label="{title}" aria-valuenow={usual} aria-valuemin=12 aria-valuemax=70')

@@ -122,6 +122,53 @@ def example_mechanism(name: str) -> Mechanism:
     return load_mechanism(example_file(name))
 
 
+# What the examples show, in a line each, for those who choose.
+
+ABOUT = {
+    "car-propshaft": mark("One-piece propeller shaft of a rear-wheel-drive car that passes every check."),
+    "composite-propshaft": mark("Propeller shaft of carbon and glass fibre: one long piece without a centre bearing."),
+    "cured-drive": mark("The unstable test stand made stable: its joint stands in the node of the mode."),
+    "double-cardan-propshaft": mark("Front propeller shaft of an off-road car with a double cardan joint."),
+    "front-halfshaft": mark("Half shaft of a front-wheel drive: tripod at the gearbox, Rzeppa joint at the wheel."),
+    "instrument-joint": mark("Joint of an instrument: tolerances and the error of its output angle."),
+    "mill-spindle": mark("Spindle of a rolling mill: high torque at low speed, life decides."),
+    "overconstrained-pump": mark("Motor and pump, each shaft in two bearings: statically indeterminate, it binds."),
+    "propshaft-with-rzeppa": mark("Two-piece propeller shaft with a Rzeppa joint beside the centre bearing."),
+    "pto-drive": mark("Power take-off shaft of a tractor at 540 rpm with large joint angles."),
+    "pto-flywheel": mark("Power take-off shaft with a flywheel: backlash, torque reversal, run-up."),
+    "pto-flywheel-absorber": mark("The same shaft with a torsional vibration absorber on its flywheel."),
+    "pto-hitch": mark("Power take-off shaft between tractor and trailer that steer and pitch: it moves."),
+    "pto-spline-thrust": mark("Power take-off shaft drawn out under full torque: axial thrust by spline friction."),
+    "rolling-mill-lower-spindle": mark("Lower spindle of a rolling mill: joint angles follow the wear of the roll."),
+    "rolling-mill-upper-spindle": mark("Upper spindle of a rolling mill: poses with their shares of the running time."),
+    "single-20deg": mark("The smallest drive: a single joint at 20°."),
+    "six-joints": mark("Long chain of six joints in space, with yoke angles that make it uniform."),
+    "steering-column": mark("Steering column of a van: two unequal joint angles, ratio over the steering angle."),
+    "three-joints-unequal": mark("Three joints, one too steep: no yoke angles make it uniform."),
+    "tracta-steered-axle": mark("Steered axle of a lorry with a Tracta joint off its centre."),
+    "truck-duty-cycle": mark("Rear drive of a heavy truck with a duty cycle: which joint is too small."),
+    "truck-exact-yokes": mark("Four-joint truck unit with yoke angles that make it exactly uniform."),
+    "truck-power-unit": mark("Engine and generator through four joints: torsional vibration of the whole unit."),
+    "truck-printed-angles": mark("Four-joint truck unit by joint angles and planes, splines of 16 teeth."),
+    "truck-printed-coordinates": mark("Four-joint truck unit by joint centres: every joint bends in its own plane."),
+    "truck-rear-axle": mark(
+        "Propeller shaft to a sprung rear axle: three poses and an axle that moves on its springs."
+    ),
+    "truck-supports": mark("Two-piece propeller shaft with all its supports: forces of bearings and joints."),
+    "truck-wrong-yokes": mark("Four-joint truck unit with yoke angles from a slip of calculation."),
+    "two-piece-rear-drive": mark("Two-piece propeller shaft of a van by the joint centres of its drawing."),
+    "two-piece-rubber-bearing": mark("Two-piece propeller shaft with a centre bearing in rubber: critical speeds."),
+    "unstable-drive": mark("Test stand in its principal zone of parametric resonance."),
+    "w-arrangement": mark("Two joints in W: both joint angles the same way, given by slopes."),
+    "z-arrangement": mark("Two joints in Z: parallel shafts with an offset."),
+}
+
+
+def about(name: str) -> str:
+    """Return in a line what a shipped example shows; nothing for one of no line."""
+    return _(ABOUT[name]) if name in ABOUT else ""
+
+
 # The file that ``cardan init`` writes.
 
 STARTER = mark("""\
@@ -218,6 +265,17 @@ TEMPLATES = {
     "instrument": "instrument-joint",
 }
 """What a drive is for -> the shipped drive to start from."""
+
+USES = {
+    "truck": mark("truck"),
+    "car": mark("car"),
+    "half-shaft": mark("half shaft"),
+    "pto": mark("power take-off"),
+    "mill": mark("rolling mill"),
+    "steering": mark("steering"),
+    "instrument": mark("instrument"),
+}
+"""The same in words."""
 
 
 def template(use: str, name: str) -> str:

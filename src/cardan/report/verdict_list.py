@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
+
+import numpy as np
 
 from cardan.answers.answer import Column, Tone
 from cardan.answers.printed import Cell, cell, number
@@ -13,10 +16,12 @@ from cardan.checks import Verdict, check
 from cardan.checks.verdict_table import MOST, alike, limit, verdict_key
 from cardan.choices.check_answer import sentence as said
 from cardan.choices.remedy import Remedy, remedies, typed
-from cardan.errors import InputError
+from cardan.errors import CardanError, InputError
 from cardan.figures.axes import percent
+from cardan.questions.motion.articulation import articulation
 from cardan.questions.motion.equivalence import SYNCHRONOUS
 from cardan.questions.motion.kinds import kind_name
+from cardan.questions.motion.moving_points import default_times
 from cardan.questions.phases.answer import excess
 from cardan.questions.phases.phases import Phasing
 from cardan.questions.phases.setting import YokeSetting, values_of
@@ -67,16 +72,29 @@ class Headline:
 
 
 def headline(on: Subject, shown: Sequence[Light]) -> Headline:
-    """Return the number that stands first: as its limit judges it where there is one, else as the drive is drawn.
+    """Return the number that stands first: as its limit judges it, else the largest of a movement, else as drawn.
 
     shown: the verdicts, as of `lights`.
     """
     judged = next((one for one in shown if any(verdict.check == FIRST for verdict in one.verdicts)), None)
     if judged is not None:
         return Headline(title=judged.title, value=f"{judged.value.text} {judged.unit}", tone=judged.tone)
+    if on.drive.movements:
+        with suppress(CardanError):
+            most = float(np.nanmax(articulation(on.drive, times=default_times(on.drive.movements)).speed_fluctuation))
+            return _plain(_("largest speed fluctuation of the movement"), most)
     several = on.drive.movements or on.drive.poses
-    title = _("speed fluctuation of the drive as drawn") if several else _("speed fluctuation")
-    return Headline(title=title, value=number(Quantity(on.fluctuation, "share", 3), reader()).text, tone="plain")
+    return _plain(_("speed fluctuation of the drive as drawn") if several else _("speed fluctuation"), on.fluctuation)
+
+
+def headline_at(on: Subject, instant: float) -> Headline:
+    """Return the number that stands first of a drive that its movements have brought to an instant [s]."""
+    title = _("speed fluctuation at t = {time}").format(time=Quantity(instant, "time", 3).told(reader()))
+    return _plain(title, float(articulation(on.drive, times=[instant]).speed_fluctuation[0]))
+
+
+def _plain(title: str, share: float) -> Headline:
+    return Headline(title=title, value=number(Quantity(share, "share", 3), reader()).text, tone="plain")
 
 
 def with_remedies(on: Subject, progress: Progress | None = None) -> tuple[Light, ...]:
@@ -140,7 +158,7 @@ def sentence(shown: Sequence[Light]) -> str:
     return capital(told(said([verdict for one in shown for verdict in one.verdicts]), reader()))
 
 
-__all__ = ["MOST", "Headline", "Light", "headline", "lights", "sentence", "with_remedies"]
+__all__ = ["MOST", "Headline", "Light", "headline", "headline_at", "lights", "sentence", "with_remedies"]
 
 
 # What can be put into a drive file with one touch: settings of the yokes, and changes that cure failed verdicts.

@@ -59,7 +59,8 @@ export default {
   async mounted() {
     this.lines = [];
     this.take();
-    this.angle = window.cardanAngle ?? 0;
+    this.angle = window.cardanView?.angle ?? 0;
+    this.time = window.cardanTime ?? null;
     this.shown = true;
     this.rgb = Object.fromEntries(Object.entries(this.dark).map(([from, to]) => [faded(from), faded(to)]));
     this.ends = [];
@@ -90,7 +91,13 @@ export default {
         this.angle = event.detail.angle;
         if (this.shown) this.place();
       });
+      on(window, "cardan-time", (event) => {
+        this.time = event.detail.time;
+        if (this.shown) this.place();
+      });
       on(this.$refs.plot, "pointerdown", this.press, true);
+      on(this.$refs.plot, "wheel", this.wheel, { capture: true, passive: false });
+      on(this.$refs.plot, "dblclick", this.whole, true);
       on(window, "pointermove", (event) => this.pressed && this.go(event), true);
       on(window, "pointerup", () => (this.pressed = null), true);
       on(window, "pointercancel", () => (this.pressed = null), true);
@@ -162,7 +169,7 @@ export default {
         data = darkened(data, this.dark, this.rgb);
         layout = darkened(layout, this.dark, this.rgb);
       }
-      const turns = layout.meta.turning;
+      const turns = this.courses();
       const size = this.size();
       const looks = { paper_bgcolor: "rgba(0,0,0,0)", uirevision: "kept", autosize: false, ...size };
       const plot = this.$refs.plot;
@@ -188,27 +195,65 @@ export default {
     measure() {
       const whole = this.$refs.plot?._fullLayout;
       if (!whole || this.gone) return;
-      const turns = this.held.layout.meta.turning;
+      const courses = this.courses();
       const cursors = this.$refs.cursors;
-      while (cursors.children.length > turns.length) cursors.lastChild.remove();
-      while (cursors.children.length < turns.length) cursors.append(document.createElement("div"));
-      this.lines = turns.map((tail, k) => {
+      while (cursors.children.length > courses.length) cursors.lastChild.remove();
+      while (cursors.children.length < courses.length) cursors.append(document.createElement("div"));
+      this.lines = courses.map(({ tail, scale, timed }, k) => {
         const [x, y] = [whole[`xaxis${tail}`], whole[`yaxis${tail}`]];
         const line = cursors.children[k];
         line.style.top = `${y._offset}px`;
         line.style.height = `${y._length}px`;
         const box = { left: x._offset, width: x._length, top: y._offset, height: y._length };
-        return { line, low: x.range[0], high: x.range[1], ...box };
+        return { line, scale, timed, low: x.range[0], high: x.range[1], ...box };
       });
       this.place();
     },
+    // The panels along which the drive turns or moves: the tail of their axis, and how many of its units a degree or a
+    // second is.
+    courses() {
+      const { turning, timed } = this.held.layout.meta;
+      const told = (which, timed) => which.map(([tail, scale]) => ({ tail, scale, timed }));
+      return [...told(turning, false), ...told(timed, true)];
+    },
     place() {
       const degrees = (((this.angle * TURN) / (2 * Math.PI)) % TURN + TURN) % TURN;
-      for (const { line, low, high, left, width } of this.lines) {
-        const here = degrees >= low && degrees <= high;
+      for (const { line, scale, timed, low, high, left, width } of this.lines) {
+        const at = timed ? this.time === null ? NaN : this.time * scale : degrees * scale;
+        const here = at >= low && at <= high;
         line.style.visibility = here ? "visible" : "hidden";
-        if (here) line.style.transform = `translateX(${left + ((degrees - low) / (high - low)) * width}px)`;
+        if (here) line.style.transform = `translateX(${left + ((at - low) / (high - low)) * width}px)`;
       }
+    },
+    // Zoom about the pointer: where the chart has the focus, or with ctrl, as a pinch on a touch pad sends it; else the
+    // page scrolls.
+    wheel(event) {
+      const whole = this.$refs.plot._fullLayout;
+      if (!whole || !(event.ctrlKey || this.$el.contains(document.activeElement))) return;
+      const frame = this.$refs.plot.getBoundingClientRect();
+      const [px, py] = [event.clientX - frame.left, event.clientY - frame.top];
+      const change = {};
+      for (const plot of Object.values(whole._plots)) {
+        for (const [axis, at] of [[plot.xaxis, px], [plot.yaxis, py]]) {
+          const share = (at - axis._offset) / axis._length;
+          if (plot.xaxis._offset > px || px > plot.xaxis._offset + plot.xaxis._length) continue;
+          if (axis === plot.yaxis && (share < 0 || share > 1)) continue;
+          const middle = axis.p2l(at - axis._offset);
+          const factor = Math.exp(0.0015 * Math.max(-120, Math.min(120, event.deltaY)));
+          change[`${axis._name}.range`] = axis.range.map((one) => middle + factor * (axis.r2l(one) - middle));
+        }
+      }
+      if (!Object.keys(change).length) return;
+      event.preventDefault();
+      event.stopPropagation();
+      this.Plotly.relayout(this.$refs.plot, change);
+    },
+    // See all of the curves again.
+    whole(event) {
+      const change = {};
+      for (const [name, axis] of Object.entries(this.held.layout)) if (/^[xy]axis/.test(name)) change[`${name}.range`] = [...axis.range];
+      event.stopPropagation();
+      this.Plotly.relayout(this.$refs.plot, change);
     },
     press(event) {
       if (event.button !== 0 || this.$refs.plot._fullLayout?.dragmode !== false) return;
@@ -221,16 +266,18 @@ export default {
       this.go(event);
     },
     go(event) {
-      const { left, width, low, high, origin } = this.pressed;
+      const { left, width, low, high, scale, timed, origin } = this.pressed;
       const share = Math.min(Math.max((event.clientX - origin - left) / width, 0), 1);
-      this.turn(((low + share * (high - low)) * 2 * Math.PI) / TURN);
+      const at = (low + share * (high - low)) / scale;
+      if (timed) window.dispatchEvent(new CustomEvent("cardan-go-to-time", { detail: { time: at } }));
+      else this.turn((at * 2 * Math.PI) / TURN);
     },
     turn(angle) {
       window.dispatchEvent(new CustomEvent("cardan-go-to", { detail: { angle } }));
     },
     key(event) {
       const way = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-      if (!way || !this.lines.length || event.target !== this.$el) return;
+      if (!way || !this.lines.some(({ timed }) => !timed) || event.target !== this.$el) return;
       event.preventDefault();
       this.turn(this.angle + (way * STEP * 2 * Math.PI) / TURN);
     },

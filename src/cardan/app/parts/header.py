@@ -35,6 +35,7 @@ class Header:
     def __init__(self, session: Session, jobs: Jobs) -> None:
         self.session = session
         with ui.element("header").classes("top"):
+            ui.link(_("Skip to the drive"), "#main").classes("skip").props('data-mark="skip"')
             ui.link("cardan", "/").classes("brand")
             self.name = ui.label().classes("name").props('data-mark="file-name"').props("role=status")
             ui.element("div").classes("gap")

@@ -1,7 +1,7 @@
 // HTML that is changed by a message of its own.
 export default {
-  template: `<div></div>`,
-  props: { html: String },
+  template: `<component :is="tag"></component>`,
+  props: { html: String, tag: { type: String, default: "div" } },
   mounted() {
     this.show(this.html);
   },

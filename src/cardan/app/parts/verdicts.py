@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from math import inf
 from typing import cast
 
@@ -16,7 +17,7 @@ from cardan.app.state.work import SOON as SOONER
 from cardan.errors import CardanError
 from cardan.report.answers import subject
 from cardan.report.block import SIGNS
-from cardan.report.verdict_list import MOST, Applicable, Headline, Light, sentence, synchronous
+from cardan.report.verdict_list import MOST, Applicable, Headline, Light, headline_at, sentence, synchronous
 from cardan.texts import _
 
 from .answers import applied
@@ -67,6 +68,8 @@ class Verdicts:
         session.listen("drive", self._soon, first=True)
         session.listen("text", self._judge)
         session.listen("choices", self._follow)
+        session.listen("instant", self._stand)
+        self._number: Headline | None = None
         self._follow()
         self._judge()
 
@@ -100,13 +103,22 @@ class Verdicts:
 
     def _found(self, judged: Judged) -> None:
         """Show the number that stands first and the verdicts, and look for what cures the failed ones."""
-        number, found = judged
-        self._first.show(headline_html(number))
+        self._number, found = judged
+        self._stand()
         self._list.classes(remove="stale")
         self._summed.say(sentence(found))
         self._show(found)
         if any(one.tone == "failed" for one in found):
             self._due = Timer(self.session, self.body, QUIET, self._search, once=True)
+
+    def _stand(self) -> None:
+        """Show the number that stands first: of the instant that is looked at, else of the whole drive."""
+        drive, instant, number = self.session.drive, self.session.instant, self._number
+        if drive is not None and instant is not None:
+            with suppress(CardanError):
+                number = headline_at(subject(drive), instant)
+        if number is not None:
+            self._first.show(headline_html(number))
 
     def _search(self) -> None:
         question = asked(self.session, REMEDIES)

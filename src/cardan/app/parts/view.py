@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+import math
 from collections.abc import Callable
 from typing import Any, cast
 
-from nicegui import run, ui
+from nicegui import background_tasks, run, ui
 
+from cardan.answers.quantity import Quantity
+from cardan.answers.reader import reader
 from cardan.app.scene.element import SceneView
 from cardan.app.state.jobs import Jobs, own_fault
 from cardan.app.state.question import asked
@@ -19,10 +22,12 @@ from cardan.errors import CardanError
 from cardan.scene.scene import Scene
 from cardan.texts import _
 
+from .time_line import TimeLine
 from .widgets import Timer, drop_down
 
 TURNING = -1  # in place of the index of a mode shape: the drive turns
 LOADED = ("forces", "couples")  # groups that need the forces of the drive
+SLOW = 0.35  # share of the way from the slowest to the fastest picture, on a page just opened
 QUIET = 0.35  # seconds without an edit after which utilisations, forces and mode shapes are calculated anew
 LOOK = 0.05  # seconds between two looks whether a heavy file is drawn
 SOON = 0.02  # seconds by which the view follows the form
@@ -34,6 +39,23 @@ FOLLOWING = (
     "for(const one of document.querySelectorAll('.phi'))one.textContent='φ = '+turned+'°'})}"
 )
 """Lets the browser write the angle it shows, without asking the server."""
+
+WHOLE = (
+    "(event) => document.fullscreenElement ? document.exitFullscreen() "
+    ": event.target.closest('.pane').requestFullscreen()"
+)
+"""Fills the whole screen with a pane, or gives the screen back."""
+
+
+def _tool(icon: str, title: str, mark: str, act: Callable[[], object] | None = None) -> ui.button:
+    """Return a small button of the bar."""
+    button = ui.button(icon=icon, on_click=(lambda: act()) if act else None)
+    return button.props(f'flat dense size=sm aria-label="{title}" title="{title}" data-mark="{mark}"')
+
+
+def _pressed(button: ui.button, *, on: bool) -> None:
+    """Show of a button whether what it switches is on."""
+    button.props(f"aria-pressed={'true' if on else 'false'}").classes(**{"add" if on else "remove": "on"})
 
 
 class View:
@@ -49,47 +71,85 @@ class View:
         self.on: set[str] | None = None
         self.mode: int | None = None  # None until mode shapes were asked for
         self.pose: int | None = None
+        self._measures = False
+        self._switched_on: dict[str, tuple[str, str]] = {}
         self._waiting: Timer | None = None
         self._next: Timer | None = None
+        self._moving = self._moved = False
+        tools = ui.element("div").classes("tools").props(f'role=toolbar aria-label="{_("what is shown")}"')
         with ui.element("div").classes("stage") as self.stage:
-            self.scene = SceneView(on_touched=session.select, on_playing=self._played).classes("scene")
-            self.scene.props('data-mark="scene"')
+            self.scene = SceneView(on_touched=session.select, on_playing=self._played, on_measured=self._measured)
+            self.scene.classes("scene").props('data-mark="scene"')
             self.told = ui.label("").classes("told").props("role=status")
+        with tools:
             self._tools()
         self._bar()
+        TimeLine(session)
         ui.run_javascript(FOLLOWING)
         self._theme()
         self._follow()
         session.listen("drive", self._soon)
+        session.listen("instant", self._stand)
         session.listen("selection", lambda: self.scene.select(session.selected or None))
         session.listen("choices", self._theme)
         session.listen("choices", self._soon)
 
     def _tools(self) -> None:
-        with ui.element("div").classes("tools"):
-            looks = {"iso": _("in space"), "side": _("side"), "plan": _("plan"), "front": _("front")}
-            for name, title in looks.items():
-                button = ui.button(title, on_click=lambda name=name: self.scene.view(name))
-                button.props("flat dense no-caps size=sm").props(f'data-mark="look-{name}"')
-            with drop_down(_("show"), "show", look="size=sm", closes=False):
-                self.switches = ui.element("div").classes("switches")
-            colours = {"shaft": _("by shaft"), "utilisation": _("by utilisation")}
-            ui.select(colours, value="shaft", on_change=lambda event: self.scene.colour_by(event.value)).props(
-                f'dense options-dense borderless aria-label="{_("colour")}" title="{_("colour")}"'
-            ).props('data-mark="colour"')
-            told = f'aria-label="{_("pose")}" title="{_("pose")}" data-mark="pose"'
-            self.poses = ui.select({None: ""}, value=None, on_change=lambda event: self._posed(event.value))
-            self.poses.props(f"dense options-dense borderless {told}")
+        looks = {"iso": _("in space"), "side": _("side"), "plan": _("plan"), "front": _("front")}
+        for name, title in looks.items():
+            button = ui.button(title, on_click=lambda name=name: self.scene.view(name))
+            button.props("flat dense no-caps size=sm").props(f'data-mark="look-{name}"')
+        _tool("fit_screen", _("show all of it (F)"), "fit", self.scene.fit)
+        with drop_down(_("show"), "show", look="size=sm", closes=False):
+            self.switches = ui.element("div").classes("switches")
+        colours = {"shaft": _("by shaft"), "utilisation": _("by utilisation")}
+        ui.select(colours, value="shaft", on_change=lambda event: self.scene.colour_by(event.value)).props(
+            f'dense options-dense borderless aria-label="{_("colour")}" title="{_("colour")}"'
+        ).props('data-mark="colour"')
+        told = f'aria-label="{_("pose")}" title="{_("pose")}" data-mark="pose"'
+        self.poses = ui.select({None: ""}, value=None, on_change=lambda event: self._posed(event.value))
+        self.poses.props(f"dense options-dense borderless {told}")
+        self._cutter = _tool("content_cut", _("section along the drive"), "section", self._cut)
+        self._place = ui.slider(min=-1, max=1, step=0.02, value=0, on_change=lambda: self._section()).classes("speed")
+        self._place.props(f'dense aria-label="{_("place of the section")}" data-mark="section-place"')
+        self._place.set_visibility(False)
+        self._ruler = _tool("straighten", _("measure between two points"), "measure", self._measure)
+        whole = _tool("fullscreen", _("fill the whole screen"), "whole-screen")
+        whole.on("click", js_handler=WHOLE)
+
+    def _cut(self) -> None:
+        """Cut the drive, or make it whole again."""
+        on = not self._place.visible
+        _pressed(self._cutter, on=on)
+        self._place.set_visibility(on)
+        self._section()
+
+    def _section(self) -> None:
+        self.scene.section(float(self._place.value) if self._place.visible else None)
+
+    def _measure(self) -> None:
+        """Measure between points, or touch parts again."""
+        self._measures = not self._measures
+        _pressed(self._ruler, on=self._measures)
+        self.scene.measure(self._measures)
+        self.told.set_text(_("Touch two points of the drive.") if self._measures else "")
+
+    def _measured(self, points: list[float]) -> None:
+        """Tell the distance of two points [m], and what they lie apart along x, y and z."""
+        apart = [end - start for start, end in zip(points[:3], points[3:], strict=True)]
+        with self.session.speaking():
+            far, x, y, z = (Quantity(one, "length", 4).told(reader()) for one in (math.hypot(*apart), *apart))
+            self.told.set_text(_("distance {far}; Δx {x}, Δy {y}, Δz {z}").format(far=far, x=x, y=y, z=z))
 
     def _bar(self) -> None:
         with ui.element("div").classes("bar"):
             self.play = ui.button(icon="pause", on_click=lambda: self._play(not self.scene.playing))
             self.play.props(f'flat dense round aria-label="{_("turn or hold the drive")}"').props('data-mark="play"')
-            ui.label(_("slow")).classes("hint")
-            ui.slider(min=0, max=1, step=0.01, value=0.35, on_change=lambda event: self._speed(event.value)).props(
-                f'dense aria-label="{_("speed of the picture")}"'
+            ui.slider(min=0, max=1, step=0.01, value=SLOW, on_change=lambda event: self._speed(event.value)).props(
+                f'dense aria-label="{_("speed of the picture")}" data-mark="speed"'
             ).classes("speed")
-            ui.label(_("fast")).classes("hint")
+            self.rate = ui.label().classes("rate").props('data-mark="rate"')
+            self._speed(SLOW)
             ui.label("φ = 0°").classes("phi")
             self.shapes = ui.select(
                 {TURNING: _("turning")}, value=TURNING, on_change=lambda event: self._chosen(event.value)
@@ -121,7 +181,8 @@ class View:
             return
         with self.session.speaking():
             self._offer_poses(drive)
-            found = None if self.session.heavy else self._attempted(drive)
+            loaded = bool(self.on and self.on.intersection(LOADED))
+            found = None if self.session.heavy else self._attempted(drive, forces=loaded)
             if found is not None:
                 self._show(found)
         if self._waiting is not None:
@@ -131,7 +192,7 @@ class View:
     def _attempted(self, drive: Drive, **more: bool) -> Drawn | None:
         """Return the scene; where there is none, say why."""
         try:
-            return drawn(drive, pose=self.pose, **more)
+            return drawn(drive, pose=self.pose, instant=self.session.instant, **more)
         except CardanError as error:
             self.told.set_text(str(error))
         except Exception as error:  # whatever it is, the page goes on and says so
@@ -143,23 +204,39 @@ class View:
         drive = self.session.drive
         if drive is None:
             return
-        forces, modes = bool(self.on and self.on.intersection(LOADED)), self.mode is not None
+        modes = self.mode is not None
 
         def made() -> Drawn | None:
             with self.session.speaking():
-                return self._attempted(drive, used=True, forces=forces, modes=modes)
+                return self._attempted(drive, used=True, forces=True, modes=modes)
 
         if self.session.heavy:
-            found = await self._elsewhere(used=True, forces=forces, modes=modes)
+            found = await self._elsewhere(used=True, forces=True, modes=modes)
         else:
             found = await run.io_bound(made)
         if found is not None and drive is self.session.drive and not self.stage.is_deleted:
             with self.session.speaking():
                 self._show(found)
 
+    def _stand(self) -> None:
+        """Show the drive where its movements have brought it; of instants that follow quickly the newest."""
+        self._moved = True
+        if not self._moving:
+            self._moving = True
+            background_tasks.create(self._follow_instants(), name="instants of a movement")
+
+    async def _follow_instants(self) -> None:
+        try:
+            while self._moved and not self.stage.is_deleted:
+                self._moved = False
+                with self.stage:
+                    await self._complete()
+        finally:
+            self._moving = False
+
     async def _elsewhere(self, **more: bool) -> Drawn | None:
         """Return the scene of a heavy file, made in a process of its own; where there is none, say why."""
-        question = asked(self.session, SCENE, pose=self.pose, **more)
+        question = asked(self.session, SCENE, pose=self.pose, instant=self.session.instant, **more)
         assert question is not None
         job = self._jobs.ask(question, self.session, limit=SOONER)
         while not job.finished:
@@ -183,6 +260,9 @@ class View:
         titles = {group.name: (group.title, group.text) for group in found.groups}
         asked = {"forces": _("forces"), "couples": _("secondary couples")}
         titles |= {name: (title, found.missing.get(name, "")) for name, title in asked.items() if name not in titles}
+        if titles == self._switched_on:
+            return
+        self._switched_on = titles
         self.switches.clear()
         with self.switches:
             for name, (title, text) in titles.items():
@@ -196,8 +276,6 @@ class View:
         assert self.on is not None
         self.on = self.on | {name} if on else self.on - {name}
         self.scene.groups(self.on)
-        if on and name in LOADED:
-            self._timer(0.01, self._complete)
 
     def _ask_modes(self) -> None:
         self.mode = 0 if self.mode in (None, TURNING) else self.mode
@@ -240,7 +318,10 @@ class View:
 
     def _speed(self, share: float) -> None:
         """Turn slow or fast: from half a turn a minute to a turn a second, evenly by ear and eye."""
-        self.scene.speed(0.5 * 120.0**share)
+        turns = 0.5 * 120.0**share
+        self.scene.speed(turns)
+        with self.session.speaking():
+            self.rate.set_text(Quantity(turns * math.tau / 60.0, "angular_speed", 3, unit="rpm").told(reader()))
 
     def _theme(self) -> None:
         theme = self.session.choices.theme

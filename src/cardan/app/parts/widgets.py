@@ -45,9 +45,9 @@ class Live(Element, component="live.js"):
     nothing else.
     """
 
-    def __init__(self, html: str = "") -> None:
+    def __init__(self, html: str = "", *, tag: str = "div") -> None:
         super().__init__()
-        self._props["html"] = html
+        self._props.update(html=html, tag=tag)
 
     @property
     def html(self) -> str:

@@ -3,7 +3,7 @@
 import { open } from "cardan-scene";
 
 // Calls from Python that only pass on; they do nothing where there is no WebGL.
-const FORWARDED = ["groups", "mode", "play", "speed", "goTo", "look", "projection", "theme", "colourBy", "select"];
+const FORWARDED = ["groups", "mode", "play", "speed", "goTo", "look", "projection", "theme", "colourBy", "select", "fit", "section", "measure"];
 
 export default {
   template: `<div class="cardan-scene"></div>`,

@@ -28,7 +28,8 @@ Message = dict[str, Any]
 class SceneView(Element, component="cardan_scene.js", esm={"cardan-scene": "js"}):
     """Three-dimensional view of a drive that turns.
 
-    on_touched: called with the key path of a body that was touched, such as ``joints[1]``.
+    on_touched: called with the key path of a body that was touched, such as ``joints[1]``; empty for none.
+    on_measured: called with the two points [m] between which something is to be measured, six numbers.
     on_angle: called with the input angle [rad] while the drive turns, at most ten times a second.
     on_playing: called with true or false when turning starts or stops, the space key in the browser included.
     Parts of the page that follow the angle without the server listen to the event ``cardan-angle`` of the window,
@@ -41,13 +42,22 @@ class SceneView(Element, component="cardan_scene.js", esm={"cardan-scene": "js"}
         on_touched: Callable[[str], object] | None = None,
         on_angle: Callable[[float], object] | None = None,
         on_playing: Callable[[bool], object] | None = None,
+        on_measured: Callable[[list[float]], object] | None = None,
     ) -> None:
         super().__init__()
         self._props["texts"] = {
             "label": _(
                 "Three-dimensional view of the drive. Arrow keys turn the view, plus and minus zoom, space starts and "
-                "stops, 1 to 4 choose a standard view."
+                "stops, 1 to 4 choose a standard view, F shows all of it, Escape takes the mark away."
             ),
+            "sides": {
+                "plan": _("plan"),
+                "below": _("below"),
+                "side": _("side"),
+                "far": _("far side"),
+                "front": _("front"),
+                "back": _("back"),
+            },
             "no_webgl": _("This browser cannot draw in three dimensions (WebGL is not available)."),
             "lost": _("The graphics card has been taken away for a moment; the view will come back."),
         }
@@ -65,6 +75,8 @@ class SceneView(Element, component="cardan_scene.js", esm={"cardan-scene": "js"}
             self.on("touched", lambda event: on_touched(str(event.args)))
         if on_angle is not None:
             self.on("angle", lambda event: on_angle(float(event.args)))
+        if on_measured is not None:
+            self.on("measured", lambda event: on_measured([float(one) for one in event.args]))
 
     def show(self, scene: Mapping[str, Any]) -> None:
         """Show a scene, as ``Scene.described()`` gives it; the camera stays where the user has it."""
@@ -98,6 +110,18 @@ class SceneView(Element, component="cardan_scene.js", esm={"cardan-scene": "js"}
     def view(self, name: str) -> None:
         """Look from a side: ``iso``, ``side``, ``plan``, ``front``, or along ``axis of shafts[1]``."""
         self._ask("look", name)
+
+    def fit(self) -> None:
+        """See all of it, from where it is looked at now."""
+        self.run_method("fit")
+
+    def section(self, place: float | None) -> None:
+        """Cut it along its length, from -1, nearest to who looks, to 1; None makes it whole again."""
+        self._ask("section", place)
+
+    def measure(self, on: bool) -> None:
+        """Measure between points that are touched, or touch parts again."""
+        self._ask("measure", on)
 
     def projection(self, kind: Literal["perspective", "orthographic"] | None) -> None:
         """Draw with or without perspective; None takes what suits the view."""

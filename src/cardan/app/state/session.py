@@ -20,9 +20,9 @@ from .kept import Kept
 from .recordings import Recordings
 from .variants import Variants
 
-Change: TypeAlias = Literal["text", "drive", "file", "selection", "choices", "variants"]
+Change: TypeAlias = Literal["text", "drive", "file", "selection", "choices", "variants", "instant"]
 """What can change: the text (always first), the last sound drive, name and saved state of the file, the part of the
-drive the user looks at, the user's choices, the variants kept."""
+drive the user looks at, the user's choices, the variants kept, the instant of its movements."""
 
 Listener: TypeAlias = Callable[[], None]
 Step: TypeAlias = "Callable[[], tuple[TextChange, Callable[[Document], None]]]"
@@ -50,6 +50,7 @@ class Session:
     example: the shipped example that the drive began as; empty for others.
     foreign: what stands in the file now, where somebody else wrote it after we did; None where nobody did.
     selected: path of the part the user looks at, ``joints[1]``, ``shafts[2]``; empty for none.
+    instant: time of its movements at which the drive is looked at [s]; None as drawn.
     notice: what the user should be told first; empty for nothing.
     dark: whether the system of the user is dark; asked of the browser.
     variants: the variants kept, also while another file is opened.
@@ -69,6 +70,7 @@ class Session:
         self.example = ""
         self.foreign: str | None = None
         self.selected = ""
+        self.instant: float | None = None
         self.notice = ""
         self.dark = False
         self.history = History()
@@ -177,7 +179,7 @@ class Session:
         self.look()
 
     def _begin(self, kept: Kept) -> None:
-        self.history, self.variants, self.selected = kept.history, kept.variants, ""
+        self.history, self.variants, self.selected, self.instant = kept.history, kept.variants, "", None
         self.name, self.example, self._saved = kept.name, kept.example, kept.saved
         self.foreign, self._stamp = None, None
         self.opened += 1
@@ -307,6 +309,12 @@ class Session:
         if path != self.selected:
             self.selected = path
             self.tell("selection")
+
+    def stand(self, instant: float | None) -> None:
+        """Look at the drive where its movements have brought it at an instant [s]; None as drawn."""
+        if instant != self.instant:
+            self.instant = instant
+            self.tell("instant")
 
     def choose(self, **choices: Any) -> None:
         """Change how the user likes to see things; another language builds the page anew."""

@@ -6,6 +6,7 @@ import re
 from collections import OrderedDict
 from collections.abc import Callable
 from contextlib import suppress
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
@@ -100,14 +101,29 @@ def _told(question: Question, on: Subject, progress: Progress | None) -> Page:
 
 
 def drawn(
-    drive: Drive, *, pose: int | None = None, used: bool = False, forces: bool = False, modes: bool = False
+    drive: Drive,
+    *,
+    pose: int | None = None,
+    instant: float | None = None,
+    used: bool = False,
+    forces: bool = False,
+    modes: bool = False,
 ) -> Drawn:
-    """Return a drive in space; used, forces, modes: with utilisations, forces, mode shapes."""
-    verdicts: tuple[Verdict, ...] = ()
-    with suppress(CardanError):
-        verdicts = check(drive) if used else ()
-    found = scene(drive, verdicts=verdicts, pose=pose, with_forces=forces, with_modes=modes)
+    """Return a drive in space.
+
+    instant: where its movements have brought it [s]; used, forces, modes: with utilisations, forces, mode shapes.
+    """
+    verdicts = _verdicts(drive) if used else ()
+    found = scene(drive, verdicts=verdicts, pose=pose, time=instant, with_forces=forces, with_modes=modes)
     return found, found.described()
+
+
+@lru_cache(maxsize=8)
+def _verdicts(drive: Drive) -> tuple[Verdict, ...]:
+    """Return the verdicts on a drive that is drawn at many instants; none where it cannot be judged."""
+    with suppress(CardanError):
+        return check(drive)
+    return ()
 
 
 # Reports and exports as answers to questions: made in a process of their own, as bytes with a name.

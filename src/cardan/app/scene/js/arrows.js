@@ -10,11 +10,16 @@ export class Arrows {
   constructor(shared) {
     this.root = new THREE.Group();
     this.material = materials(shared, { metal: false });
+    for (const one of Object.values(this.material)) one.transparent = true; // drawn last, over all that would bury them
     const rod = new THREE.CylinderGeometry(1, 1, 1, 10, 1).rotateZ(-Math.PI / 2).translate(0.5, 0, 0);
     const head = new THREE.ConeGeometry(1, 1, 16, 1).rotateZ(-Math.PI / 2).translate(0.5, 0, 0);
     const ring = new THREE.TorusGeometry(1, 0.085, 8, 36, CURL).rotateY(Math.PI / 2).rotateX(Math.PI / 2);
     this.shapes = { rod, head, ring };
     this.groups = new Map();
+    // What is drawn before them takes the depth of the bodies away, so that none of these lies before an arrow.
+    this.wipe = new THREE.Mesh(new THREE.BufferGeometry().setFromPoints([0, 0, 0].map(() => new THREE.Vector3())), this.material.fast);
+    Object.assign(this.wipe, { renderOrder: 9, frustumCulled: false, onBeforeRender: (renderer) => renderer.clearDepth() });
+    this.root.add(this.wipe);
   }
 
   show(arrows, motion, size) {
@@ -34,6 +39,7 @@ export class Arrows {
         const mesh = new THREE.InstancedMesh(this.shapes[shape], this.material.fast, count);
         mesh.frustumCulled = false;
         mesh.visible = count > 0;
+        mesh.renderOrder = 10;
         group.add(mesh);
         return mesh;
       };
@@ -61,6 +67,7 @@ export class Arrows {
 
   visible(on) {
     for (const [name, { group }] of this.groups) group.visible = on(name);
+    this.wipe.visible = this.moving;
   }
 
   get moving() {
@@ -82,7 +89,7 @@ export class Arrows {
     }
   }
 
-  // Where each arrow that can be seen has its text: [arrow, place].
+  // Where each arrow that can be seen has its text, and how large it is at this angle: [arrow, place, text].
   texts(angle) {
     const found = [];
     for (const { group, members } of this.groups.values()) {
@@ -90,24 +97,42 @@ export class Arrows {
       for (const arrow of members) {
         const at = this.motion.vector(arrow.from, angle, new THREE.Vector3());
         const vector = this.motion.vector(arrow.vector, angle, VECTOR);
-        if (vector.length() > 1e-3 * this.size) found.push([arrow, at.addScaledVector(vector, arrow.curl ? 0.6 : 1.06)]);
+        const length = vector.length();
+        if (length > 1e-3 * this.size) found.push([arrow, at.addScaledVector(vector, arrow.curl ? 0.6 : 1.06), told(arrow, length)]);
       }
     }
     return found;
   }
 
   // The arrow a ray meets first.
-  pick(ray) {
+  pick(ray, angle) {
     let best = null;
     for (const { group, members, rods, rings, heads } of this.groups.values()) {
       for (const mesh of group.visible ? [rods, rings, heads] : []) {
         mesh.boundingSphere = null; // arrows move
         const [hit] = mesh.visible ? ray.intersectObject(mesh, false) : [];
         if (!hit || (best && best.distance < hit.distance)) continue;
-        best = { text: members[hit.instanceId + (mesh === rings ? rods.count : 0)].text, distance: hit.distance };
+        const arrow = members[hit.instanceId + (mesh === rings ? rods.count : 0)];
+        const now = told(arrow, this.motion.vector(arrow.vector, angle, VECTOR).length());
+        best = { text: `${arrow.text}\n${now}`, distance: hit.distance };
       }
     }
     return best;
+  }
+
+  // Where feet and tips of those that can be seen come to over a turn, for the camera.
+  corners() {
+    const found = [];
+    for (const { group, members } of this.groups.values()) {
+      for (const { from, vector } of group.visible ? members : []) {
+        for (let k = 0; k < 24; k++) {
+          const angle = (k * Math.PI) / 12;
+          const foot = this.motion.vector(from, angle, new THREE.Vector3());
+          found.push(foot, foot.clone().add(this.motion.vector(vector, angle, VECTOR)));
+        }
+      }
+    }
+    return found;
   }
 
   clear() {
@@ -120,10 +145,17 @@ export class Arrows {
 
   dispose() {
     this.clear();
-    for (const shape of Object.values(this.shapes)) shape.dispose();
+    for (const shape of [...Object.values(this.shapes), this.wipe.geometry]) shape.dispose();
     this.material.fast.dispose();
     this.material.fine.dispose();
   }
+}
+
+// The size of an arrow of this length, in the unit that its text is told in.
+function told({ scale, unit, decimal }, length) {
+  const value = scale * length;
+  const digits = Math.max(0, 2 - Math.floor(Math.log10(value)));
+  return `${value.toFixed(Math.min(digits, 20)).replace(".", decimal)} ${unit}`;
 }
 
 const FROM = new THREE.Vector3();

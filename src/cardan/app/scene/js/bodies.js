@@ -25,6 +25,19 @@ export class Bodies {
     this.ghost = false;
     this.selected = null;
     this.shown = [];
+    this.cut = null; // a plane: what lies behind it is not drawn
+  }
+
+  // Cut all bodies at a plane, or make them whole again.
+  section(plane) {
+    this.cut = plane;
+    const kinds = Object.values(this.materials).flatMap(({ fast, fine }) => [fast, fine]);
+    for (const material of [...kinds, this.edge]) {
+      material.clippingPlanes = plane && [plane];
+      if (material !== this.edge) material.side = plane ? THREE.DoubleSide : THREE.FrontSide;
+      material.needsUpdate = true;
+    }
+    this.outline.material.clippingPlanes = plane && [plane];
   }
 
   // Which meshes of a scene are neither sent with it nor known from before.
@@ -175,11 +188,11 @@ export class Bodies {
   pick(ray) {
     let best = null;
     for (const { members, solid } of this.batches.values()) {
-      const [hit] = ray.intersectObject(solid, false);
+      const hit = ray.intersectObject(solid, false).find(({ point }) => this.cut === null || this.cut.distanceToPoint(point) >= 0);
       if (!hit || (best && best.distance < hit.distance)) continue;
       const { spans } = solid.geometry.userData;
       const k = spans.findIndex(({ index, indices }) => 3 * hit.faceIndex >= index && 3 * hit.faceIndex < index + indices);
-      best = { body: members[k], distance: hit.distance };
+      best = { body: members[k], distance: hit.distance, point: hit.point };
     }
     return best;
   }
@@ -199,6 +212,19 @@ export class Bodies {
     return points;
   }
 
+  // Points of all surfaces where they are now, as near to one another as a step: where the picture is not free.
+  dots(step) {
+    const found = [];
+    for (const { members, solid } of this.batches.values()) {
+      for (const { mesh } of members) {
+        const own = this.meshes.get(mesh);
+        if (own.step !== step) Object.assign(own, { step, dots: spread(own, step) });
+        for (const dot of own.dots) found.push(dot.clone().applyMatrix4(solid.matrixWorld));
+      }
+    }
+    return found;
+  }
+
   dispose() {
     clearTimeout(this.thinning);
     for (const batch of this.batches.values()) this.drop(batch);
@@ -212,6 +238,24 @@ export class Bodies {
 }
 
 const content = (members) => members.map((b) => `${b.name} ${b.mesh}`).join("\n");
+
+// Points along the edges of all triangles, one a cell of a grid.
+function spread({ positions, indices }, step) {
+  const found = new Map();
+  const [a, b] = [new THREE.Vector3(), new THREE.Vector3()];
+  for (let t = 0; t < indices.length; t += 3) {
+    for (let c = 0; c < 3; c++) {
+      a.fromArray(positions, 3 * indices[t + c]);
+      b.fromArray(positions, 3 * indices[t + ((c + 1) % 3)]);
+      const count = Math.ceil(a.distanceTo(b) / step);
+      for (let k = 0; k <= count; k++) {
+        const point = a.clone().lerp(b, k / (count || 1));
+        found.set(point.toArray().map((one) => Math.round(one / step)).join(), point);
+      }
+    }
+  }
+  return [...found.values()];
+}
 
 function concatenated(parts, name) {
   const all = new Float32Array(parts.reduce((total, part) => total + part[name].length, 0));

@@ -12,8 +12,11 @@ export const VIEWS = {
   side: [0, -1, 0],
   plan: [0, -0.0004, 1],
   front: [1, 0, 0],
+  far: [0, 1, 0],
+  below: [0, 0.0004, -1],
+  back: [-1, 0, 0],
 };
-const STRAIGHT = new Set(["side", "plan", "front", "axis"]); // views without perspective, unless one is asked for
+const STRAIGHT = new Set(["side", "plan", "front", "far", "below", "back", "axis"]); // views without perspective, unless one is asked for
 
 export class Viewer {
   constructor(canvas, changed) {
@@ -45,7 +48,7 @@ export class Viewer {
 
   // Keep the orthographic picture as large as the perspective one is at the point looked at.
   frame() {
-    const reach = this.camera.position.distanceTo(this.controls.target);
+    const { reach } = this;
     const half = reach * Math.tan(ANGLE / 2);
     const { orthographic: flat, perspective: deep } = this;
     flat.top = half;
@@ -63,7 +66,7 @@ export class Viewer {
 
   // The size of a pixel at the point looked at.
   get pixel() {
-    const reach = this.camera.position.distanceTo(this.controls.target);
+    const { reach } = this;
     return (2 * reach * Math.tan(ANGLE / 2)) / this.height / this.camera.zoom;
   }
 
@@ -121,6 +124,16 @@ export class Viewer {
     );
     const target = right.multiplyScalar(middle[0]).addScaledVector(over, middle[1]).addScaledVector(back, centre);
     return { target, position: target.clone().addScaledVector(back, reach) };
+  }
+
+  // How far the camera stands from the point looked at.
+  get reach() {
+    return this.camera.position.distanceTo(this.controls.target);
+  }
+
+  // From where the drive is looked at now.
+  get direction() {
+    return this.camera.position.clone().sub(this.controls.target).normalize().toArray();
   }
 
   go(view, direction, points, smooth) {

@@ -28,8 +28,7 @@ export function wire(canvas, view) {
       const near = down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < STILL;
       down = null;
       if (!near || event.button !== 0) return;
-      const found = under(event, (r) => view.bodies.pick(r));
-      if (found) view.touched(found.body);
+      view.touched(under(event, (r) => view.bodies.pick(r)));
     },
     pointermove(event) {
       if (down || event.pointerType === "touch" || waiting) return;
@@ -63,6 +62,8 @@ export function wire(canvas, view) {
 }
 
 const KEYS = {
+  Escape: (view) => view.touched(null),
+  f: (view) => view.fit(),
   ArrowLeft: (view) => view.viewer.orbit(-STEP, 0),
   ArrowRight: (view) => view.viewer.orbit(STEP, 0),
   ArrowUp: (view) => view.viewer.orbit(0, -STEP),

@@ -9,10 +9,12 @@ import { Areas, Curves } from "./areas.js";
 import { Arrows } from "./arrows.js";
 import { Bodies } from "./bodies.js";
 import { Viewer, VIEWS } from "./camera.js";
+import { Cube } from "./cube.js";
 import { Ground } from "./ground.js";
 import { wire } from "./hands.js";
 import { Labels } from "./labels.js";
 import { Lines } from "./lines.js";
+import { Measure } from "./measure.js";
 import { Modes } from "./modes.js";
 import { Motion, Tracks, TURN } from "./motion.js";
 import { furnished, picture } from "./page.js";
@@ -21,10 +23,12 @@ import { THEMES, uniforms } from "./studio.js";
 
 const REST = 160; // ms without motion until the picture is drawn at its best
 const THIN = [700, 320]; // without a graphics card, moving bodies keep to their form within a pixel: this part of the whole
+const NEAR = 0.03; // a camera that stands so near to where it should, beside its distance, may stay
 const QUIET = 300; // ms without an edit until the floor follows
 const HOLD = 200; // ms at most that the picture waits for an edit to be worked on
 const EDITS = ["change", "cardan-moving"]; // what comes from fields, and from points that are dragged
 const FOLLOW = 100; // ms between two angles told to the page where every change of it costs a frame
+const BUSY = 1000; // ms that a frame may take and the drive still turns as fast as is said
 const HEARD = 100; // ms between two angles told to the server
 const mounted = [];
 
@@ -49,6 +53,7 @@ class View {
     this.renderer = new THREE.WebGLRenderer({ canvas: page.canvas, context });
     this.renderer.debug.checkShaderErrors = false;
     this.renderer.info.autoReset = true;
+    this.renderer.localClippingEnabled = true;
     this.stage = new THREE.Scene();
     this.shared = uniforms();
     this.tracks = new Tracks();
@@ -59,7 +64,11 @@ class View {
     this.ground = new Ground();
     this.modes = new Modes(new Curves(this.shared, this.tracks));
     this.labels = new Labels(page.root, this.tracks);
-    this.parts = [this.bodies, this.lines, this.areas, this.arrows, this.ground, this.modes.curves];
+    this.measuring = new Measure(this.stage, emit);
+    this.cube = new Cube(page.root, page.texts.sides, (name) => this.look(name));
+    this.labels.covered = () => [this.cube.spot, ...page.covered];
+    this.labels.dots = () => this.bodies.dots(this.scene.size / 90);
+    this.parts = [this.bodies, this.lines, this.areas, this.arrows, this.ground, this.modes.curves, this.measuring];
     this.stage.add(this.ground.root, this.tracks.root, this.arrows.root);
     this.quality = new Quality(slow);
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -126,6 +135,7 @@ class View {
     if (first) this.floor();
     else this.laying = setTimeout(() => this.relay(), QUIET);
     if (first) this.look(this.viewer.view, false);
+    this.explain();
     this.thin();
     this.release();
     return true;
@@ -141,9 +151,11 @@ class View {
     this.bodies.thin(keep ? error : pixel, () => this.draw());
   }
 
-  // The floor of a drive that was edited, once the user is quiet: its shade is read back, which takes its time.
+  // The floor of a drive that was edited, once the user is quiet: its shade is read back, which takes its time. The
+  // camera finds the whole drive again, unless the user has put it somewhere.
   relay() {
     this.floor();
+    if (!this.viewer.own) this.fit();
     this.draw();
   }
 
@@ -152,8 +164,10 @@ class View {
   }
 
   groups(on) {
+    const same = this.groupsOn && `${[...this.groupsOn]}` === `${on}`;
     this.groupsOn = new Set(on);
     this.switch();
+    if (!same && this.sized && !this.viewer.own) this.fit();
   }
 
   switch() {
@@ -202,7 +216,44 @@ class View {
     const direction = part ? this.motion.axis(part.track).toArray() : VIEWS[view];
     if (!direction) return;
     if (!this.scene) this.viewer.view = part ? "axis" : view;
-    else this.viewer.go(part ? "axis" : view, direction, this.bodies.corners(), smooth);
+    else this.viewer.go(part ? "axis" : view, direction, this.corners(), smooth);
+  }
+
+  // See all of it, from where it is looked at now.
+  fit(smooth = !this.calm) {
+    if (!this.scene || this.viewer.way) return;
+    const { viewer } = this;
+    const { position } = viewer.standing(viewer.direction, this.corners());
+    const off = position.distanceTo(viewer.camera.position) / viewer.reach;
+    if (viewer.own || off > NEAR) viewer.go(viewer.view, viewer.direction, this.corners(), smooth);
+  }
+
+  corners() {
+    return [...this.bodies.corners(), ...this.arrows.corners()];
+  }
+
+  // Cut the drive along its length, toward who looks, or make it whole again; `place`: from the middle, -1 nearest to 1
+  // farthest.
+  section(place) {
+    if (place === null || !this.scene) this.bodies.section(null);
+    else {
+      const away = new THREE.Vector3(...this.viewer.direction).negate();
+      const joints = this.scene.labels.filter(({ role }) => role === "joint").map(({ at }) => new THREE.Vector3(...at));
+      const along = joints.length > 1 ? joints.at(-1).sub(joints[0]).normalize() : null;
+      if (along && Math.abs(along.dot(away)) < 0.95) away.addScaledVector(along, -along.dot(away)).normalize();
+      if (!this.bodies.cut) this.bodies.section(new THREE.Plane(away));
+      const { normal } = this.bodies.cut;
+      const reach = this.bodies.corners().map((one) => one.dot(normal));
+      const [near, far] = [Math.min(...reach), Math.max(...reach)];
+      this.bodies.cut.constant = -(near + far + place * (far - near)) / 2;
+    }
+    this.draw();
+  }
+
+  // Measure between points that are touched, or touch parts again.
+  measure(on) {
+    this.measuring.switch(on);
+    this.draw();
   }
 
   projection(kind) {
@@ -221,7 +272,14 @@ class View {
 
   colourBy(what) {
     this.bodies.colourBy(what);
+    this.explain();
     this.draw();
+  }
+
+  explain() {
+    const scale = this.scene?.scale ?? [];
+    if (this.bodies.by !== "utilisation") this.page.explain([]);
+    else if (scale.length) this.page.explain(scale); // that of a drive just edited is still to come
   }
 
   select(path) {
@@ -230,15 +288,24 @@ class View {
     this.draw();
   }
 
-  touched(body) {
-    this.select(body.path);
-    this.emit("touched", body.path);
+  // What was touched: a part, found with its point, or nothing, which takes the mark away.
+  touched(found) {
+    if (this.measuring.on && found) {
+      this.measuring.take(found.point);
+      this.draw();
+      return;
+    }
+    const path = found?.body.path ?? null;
+    if (path === null && this.selected === null) return;
+    this.select(path);
+    this.emit("touched", path ?? "");
   }
 
   // What a ray meets first: a body, or an arrow or a plane that is switched on.
   found(ray) {
-    const hits = [this.bodies, this.arrows, this.areas].map((part) => part.pick(ray)).filter(Boolean);
-    return hits.sort((a, b) => a.distance - b.distance)[0] ?? null;
+    const arrow = this.arrows.pick(ray, this.angle); // stands over all else
+    const hits = [this.bodies, this.areas].map((part) => part.pick(ray)).filter(Boolean);
+    return arrow ?? hits.sort((a, b) => a.distance - b.distance)[0] ?? null;
   }
 
   tip(found, event) {
@@ -268,7 +335,8 @@ class View {
     this.drawnAt = null;
     this.viewer.resize(width, height);
     for (const { screen } of [this.lines, this.ground.lines, this.bodies.outline]) screen.value.set(width, height);
-    if (fit || !this.viewer.own) this.look(this.viewer.view, false);
+    if (fit) this.look(this.viewer.view, false);
+    else if (!this.viewer.own) this.fit(false);
     if (fit && this.scene) this.thin();
     this.render(performance.now(), this.quality.resting);
   }
@@ -294,7 +362,7 @@ class View {
     if (this.gone || !this.sized || !this.scene || this.holding) return;
     this.restful = clearTimeout(this.restful);
     const running = this.moving;
-    const passed = this.last && running ? Math.min(now - this.last, 100) : 0;
+    const passed = this.last && running ? Math.min(now - this.last, BUSY) : 0;
     this.last = now;
     this.moving = this.playing;
     if (this.playing && this.modes.chosen) this.modes.advance(passed);
@@ -329,6 +397,7 @@ class View {
     camera.updateMatrixWorld();
     this.shared.up.value.set(0, 0, 1).transformDirection(camera.matrixWorldInverse);
     this.renderer.render(this.stage, camera);
+    this.cube.turn(camera);
     const seen = `${camera.matrixWorld.elements} ${camera.projectionMatrix.elements} ${size}`;
     this.labels.follow(this.arrows.moving ? this.arrows.texts(this.angle) : []);
     if (seen !== this.labelled || this.arrows.moving || this.labels.turning) this.labels.place(camera, this.width, this.height);

@@ -10,6 +10,10 @@ const SHIFTS = [
   [-34, -12],
   [34, 16],
   [-34, 16],
+  [0, -34],
+  [0, 34],
+  [0, -52],
+  [0, 52],
 ];
 
 const SEEN = new THREE.Vector3();
@@ -22,6 +26,8 @@ export class Labels {
     parent.append(this.layer);
     this.still = [];
     this.moving = [];
+    this.covered = () => []; // where other things stand in the picture
+    this.dots = () => []; // points of the bodies, beside which there is room
   }
 
   show(labels) {
@@ -50,11 +56,13 @@ export class Labels {
     return this.still.some((label) => label.on && label.track);
   }
 
-  // Texts of arrows: a list of [arrow, place], another one every frame.
+  // Texts of arrows: a list of [arrow, place, text], another one every frame.
   follow(texts) {
     const kept = new Map(this.moving.map((label) => [label.arrow, label]));
-    this.moving = texts.map(([arrow, place]) => {
-      const label = kept.get(arrow) ?? { ...this.make(brief(arrow.text), "arrow"), arrow, on: true };
+    this.moving = texts.map(([arrow, place, text]) => {
+      const label = kept.get(arrow) ?? { ...this.make("", "arrow"), arrow, on: true };
+      label.element.style.boxShadow = `inset 3px 0 ${arrow.colour}`;
+      if (label.element.textContent !== text) Object.assign(label, { width: 0 }).element.textContent = text;
       kept.delete(arrow);
       label.place = place;
       return label;
@@ -64,7 +72,8 @@ export class Labels {
 
   // Lay all texts out for a camera and a canvas of this size [CSS pixels].
   place(camera, width, height) {
-    const taken = [];
+    const taken = this.covered();
+    const busy = cells(this.dots(), camera, width, height);
     for (const label of [...this.still, ...this.moving]) {
       if (!label.on) continue;
       const { element } = label;
@@ -73,7 +82,7 @@ export class Labels {
       if (label.track) SEEN.applyMatrix4(this.tracks.groups[label.track].matrixWorld);
       SEEN.project(camera);
       const inside = Math.abs(SEEN.x) < 1.05 && Math.abs(SEEN.y) < 1.05 && SEEN.z > -1 && SEEN.z < 1;
-      const spot = inside && free(taken, ((SEEN.x + 1) / 2) * width, ((1 - SEEN.y) / 2) * height, label, width, height);
+      const spot = inside && free(taken, ((SEEN.x + 1) / 2) * width, ((1 - SEEN.y) / 2) * height, label, width, height, busy);
       element.style.visibility = spot ? "visible" : "hidden";
       label.spot = spot || null;
       if (!spot) continue;
@@ -102,17 +111,36 @@ export class Labels {
   }
 }
 
-// Of "place: value" the value; the tip at the pointer has the whole text.
-const brief = (text) => text.slice(text.lastIndexOf(": ") + 1).trim();
+const CELL = 12; // CSS pixels
 
-// The first place round a point where a text of this size covers no other; null where there is none.
-function free(taken, x, y, { width, height }, right, bottom) {
+// The cells of the picture in which points lie.
+function cells(points, camera, width, height) {
+  const found = new Set();
+  for (const point of points) {
+    SEEN.copy(point).project(camera);
+    found.add(`${Math.floor(((SEEN.x + 1) / 2) * (width / CELL))} ${Math.floor(((1 - SEEN.y) / 2) * (height / CELL))}`);
+  }
+  return found;
+}
+
+function covers(busy, { left, top, right, bottom }) {
+  for (let x = Math.floor(left / CELL); x * CELL < right; x++) {
+    for (let y = Math.floor(top / CELL); y * CELL < bottom; y++) if (busy.has(`${x} ${y}`)) return true;
+  }
+  return false;
+}
+
+// The first place round a point where a text of this size covers no other and no part, or no other if parts are all
+// round; null where there is none.
+function free(taken, x, y, { width, height }, right, bottom, busy) {
+  let second = null;
   for (const [dx, dy] of SHIFTS) {
     const left = Math.min(Math.max(x + dx - width / 2 + Math.sign(dx) * (width / 2 - 17), 2), Math.max(right - width - 2, 2));
     const top = Math.min(Math.max(y + dy - height / 2, 2), Math.max(bottom - height - 2, 2));
     const spot = { left, top, right: left + width, bottom: top + height };
     const hit = taken.some((o) => o.left < spot.right && spot.left < o.right && o.top < spot.bottom && spot.top < o.bottom);
-    if (!hit) return spot;
+    if (!hit && !covers(busy, spot)) return spot;
+    if (!hit) second ??= spot;
   }
-  return null;
+  return second;
 }

@@ -9,14 +9,23 @@ export class Outline {
     this.screen = { value: new THREE.Vector2(1, 1) };
     this.material = new THREE.ShaderMaterial({
       vertexShader: /* glsl */ `
+        #include <clipping_planes_pars_vertex>
         uniform vec2 screen;
         void main() {
-          vec4 at = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+          vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+          #include <clipping_planes_vertex>
+          vec4 at = projectionMatrix * mvPosition;
           vec2 off = (projectionMatrix * vec4(mat3(modelViewMatrix) * normal, 0.0)).xy * screen;
           at.xy += normalize(off + 1e-9) * ${(2 * WIDTH).toFixed(1)} / screen * at.w;
           gl_Position = at;
         }`,
-      fragmentShader: `uniform vec3 colour; void main() { gl_FragColor = vec4(colour, 1.0); }`,
+      fragmentShader: `#include <clipping_planes_pars_fragment>
+        uniform vec3 colour;
+        void main() {
+          #include <clipping_planes_fragment>
+          gl_FragColor = vec4(colour, 1.0);
+        }`,
+      clipping: true,
       uniforms: { screen: this.screen, colour: { value: new THREE.Vector3() } },
       side: THREE.BackSide,
     });

@@ -9,15 +9,28 @@ const STYLE = `
 .cardan-scene canvas:focus-visible { box-shadow: inset 0 0 0 2px #0a6cff; }
 .cardan-labels { position: absolute; inset: 0; pointer-events: none; }
 .cardan-labels span { position: absolute; left: 0; top: 0; padding: 1px 5px; border-radius: 4px; white-space: nowrap; visibility: hidden;
-  font: 500 11px/15px system-ui, "Segoe UI", Roboto, sans-serif; font-variant-numeric: tabular-nums;
+  font: 500 12px/16px system-ui, "Segoe UI", Roboto, sans-serif; font-variant-numeric: tabular-nums;
   background: rgb(255 255 255 / 82%); color: #1d2630; }
 .cardan-scene[data-theme="dark"] .cardan-labels span { background: rgb(24 30 37 / 82%); color: #e6ebf0; }
-.cardan-tip { position: absolute; z-index: 2; left: 0; top: 0; max-width: 60%; padding: 4px 8px; border-radius: 6px; pointer-events: none;
+.cardan-tip { position: absolute; z-index: 2; padding: 4px 8px; border-radius: 6px; pointer-events: none;
   font: 12px/17px system-ui, "Segoe UI", Roboto, sans-serif; white-space: pre-line; background: #1d2630; color: #fff; box-shadow: 0 2px 8px rgb(0 0 0 / 25%); }
+.cardan-tip { left: 8px; top: 8px; max-width: min(60%, 26rem); }
+.cardan-tip.low { top: auto; bottom: 8px; left: auto; right: 8px; }
+.cardan-legend { position: absolute; left: 8px; bottom: 8px; margin: 0; padding: 4px 8px; list-style: none; border-radius: 6px; pointer-events: none;
+  font: 12px/17px system-ui, "Segoe UI", Roboto, sans-serif; background: rgb(255 255 255 / 88%); color: #1d2630; }
+.cardan-scene[data-theme="dark"] .cardan-legend { background: rgb(24 30 37 / 88%); color: #e6ebf0; }
+.cardan-legend i { display: inline-block; width: 12px; height: 12px; margin-right: 6px; border-radius: 3px; vertical-align: -1px; border: 1px solid rgb(128 128 128 / 60%); }
+.cardan-cube { position: absolute; right: 14px; top: 12px; width: 44px; height: 44px; perspective: 260px; }
+.cardan-cube > div { position: absolute; left: 50%; top: 50%; width: 0; height: 0; transform-style: preserve-3d; }
+.cardan-cube span { position: absolute; left: -21px; top: -21px; width: 42px; height: 42px; display: grid; place-items: center; backface-visibility: hidden;
+  box-sizing: border-box; border: 1px solid #8b95a1; background: rgb(255 255 255 / 92%); color: #1d2630; cursor: pointer; font: 600 12px/1 system-ui, "Segoe UI", Roboto, sans-serif; user-select: none; }
+.cardan-cube span:hover { background: #cfe0f5; }
+.cardan-scene[data-theme="dark"] .cardan-cube span { background: rgb(40 48 58 / 94%); color: #e6ebf0; }
+.cardan-scene[data-theme="dark"] .cardan-cube span:hover { background: #35506f; }
 .cardan-scene[data-theme="dark"] .cardan-tip { background: #e6ebf0; color: #13171c; }
 .cardan-said { position: absolute; inset: 0; display: grid; place-items: center; padding: 2em; text-align: center;
   font: 14px/20px system-ui, "Segoe UI", Roboto, sans-serif; background: inherit; }
-.cardan-tip[hidden], .cardan-said[hidden] { display: none; }
+.cardan-tip[hidden], .cardan-said[hidden], .cardan-legend[hidden] { display: none; }
 `;
 
 // Fill an element; return its parts and what can be done with them.
@@ -34,7 +47,10 @@ export function furnished(root, texts) {
   canvas.setAttribute("aria-label", texts.label);
   const tip = box("cardan-tip");
   const said = box("cardan-said");
-  root.append(canvas, said, tip);
+  const legend = document.createElement("ul");
+  legend.className = "cardan-legend";
+  legend.hidden = true;
+  root.append(canvas, said, tip, legend);
   return {
     root,
     canvas,
@@ -49,17 +65,34 @@ export function furnished(root, texts) {
       canvas.style.visibility = text ? "hidden" : "visible";
     },
 
-    // The text of what lies under the pointer.
+    // What the legend covers of the picture [CSS pixels].
+    get covered() {
+      const { offsetLeft: left, offsetTop: top, offsetWidth: width, offsetHeight: height } = legend;
+      return legend.hidden ? [] : [{ left, top, right: left + width, bottom: top + height }];
+    },
+
+    // What colours mean, [{colour, text}]; nothing where there are none.
+    explain(colours) {
+      legend.hidden = !colours.length;
+      legend.replaceChildren(
+        ...colours.map(({ colour, text }) => {
+          const [row, chip] = [document.createElement("li"), document.createElement("i")];
+          chip.style.background = colour;
+          row.append(chip, text);
+          return row;
+        }),
+      );
+    },
+
+    // The text of what lies under the pointer, in a corner where the pointer is not: it covers nothing that is looked at.
     tip(found, event) {
       canvas.classList.toggle("over", Boolean(found?.body));
       const text = found?.body?.text ?? found?.text;
       tip.hidden = !text;
       if (!text) return;
       tip.textContent = text;
-      const { left, top, width } = root.getBoundingClientRect();
-      const x = Math.min(event.clientX - left + 14, Math.max(width - tip.offsetWidth - 4, 0));
-      const y = Math.max(event.clientY - top - tip.offsetHeight - 10, 4);
-      tip.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px)`;
+      const { left, top, width, height } = root.getBoundingClientRect();
+      tip.classList.toggle("low", event.clientX < left + 0.6 * width && event.clientY < top + 0.5 * height);
     },
   };
 }

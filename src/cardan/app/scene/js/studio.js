@@ -43,6 +43,7 @@ vec3 lit(vec3 n, vec3 v, vec3 colour, float metal) {
 `;
 
 const VERTEX = /* glsl */ `
+#include <clipping_planes_pars_vertex>
 attribute vec3 tone;
 uniform float metal;
 varying vec3 vTone;
@@ -63,21 +64,24 @@ void main() {
   #ifdef USE_INSTANCING_COLOR
   shown = instanceColor;
   #endif
-  vec4 seen = modelViewMatrix * at;
+  vec4 mvPosition = modelViewMatrix * at;
   vec3 n = normalize(mat3(modelViewMatrix) * facing);
   bool straight = projectionMatrix[2][3] == 0.0;
   #ifdef EACH_PIXEL
   vTone = shown;
   vNormal_ = n;
-  vPlace = straight ? vec3(0.0, 0.0, -1.0) : seen.xyz;
+  vPlace = straight ? vec3(0.0, 0.0, -1.0) : mvPosition.xyz;
   #else
-  vTone = lit(n, straight ? vec3(0.0, 0.0, 1.0) : normalize(-seen.xyz), shown, metal);
+  vTone = lit(n, straight ? vec3(0.0, 0.0, 1.0) : normalize(-mvPosition.xyz), shown, metal);
   #endif
-  gl_Position = projectionMatrix * seen;
+  gl_Position = projectionMatrix * mvPosition;
+  #include <clipping_planes_vertex>
 }
 `;
 
+// Of a body that is cut, what is seen of its inside is drawn flat: its material as the cut shows it.
 const FRAGMENT = /* glsl */ `
+#include <clipping_planes_pars_fragment>
 uniform vec2 level;
 varying vec3 vTone;
 #ifdef EACH_PIXEL
@@ -87,6 +91,13 @@ uniform float metal;
 ${LIGHT}
 #endif
 void main() {
+  #include <clipping_planes_fragment>
+  #if NUM_CLIPPING_PLANES > 0
+  if (!gl_FrontFacing) {
+    gl_FragColor = vec4(0.72 * sqrt(vTone) * level.y, level.x);
+    return;
+  }
+  #endif
   #ifdef EACH_PIXEL
   gl_FragColor = vec4(lit(normalize(vNormal_), normalize(-vPlace), vTone, metal) * level.y, level.x);
   #else
@@ -105,6 +116,7 @@ export function materials(shared, { metal, ghost = false }) {
       fragmentShader: FRAGMENT,
       uniforms: all,
       defines,
+      clipping: true,
       transparent: ghost,
       depthWrite: !ghost,
       polygonOffset: !ghost,
