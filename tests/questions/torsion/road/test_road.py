@@ -17,12 +17,15 @@ from scipy.stats import norm
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
+from cardan.drive.duty import Harmonic as Wave
 from cardan.drive.movement import Harmonic, Movement, Random, Spectrum, Table
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
 from cardan.errors import InputError
+from cardan.questions.motion.standing import still
 from cardan.questions.torsion.road.places import sign_changes
 from cardan.questions.torsion.road.road import RoadTorsion, road_torsion
+from cardan.questions.torsion.steady.torsion_response import torsion_response
 
 STIFFNESS, DAMPING, INERTIA, LOAD, LIFT = 4000.0, 4.0, 0.4, 100.0, 0.1
 
@@ -293,3 +296,17 @@ def test_a_table_is_followed_from_its_first_row() -> None:
     assert not found.periodic
     assert found.span == pytest.approx(12.0)
     assert found.peak[0] == pytest.approx(wave.peak[0], rel=1e-3)
+
+
+def test_orders_that_do_not_repeat_count_to_first_order() -> None:
+    """Against the exact motion of both frequencies at two instants: within a hundredth of the largest torque."""
+    plain = lifted(swing(0.2, 1.0), speed=120.0)
+    drive = replace(plain, duty=replace(plain.duty, harmonics=(Wave(order=3.315, torque=40.0),)))
+    found = road_torsion(drive)
+    places = found.standing
+    assert places.times is not None
+    for k in (10, 90):
+        exact = torsion_response(still(drive, float(places.times[k])))
+        assert places.high[k, 0] == pytest.approx(float(exact.torque_highest[0]), rel=0.01)
+        assert places.low[k, 0] == pytest.approx(float(exact.torque_lowest[0]), abs=0.01 * places.high[k, 0])
+        assert places.high[k, 0] > 2.0 + road_torsion(plain).standing.high[k, 0]

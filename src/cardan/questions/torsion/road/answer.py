@@ -17,7 +17,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.movement import Random
 from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
-from cardan.questions.torsion.model.answer import assumptions, left_out
+from cardan.questions.torsion.model.answer import assumptions, left_out, nonsynchronous
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.texts import _, mark
 
@@ -264,6 +264,13 @@ def _remarks(drive: Drive, found: RoadTorsion) -> Iterator[Remark]:
             text = _("The random movements are followed along their sample path.")
         yield Remark(text=text)
     yield Remark(text=_("Masses, stiffness and damping are those of the drive as drawn."), depth="full")
+    loose = nonsynchronous(drive)
+    if loose is not None:
+        text = _(
+            "Orders that do not repeat within two turns ({orders}) count to first order here, with their side bands; "
+            "cardan torsion response has them exactly."
+        )
+        yield Remark(text=say(text, orders=loose))
     yield from assumptions(found.train)
     yield from left_out(replace(drive, movements=()))
     yield from yokes_estimated(drive)

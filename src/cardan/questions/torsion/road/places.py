@@ -13,13 +13,15 @@ from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import peak
 from cardan.questions.motion.motion import initial_phases
 from cardan.questions.motion.standing import chain_at
+from cardan.questions.torsion.model.side_bands import side_waves
 from cardan.questions.torsion.model.torsional_balance import element_torques
 from cardan.questions.torsion.model.torsional_layouts import period_of
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
 from cardan.questions.torsion.stability.floquet_map import floquet_map
-from cardan.questions.torsion.steady.dynamic_torque import with_bands
+from cardan.questions.torsion.steady.alternating_torque import BANDS
 from cardan.questions.torsion.steady.orbit import Orbit
 from cardan.questions.torsion.steady.run_stability import Verdict
+from cardan.questions.torsion.steady.two_frequencies import envelope, of_drives
 
 LOOK = 60
 """Places in half a turn at which torques are looked at."""
@@ -76,7 +78,7 @@ class Standing:
     """A drive as it stands at places of its points: what its torques do there.
 
     model: closed, at its speed; slow: for disturbances, where its damping differs for them; loose: torques that do not
-    repeat within two turns; speed [rad/s].
+    repeat within two turns, which count to first order with their side bands; speed [rad/s].
     """
 
     def __init__(
@@ -112,12 +114,6 @@ class Standing:
         known = possible & (found.floquet.verdict != Verdict.UNKNOWN)
         parts = [self._read(found.orbit, rows) for rows in _chunks(count)]
         mean, low, high, reversals, amplitude = (np.concatenate(each) for each in zip(*parts, strict=True))
-        if self.loose:
-            lowest, highest = with_bands(found.orbit, self.loose, low, high)
-            swung = (lowest < 0.0) & (highest > 0.0) & (reversals == 0.0)
-            order = min(abs(float(one.law.order or 0.0)) for one in self.loose)
-            reversals = np.where(swung, order * abs(self.speed) / math.pi, reversals)
-            low, high = lowest, highest
 
         def held(values: Array) -> Array:
             return np.asarray(np.where(known.reshape(-1, *(1,) * (values.ndim - 1)), values, np.nan))
@@ -147,19 +143,24 @@ class Standing:
     def _read(self, orbit: Orbit, rows: Array) -> tuple[Array, ...]:
         """Return mean, least, largest torque, changes of its sign [1/s] and amplitudes of the orders, (b, E, ...)."""
         count = LOOK * round(orbit.period / math.pi)
-        q, rate, _acceleration = orbit.of(rows, np.arange(count) * (orbit.period / count))
-        torque = np.moveaxis(element_torques(orbit.drives(rows), q, rate), -1, -2)
+        motion = orbit.of(rows, np.arange(count) * (orbit.period / count))
+        q, rate, _acceleration = motion
+        drives = orbit.drives(rows)
+        torque = np.moveaxis(element_torques(drives, q, rate), -1, -2)
         wave = np.fft.rfft(torque, axis=-1) / count
         orders = len(self.order)
         changes = sign_changes(np.concatenate([torque, torque[..., :1]], axis=-1))
-        duration = orbit.period / abs(self.speed)
-        return (
-            wave[..., 0].real,
-            -peak(-torque),
-            peak(torque),
-            changes / duration,
-            2.0 * np.abs(wave[..., 1 : orders + 1]),
-        )
+        rate_of = changes / (orbit.period / abs(self.speed))
+        amplitude = 2.0 * np.abs(wave[..., 1 : orders + 1])
+        if not self.loose:
+            return wave[..., 0].real, -peak(-torque), peak(torque), rate_of, amplitude
+        others = of_drives(orbit.model, orbit.angle_error, rows, self.loose)
+        speeds, bands = orbit.speed.reshape(-1)[rows], BANDS * round(orbit.period / math.pi)
+        fall, rise = envelope(side_waves(drives, motion, speeds, orbit.period, others, bands), others)
+        low, high = -peak(fall - torque), peak(torque + rise)
+        order = min(abs(float(one.law.order or 0.0)) for one in self.loose)
+        swung = (low < 0.0) & (high > 0.0) & (rate_of == 0.0)
+        return wave[..., 0].real, low, high, np.where(swung, order * abs(self.speed) / math.pi, rate_of), amplitude
 
 
 def sign_changes(torque: Array) -> Array:

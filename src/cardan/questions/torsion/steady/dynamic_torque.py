@@ -108,7 +108,7 @@ def _torques(asked: _Vibrating) -> DynamicTorque:
     drives = orbit.drives(np.arange(orbit.count))
     torque = np.moveaxis(element_torques(drives, q, rate), -1, -2)
     alone = -peak(-torque), peak(torque)
-    lowest, highest = with_bands(orbit, asked.loose, *alone)
+    lowest, highest = _with_bands(orbit, asked.loose, *alone)
     beside: Array = np.maximum(alone[0] - lowest, highest - alone[1])
     at_joints = np.stack([_of_shafts(model, beside, k, shafts) for k in range(shafts)], axis=-1)
     at_ends = np.maximum(at_joints[:, :-1], at_joints[:, 1:])
@@ -138,7 +138,7 @@ def steady_torque(drive: Drive) -> DynamicTorque | None:
     return found if bool(found.found[0]) else None
 
 
-def with_bands(orbit: Orbit, loose: tuple[Torque, ...], lowest: Array, highest: Array) -> tuple[Array, Array]:
+def _with_bands(orbit: Orbit, loose: tuple[Torque, ...], lowest: Array, highest: Array) -> tuple[Array, Array]:
     """Return extremes (s, E) [N·m] with torques that do not repeat; by the straight line where no motion holds both."""
     more, less = highest.copy(), lowest.copy()
     for base, group in grouped(loose):
