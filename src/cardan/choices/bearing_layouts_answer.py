@@ -184,7 +184,7 @@ def _remarks(result: BearingLayouts) -> Iterator[Remark]:
         yield Remark(
             text=_(
                 "Best first: by the fluctuation δ of the output, the largest force on a bearing where torque and "
-                "lengths are known, in steps of a tenth, and the number of bearings and splines. All turn through 360°."
+                "lengths are known, in steps of a tenth, and the number of bearings and splines. All turn all round."
             )
         )
         yield Remark(

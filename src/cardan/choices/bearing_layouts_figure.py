@@ -41,7 +41,7 @@ def layouts_figure(result: BearingLayouts) -> Figure:
         sentence=_("Triangles locate along the axis, circles let it slide; two side by side do not let it tilt."),
         source=_(
             "Graph of links and pairs, Kozhevnikov and Perfil'ev (1978), p. 74-79; rank of the constraints; turned "
-            "through 360°"
+            "all round"
         ),
         rows=tuple(rows),
         legend=False,
