@@ -16,6 +16,7 @@ from cardan.checks import Verdict, check
 from cardan.checks.verdict_table import MOST, alike, limit, verdict_key
 from cardan.choices.check_answer import sentence as said
 from cardan.choices.remedy import Remedy, remedies, typed
+from cardan.drive.drive import Drive
 from cardan.errors import CardanError, InputError
 from cardan.figures.axes import percent
 from cardan.questions.motion.articulation import articulation
@@ -85,6 +86,15 @@ def headline(on: Subject, shown: Sequence[Light]) -> Headline:
             return _plain(_("largest speed fluctuation of the movement"), most)
     several = on.drive.movements or on.drive.poses
     return _plain(_("speed fluctuation of the drive as drawn") if several else _("speed fluctuation"), on.fluctuation)
+
+
+def moving_span(drive: Drive) -> tuple[float, float]:
+    """Return the first and the last instant of a drive's movements [s]; twice the same where nothing moves."""
+    with suppress(CardanError):
+        if drive.movements:
+            first, *_between, last = map(float, default_times(drive.movements))
+            return first, last
+    return 0.0, 0.0
 
 
 def headline_at(on: Subject, instant: float) -> Headline:
@@ -158,7 +168,7 @@ def sentence(shown: Sequence[Light]) -> str:
     return capital(told(said([verdict for one in shown for verdict in one.verdicts]), reader()))
 
 
-__all__ = ["MOST", "Headline", "Light", "headline", "headline_at", "lights", "sentence", "with_remedies"]
+__all__ = ["MOST", "Headline", "Light", "headline", "headline_at", "lights", "moving_span", "sentence", "with_remedies"]
 
 
 # What can be put into a drive file with one touch: settings of the yokes, and changes that cure failed verdicts.

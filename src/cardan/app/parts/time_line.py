@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import time
-from contextlib import suppress
 
 from nicegui import ui
 
 from cardan.answers.quantity import Quantity
 from cardan.answers.reader import reader
 from cardan.app.state.session import Session
-from cardan.errors import CardanError
-from cardan.questions.motion.moving_points import default_times
+from cardan.report.verdict_list import moving_span
 from cardan.texts import _
 
 from .widgets import Timer
@@ -59,11 +57,7 @@ class TimeLine:
     def _follow(self) -> None:
         """Follow an edit of the movements."""
         drive = self.session.drive
-        movements = drive.movements if drive is not None else ()
-        self._first = self._last = 0.0
-        with suppress(CardanError):
-            if movements:
-                self._first, *_between, self._last = map(float, default_times(movements))
+        self._first, self._last = moving_span(drive) if drive is not None else (0.0, 0.0)
         self.body.set_visibility(self._last > self._first)
         instant = self.session.instant
         if instant is not None and not self._first <= instant <= self._last:
