@@ -244,7 +244,8 @@ QUESTIONS: dict[str, Question] = {
             report=False,
             takes=("known", "progress"),
             command="torsion optimise",
-            without={"pose": DESIGNED, "movement": DESIGNED, "case": DESIGNED, "error": MINUTES},
+            gathered=("pose", "movement", "error"),  # by the limits of the file
+            without={"case": DESIGNED},
             examples=(
                 "cardan torsion optimise truck.toml --speeds 300:900",
                 "cardan torsion optimise truck.toml --free shafts[1].stiffness_Nm_per_rad=2e4:2e5 -o better.toml",

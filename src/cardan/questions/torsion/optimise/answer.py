@@ -69,11 +69,21 @@ def answer(drive: Drive, result: OptimisedTorsion) -> Answer:
         sentence=sentence,
         tone=tone,
         tables=(_values(result), _peaks(result)),
-        remarks=(*_remarks(result), *yokes_estimated(drive)),
+        remarks=(*_remarks(result), *_elsewhere(drive), *yokes_estimated(drive)),
         figures=lambda: torsion_design_figures(result),
         facts=_facts(result),
         full=lambda: _curves(result),
     )
+
+
+def _elsewhere(drive: Drive) -> Iterator[Remark]:
+    """Yield what of a drive counts beside its vibration as drawn at its duty."""
+    if drive.poses or drive.movements or any(joint.error is not None for joint in drive.joints):
+        text = _(
+            "Vibration counts for the drive as drawn at its duty; the limits of the file hold in its poses and "
+            "movements, and with the errors of its joints as made."
+        )
+        yield Remark(text=text, code="as_drawn")
 
 
 def _sentence(result: OptimisedTorsion) -> tuple[Tone, Say]:
