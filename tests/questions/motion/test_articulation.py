@@ -1,4 +1,5 @@
 import dataclasses
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -7,6 +8,7 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty, Limits
+from cardan.drive.joints import Tripod
 from cardan.drive.movement import Arm, Body, Harmonic, Hitch, Parallel, Random, Spectrum, Table
 from cardan.drive.shaft import Shaft, Spline
 from cardan.errors import InputError, JointAngleLimitError
@@ -198,6 +200,12 @@ def test_shaft_that_slides_without_a_spline_is_told():
     drive = Drive.from_points([[-1, 0, 0], [0, 0, 0], [1.0, 0, -0.1], [2.0, 0, -0.1]])
     found = articulation(drive, Harmonic(moves=REAR, amplitude=(0.01, 0.0, 0.0), frequency=1.0))
     assert any("shaft 2 changes its length by" in text and "no spline" in text for text in words(found))
+    plunging = replace(drive, joints=(Tripod(centre=drive.joints[0].centre), drive.joints[1]))
+    slip_yoke = replace(drive, shafts=(Shaft(number=1, spline=Spline()),))
+    for taken_up in (plunging, slip_yoke):
+        found = articulation(taken_up, Harmonic(moves=REAR, amplitude=(0.01, 0.0, 0.0), frequency=1.0))
+        assert found.splines[0].stroke > 0.0
+        assert not any("no spline" in text for text in words(found))
 
 
 def test_shaft_of_constant_length_is_no_telescope():

@@ -337,12 +337,19 @@ def _warnings(drive: Drive, place: Geometry, found: Instants, splines: Sequence[
                 kind=kind_name(joint),
             )
     for one in splines:
-        if one.slides and drive.shafts[one.shaft - 1].spline is None:
+        if one.slides and not takes_up(drive, one.shaft):
             text = _("shaft {number} changes its length by {stroke} but has no spline")
             yield say(text, number=one.shaft, stroke=Quantity(one.stroke, "length", decimals=1))
         yield from (flag.message for flag in one.flags)
     if place.assumed:
         yield _("lengths that the drive does not say are assumed: {paths}").format(paths=", ".join(place.assumed))
+
+
+def takes_up(drive: Drive, number: int) -> bool:
+    """Tell whether something takes up the length of a shaft: its spline, that of an end shaft beside it, a joint."""
+    ends = {1, len(drive.shafts)} & {number - 1, number + 1}
+    splines = any(drive.shafts[k - 1].spline is not None for k in (number, *ends))
+    return splines or any(joint.slides or joint.loose for joint in drive.joints[number - 2 : number])
 
 
 def _worst(ask: Question, found: Instants, splines: Sequence[LengthCompensation], *, refine: bool) -> Iterator[Worst]:

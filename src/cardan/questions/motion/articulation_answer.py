@@ -18,7 +18,7 @@ from cardan.figures.palette import shaft as shaft_role
 from cardan.texts import _, mark
 from cardan.units import deg, mm
 
-from .articulation import Articulation, Worst
+from .articulation import Articulation, Worst, takes_up
 from .articulation import articulation as ask
 from .equivalence import SPECK, SYNCHRONOUS
 from .figures.articulation import articulation_figures
@@ -192,7 +192,7 @@ def _state(drive: Drive, one: LengthCompensation) -> Cell:
         return Cell(value=_("failed"), tone="failed")
     if drive.shafts[one.shaft - 1].spline:
         return Cell(value=_("passed"), tone="good")
-    return Cell(value=_("no spline"))
+    return Cell(value="" if takes_up(drive, one.shaft) else _("no spline"))
 
 
 def _worst_instants(found: Articulation) -> Table:
