@@ -33,27 +33,14 @@ def point_contact(
 ) -> PointContact:
     """Return the contact of two bodies that touch at a point, by Hertz.
 
-    Parameters
-    ----------
-    force : array (...) [N]
-        F, not negative.
-    first, second : array (...) [1/m]
-        Sums of the curvatures of both bodies in their two principal planes, hollow ones negative; both above zero.
-    modulus : float [Pa]
-        E*, 1/E* = (1 - ν_1²)/E_1 + (1 - ν_2²)/E_2; that of steel on steel by default.
+    force (...) [N]: F, not negative; first, second (...) [1/m]: sums of the curvatures of both bodies in their two
+    principal planes, hollow ones negative, both sums above zero; modulus [Pa]: E*, 1/E* = (1 - ν_1²)/E_1 +
+    (1 - ν_2²)/E_2, that of steel on steel by default.
 
-    Returns
-    -------
-    PointContact
-
-    Notes
-    -----
     With A ≤ B half of both sums, κ = a/b and e² = 1 - 1/κ²: B/A = (κ² E(e) - K(e))/(K(e) - E(e)),
     p_0³ = 3 F E*² (A + B)²/(2π κ E(e)²), b = p_0 E(e)/(E* (A + B)), K and E the complete elliptic integrals;
     K. L. Johnson, Contact Mechanics (1985), eq. 4.25 to 4.28.
 
-    Examples
-    --------
     A ball of 10 mm on a plane:
 
     >>> found = point_contact(100.0, 200.0, 200.0)
@@ -80,21 +67,8 @@ def point_contact(
 def line_pressure(force: ArrayLike, curvature: ArrayLike, length: ArrayLike) -> Array:
     """Return the largest pressure of two steel cylinders that touch along a line, by Hertz.
 
-    Parameters
-    ----------
-    force : array (...) [N]
-        F.
-    curvature : array (...) [1/m]
-        1/R, sum of both curvatures.
-    length : array (...) [m]
-        L, of the line.
+    force (...) [N]: F; curvature (...) [1/m]: 1/R, sum of both; length (...) [m]: L, of the line. p_0 = √(F E*/(π L R)).
 
-    Notes
-    -----
-    p_0 = √(F E*/(π L R)).
-
-    Examples
-    --------
     >>> print(f"{line_pressure(1000.0, 1 / 0.005, 0.01) / 1e6:.1f} MPa")
     848.9 MPa
     """
