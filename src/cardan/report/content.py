@@ -110,7 +110,7 @@ def content(
         if full:
             aside = [one for one in said.pages if _calm(one)]
             said = replace(said, appendix=(*aside, *_appendix(on, limits, source_text)))
-        said = replace(said, pages=tuple(front))
+        said = replace(said, pages=tuple(_told_once(front)))
     return replace(said, head=Head(rows=tuple(rows(drive.report)), units=who.line(), logo=logo))
 
 
@@ -120,7 +120,6 @@ def _said(on: Subject, limits: Judged) -> Content:
     pages += loaded(on, judged=limits.page is not None)
     if limits.page is not None:
         pages.append(limits.page)
-    pages = list(_told_once(pages))
     keys = key_figures([*(one.keys for one in pages), limits.keys])
     return Content(
         title=on.drive.name or _("Universal-joint drive"),
