@@ -122,7 +122,7 @@ def test_every_quick_answer_is_sound_html(name):
 def test_curves_over_the_input_angle_know_it_and_drawings_are_no_charts():
     on = subject(example("truck-supports"))
     figures = [block.figure for block in answered("motion", on).blocks if isinstance(block, Picture)]
-    assert described(figures[0])["layout"]["meta"]["turning"] == ["", "2", "3"]
+    assert described(figures[0])["layout"]["meta"]["turning"] == [["", 1.0], ["2", 1.0], ["3", 1.0]]  # axis, its scale
     assert described(figures[1])["layout"]["meta"]["turning"] == []  # orders
     space = {
         block.figure.name: drawn_in_space(block.figure)
