@@ -108,7 +108,7 @@ def test_a_machine_s_own_bearings_are_no_loss_of_the_drive():
     cross = Cross(span=0.08, journal=0.02)
     joints = tuple(replace(one, cross=cross, friction=0.02) for one in made.joints)
     found = losses(replace(made, joints=joints, duty=Duty(torque=100.0, speed=100.0)))
-    assert found.supports.tolist() == [0.0, 0.0, 0.0]
+    assert found.supports.tolist() == [0.0]  # its centre bearing alone
     assert found.efficiency < 1.0
 
 

@@ -108,5 +108,5 @@ def test_one_speed_is_a_dot_and_what_grows_is_marked() -> None:
 def test_axes_of_torques_hold_three_decades() -> None:
     found = logarithmic("a", [np.asarray([np.nan, 0.0, 1e-9, 50.0])])
     assert (found.low, found.high) == pytest.approx((0.04, 67.5))
-    assert found.texts == ("0.05", "0.1", "0.2", "0.5", "1", "2", "5", "10", "20", "50")
+    assert found.texts == ("0.1", "1", "10")
     assert logarithmic("a", [np.asarray([0.0, 0.0])]).high > 0.0
