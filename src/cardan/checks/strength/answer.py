@@ -101,6 +101,8 @@ def _torque(value: float) -> Quantity:
 
 def _sentence(result: Strength) -> Say | str:
     first = result.governing
+    if first is None and result.judged:
+        return _("rules of thumb alone could be judged; the drive file lacks what the other checks need.")
     if first is None:
         return _("nothing could be judged; the drive file lacks what the checks need.")
     text = _("too weak for {torque}; torque rating {rated}, governed by {title}.")
