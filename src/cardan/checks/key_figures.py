@@ -55,18 +55,21 @@ def _joint_angle(drive: Drive, allowed: dict[str, Verdict]) -> KeyFigure:
             found.append((float(one.utilisation), k, float(one.value), float(one.limit), one.note, False))
     use, joint, angle, limit, place, moves = max(found, key=lambda one: (round(one[0], 9), -one[1]))
     title = _("largest joint angle while moving") if moves else _("largest joint angle")
+    name = "joint_angle"
+    if angle * WORSE < max(one[2] for one in found):  # a larger one is farther from the limit of its own joint
+        name, title = "joint_angle_nearest", _("joint angle nearest to its limit")
     which = numbered(joint, drive.joints[joint - 1].name)
     at, value = Joined([say(_("joint {number}"), number=which), place]), Quantity(angle, "angle")
     judged = f"joints[{joint - 1}]" in allowed
     if not judged and use < AMBER:
-        return KeyFigure(name="joint_angle", title=title, place=at, value=value)
+        return KeyFigure(name=name, title=title, place=at, value=value)
     tone: Tone = "good" if use < AMBER else "failed" if use > 1.0 and judged else "warning"
     verdict = _("passed") if use < AMBER else _("near the limit") if use <= 1.0 else _("too much")
     if judged and allowed[f"joints[{joint - 1}]"].state == "unconfirmed":
         tone, verdict = "warning", word_of(allowed[f"joints[{joint - 1}]"])
     bound = Quantity(limit, "angle", 6, trim=True)
     return KeyFigure(
-        name="joint_angle",
+        name=name,
         title=title,
         place=at,
         value=value,
