@@ -44,6 +44,7 @@ WITH = {
     "car-propshaft": {"bending", "line", "rotor", "balance"},
     "composite-propshaft": {"bending", "line", "balance"},
     "pickup-two-piece": {"assembly", "mobility", "forces", "losses", "bending", "line", "balance"},
+    "thompson-drive": {"mobility", "forces", "losses", "bending", "line", "balance"},
     "mill-spindle": {"bending", "line", "balance"},
     "pto-drive": {"bending", "line", "balance"},
     "truck-duty-cycle": {"forces", "mobility", "bending", "line", "balance"},

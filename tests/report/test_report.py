@@ -219,7 +219,7 @@ def test_spline_travel_is_judged_and_a_spline_that_does_not_follow_is_told_once(
     assert failed.count("the spline of shaft 2 bottoms") == 1
     assert "A spline does not follow the movement." in failed
     assert re.search(
-        r"remaining travel of the spline of shaft 2[^,]*, while the drive moves\s+−61.64\s+mm\s+≥ 0.*?failed",
+        r"remaining travel of the spline of shaft 2[^,]*, while the drive moves\s+−61.64\s+mm\s+> 0.*?failed",
         failed,
         re.S,
     )
