@@ -28,7 +28,7 @@ def test_every_limit_that_must_be_kept_has_a_bar_in_the_colour_of_its_verdict():
     assert drawn.ends.tolist() == used
     assert [role == "failed" for role in drawn.roles] == [one > 1.0 for one in used]
     assert [role == "warning" for role in drawn.roles] == [0.9 <= one <= 1.0 for one in used]
-    assert figure.sentence == "The 40 with the highest utilisation are shown."
+    assert figure.sentence == "The 16 with the highest utilisation are shown."
 
 
 def test_signs_tell_without_colour():

@@ -87,7 +87,19 @@ def test_help_speaks_the_language_and_fits(spoken, command):
 
 
 KEPT = {
-    *("cardan", "motion", "phasing", "articulation", "forces", "losses", "life", "strength", "balance", "select"),
+    *(
+        "cardan",
+        "motion",
+        "road",
+        "phasing",
+        "articulation",
+        "forces",
+        "losses",
+        "life",
+        "strength",
+        "balance",
+        "select",
+    ),
     *("joint", "accuracy", "bending", "assembly", "mobility", "torsion", "check", "report", "init", "example"),
     *(
         "convert",

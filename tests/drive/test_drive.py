@@ -95,10 +95,6 @@ BAD = {
         lambda: Drive(joints=(Hooke(joint_angle=0.1),), shafts=(Shaft(number=1, yoke_angle=0.1),)),
         ["shafts[0].yoke_angle"],
     ),
-    "a spline on an end": (
-        lambda: Drive(joints=(Hooke(joint_angle=0.1),), shafts=(Shaft(number=2, spline=Spline(teeth=4)),)),
-        ["shafts[1].spline"],
-    ),
     "a shaft too many": (
         lambda: Drive(joints=(Hooke(joint_angle=0.1),), shafts=(Shaft(number=4),)),
         ["shafts[3].number"],

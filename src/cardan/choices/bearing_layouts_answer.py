@@ -9,6 +9,7 @@ from cardan.answers.answer import FILE, Answer, Column, Remark, Table
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.answers.question import Lacking
 from cardan.drive.drive import Drive
+from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.mechanism.counting import Group, minus_groups
 from cardan.mechanism.layouts import BEARINGS
@@ -63,7 +64,7 @@ def answer(drive: Drive, result: BearingLayouts) -> Answer:
         tone="plain" if result.best else "warning",
         figures=lambda: (layouts_figure(result),) if result.best else (),
         tables=(*((_layouts(result),) if result.best else ()), _groups()),
-        remarks=tuple(_remarks(result)),
+        remarks=(*_remarks(result), *yokes_estimated(drive)),
         facts=_facts(result),
         full=lambda: _layouts(result),
     )

@@ -238,7 +238,8 @@ def test_a_sweep_tells_what_the_question_tells_by_itself(name):
 
 def test_every_question_that_has_a_number_has_a_column():
     without = {name for name, question in QUESTIONS.items() if not question.columns}
-    assert without == {"classical", "absorber", "optimise", "selection"}, "errors of formulas, designs, catalogue rows"
+    others = "errors of formulas, designs, layouts, catalogue rows"
+    assert without == {"classical", "absorber", "optimise", "layouts", "selection"}, others
 
 
 @pytest.mark.parametrize("name", DRIVES)

@@ -25,8 +25,10 @@ from cardan.drive.models.kinematics_model import mixed, unmapped
 from cardan.drive.models.wobble import wobbling
 from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import peak
+from cardan.mechanism.constraints import FRAME, constraints
 from cardan.questions.accuracy.accuracy import one_turn, sensitivity
 from cardan.questions.forces.reactions import Determinacy
+from cardan.questions.mobility.mobility import stresses
 from cardan.questions.motion.motion import motion
 from cardan.questions.motion.standing import still
 from cardan.questions.motion.turning import each_shaft
@@ -451,8 +453,14 @@ def _bows(asked: Asked) -> Values:
 
 
 def _twice(asked: Asked) -> Values:
+    """Return how many of the redundant constraints load what holds the shafts; others stay within a joint."""
     found = asked.mobility
-    return {} if found is None or not found.certain else {"": float(found.redundant)}
+    if found is None or not found.certain:
+        return {}
+    system = constraints(found.mechanism)
+    held = [k for k, ends in enumerate(system.ends) if FRAME in ends]
+    loads = stresses(system)[:, held]
+    return {"": float(np.linalg.matrix_rank(loads.reshape(len(loads), -1), tol=STRAINED)) if loads.size else 0.0}
 
 
 def _degree(asked: Asked) -> Values:
@@ -471,6 +479,9 @@ def _surplus(asked: Asked) -> Values:
 def _redundant(asked: Asked) -> Values:
     return {part: float(one > 0.0) for part, one in _twice(asked).items()}
 
+
+STRAINED = 1e-6
+"""Load of a support, beside unit loads within the drive, that is more than rounding."""
 
 PAIRS: tuple[Pair, ...] = (
     Pair(

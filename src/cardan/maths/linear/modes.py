@@ -8,6 +8,7 @@ import numpy as np
 import scipy
 
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost_on
 
 from .rotor_beams import Line, beam_stiffness, layout, matrices
 
@@ -67,7 +68,7 @@ def synchronous(whole: Line, count: int, *, spinning: bool = True) -> Modes:
     full = np.zeros((*vectors.shape[:-2], count, len(at.deflection) + len(at.slope)))
     full[..., at.free] = np.swapaxes(vectors, -1, -2)
     deflection, slope = full[..., at.deflection], full[..., at.slope]
-    place = np.argmax(np.abs(deflection), axis=-1)[..., None]
+    place = foremost_on(np.abs(deflection))[..., None]  # the first of a shape alike both ways
     largest = np.take_along_axis(deflection, place, axis=-1)
     largest = np.where(largest == 0.0, 1.0, largest)
     return Modes(speed=np.sqrt(roots), deflection=deflection / largest, slope=slope / largest)
