@@ -87,19 +87,8 @@ def test_help_speaks_the_language_and_fits(spoken, command):
 
 
 KEPT = {
-    *(
-        "cardan",
-        "motion",
-        "road",
-        "phasing",
-        "articulation",
-        "forces",
-        "losses",
-        "life",
-        "strength",
-        "balance",
-        "select",
-    ),
+    *("cardan", "motion", "phasing", "articulation", "forces", "losses", "life", "strength", "balance", "select"),
+    "road",
     *("joint", "accuracy", "bending", "assembly", "mobility", "torsion", "check", "report", "init", "example"),
     *(
         "convert",

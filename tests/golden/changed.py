@@ -32,12 +32,15 @@ RATED = "a size of joint whose torque its maker does not tell is not judged, and
 
 INSIDE = "the contact pressure of balls and rollers is judged, as advice"
 
+SIGN = "of a shape that is alike both ways the first peak counts; rounding had decided its sign"
+
 NUMBERS: tuple[tuple[str, str, str], ...] = (
     (
         r"select examples/(pto-hitch|rolling-mill-(lower|upper)-spindle|truck-rear-axle)\.toml --torque-Nm",
         r"(need|sizes|types)\..*",
         WORST,
     ),
+    (r"bending examples/composite-propshaft\.toml --modes 5", r"modes\.(deflection|slope)", SIGN),
     (r"motion examples/front-halfshaft", r".*", WOBBLE),
     (r"mobility examples/", r"(repairs|remedies)\..*", MADE),
     (r"check examples/front-halfshaft", r"verdicts\.(utilisation|value)", WOBBLE),

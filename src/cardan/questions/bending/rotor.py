@@ -352,7 +352,7 @@ def rotor_response(
 def _speeds(one: Rotor, used: tuple[float, float] | None) -> Array:
     high = max(FASTEST * one.critical, 1.05 * used[1] if used else 0.0)
     near = [one.critical / n * np.linspace(0.94, 1.06, 41) for n in (1, 2, 3)]
-    ends = [speed for speed in used or () if speed >= SLOWEST * one.critical]
+    ends = [speed for speed in used or () if speed > 0.0]
     return np.unique(np.concatenate([np.linspace(SLOWEST * one.critical, high, SPEEDS), *near, ends]))
 
 
