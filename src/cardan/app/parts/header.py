@@ -306,9 +306,15 @@ class VariantsMenu:
     def __init__(self, session: Session, jobs: Jobs) -> None:
         self.session = session
         self._jobs = jobs
-        with drop_down(_("Variants"), "variants-menu").on("before-show", self._filled) as self._button:
-            self._list = ui.element("div").classes("variants")
-        self._listed: object = None
+        with (
+            drop_down(_("Variants"), "variants-menu").on("before-show", self._mark_own) as self._button,
+            ui.element("div").classes("variants"),
+        ):
+            self._act("bookmark_add", _("Keep this as a variant …"), self.keep, "keep")
+            self._act("folder_open", _("Keep a file as a variant …"), self._keep_file, "keep-file")
+            self._act("compare_arrows", _("Compare …"), self.compare, "compare")
+            self._list = ui.element("div")
+        self._rows: dict[str, tuple[ui.element, ui.button]] = {}
         session.listen("variants", self._count)
         self._count()
 
@@ -343,34 +349,32 @@ class VariantsMenu:
         self._filled()
 
     def _filled(self) -> None:
-        """Fill the menu as it opens, where it would show something else."""
-        session = self.session
-        shown = session.variants.of_text(session.document.text)
-        now = [one.name for one in session.variants], shown and shown.name
-        if now == self._listed:
+        """List the variants; not as the menu opens: what is pressed there must still be there."""
+        names = [one.name for one in self.session.variants]
+        if names == list(self._rows):
             return
-        self._listed = now
         self._list.clear()
-        with session.speaking(), self._list:
-            self._act("bookmark_add", _("Keep this as a variant …"), self.keep, "keep")
-            self._act("folder_open", _("Keep a file as a variant …"), self._keep_file, "keep-file")
-            self._act("compare_arrows", _("Compare …"), self.compare, "compare")
-            if len(session.variants):
+        self._rows.clear()
+        with self.session.speaking(), self._list:
+            if names:
                 ui.separator()
-            for one in session.variants:
-                here = shown is not None and one.name == shown.name
-                with (
-                    ui.element("div")
-                    .classes("row on" if here else "row")
-                    .props(f'role=group aria-label="{_quoted(one.name)}"')
-                ):
-                    go = ui.button(one.name, on_click=lambda name=one.name: self._switch(name))
-                    go.props(f'flat no-caps align=left icon={"check" if here else "none"} data-mark="variant"').classes(
-                        "name"
-                    )
-                    self._small("edit", _("Rename {name}"), one.name, self._rename)
-                    self._small("download", _("Save {name} as a file"), one.name, self._save)
-                    self._small("delete", _("Delete {name}"), one.name, self._delete)
+            for name in names:
+                with ui.element("div").classes("row").props(f'role=group aria-label="{_quoted(name)}"') as row:
+                    go = ui.button(name, on_click=lambda name=name: self._switch(name))
+                    go.props('flat no-caps align=left icon=none data-mark="variant"').classes("name")
+                    self._small("edit", _("Rename {name}"), name, self._rename)
+                    self._small("download", _("Save {name} as a file"), name, self._save)
+                    self._small("delete", _("Delete {name}"), name, self._delete)
+                self._rows[name] = row, go
+        self._mark_own()
+
+    def _mark_own(self) -> None:
+        """Mark the variant that the drive is as it stands."""
+        shown = self.session.variants.of_text(self.session.document.text)
+        for name, (row, go) in self._rows.items():
+            here = shown is not None and shown.name == name
+            row.classes(**{"add" if here else "remove": "on"})
+            go.props(f"icon={'check' if here else 'none'}")
 
     def _act(self, icon: str, title: str, act: Callable[[], None], mark: str) -> None:
         def done() -> None:
