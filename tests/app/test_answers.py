@@ -119,6 +119,7 @@ def test_a_setting_is_applied_with_one_touch(page):
     turn_to(page, "motion")
     page.wait_for_function("() => document.body.innerText.includes('the output turns exactly uniformly')")
     page.click("#undo")
+    page.wait_for_function("() => !document.body.innerText.includes('the output turns exactly uniformly')")
     page.click(mark("make-synchronous"))
     page.wait_for_function("() => document.body.innerText.includes('the output turns exactly uniformly')")
     page.click(mark("make-synchronous"))
