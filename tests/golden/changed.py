@@ -40,7 +40,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         r"(need|sizes|types)\..*",
         WORST,
     ),
-    (r"bending examples/composite-propshaft\.toml --modes 5", r"modes\.(deflection|slope)", SIGN),
+    (r"bending examples/((car|composite)-propshaft|mill-spindle|pto-drive)\.toml", r"modes\.(deflection|slope)", SIGN),
     (r"motion examples/front-halfshaft", r".*", WOBBLE),
     (r"mobility examples/", r"(repairs|remedies)\..*", MADE),
     (r"check examples/front-halfshaft", r"verdicts\.(utilisation|value)", WOBBLE),

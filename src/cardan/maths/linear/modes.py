@@ -8,7 +8,6 @@ import numpy as np
 import scipy
 
 from cardan.maths.arrays import Array
-from cardan.maths.ties import foremost_on
 
 from .rotor_beams import Line, beam_stiffness, layout, matrices
 
@@ -40,6 +39,9 @@ def lowest(stiffness: Array, inertia: Array, count: int) -> tuple[Array, Array]:
     return roots, vectors
 
 
+ALIKE = 1e-6
+"""Share by which peaks of a shape may differ that counts as alike both ways: the first of them points up."""
+
 NONE = 1e-14
 """Values of 1/λ below this share of the largest are what rounding leaves of none."""
 
@@ -68,8 +70,9 @@ def synchronous(whole: Line, count: int, *, spinning: bool = True) -> Modes:
     full = np.zeros((*vectors.shape[:-2], count, len(at.deflection) + len(at.slope)))
     full[..., at.free] = np.swapaxes(vectors, -1, -2)
     deflection, slope = full[..., at.deflection], full[..., at.slope]
-    place = foremost_on(np.abs(deflection))[..., None]  # the first of a shape alike both ways
-    largest = np.take_along_axis(deflection, place, axis=-1)
+    size = np.max(np.abs(deflection), axis=-1, keepdims=True)
+    first = np.argmax(np.abs(deflection) >= (1.0 - ALIKE) * size, axis=-1)[..., None]
+    largest = np.copysign(size, np.take_along_axis(deflection, first, axis=-1))
     largest = np.where(largest == 0.0, 1.0, largest)
     return Modes(speed=np.sqrt(roots), deflection=deflection / largest, slope=slope / largest)
 
