@@ -128,9 +128,8 @@ class KeyFigure:
     title: Text  # what it is: the same for every drive
     value: Quantity  # what it comes to
     place: Text = ""  # where, when or in which condition it is so
-    limit: Quantity | None = (
-        None  # what it is allowed; where that is nothing and more is better, something must be left
-    )
+    # what it is allowed; where that is nothing and more is better, something must be left
+    limit: Quantity | None = None
     # the other end of a band that it must leave: no more than the limit, or at least this
     beyond: Quantity | None = None
     # ``"less"`` where the value must not exceed the limit, ``"more"`` where it must not fall below; else empty

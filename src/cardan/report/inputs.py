@@ -80,8 +80,8 @@ def sources(drive: Drive, known: Catalogue | None = None) -> Iterator[Text]:
     """Yield where figures come from that the file does not give itself: rows of the catalogue, how sure they are."""
     rows, whole = known or catalogue(), filled(drive, known)
     paths = [
-        *(path for k, one in enumerate(whole.joints) for path in _paths(one, f"joints[{k}]")),
-        *(path for k, one in enumerate(whole.shafts) for path in _paths(one, f"shafts[{k}]")),
+        *(path for k, one in enumerate(whole.joints) for path, _words, _value in _leaves(one, f"joints[{k}]")),
+        *(path for k, one in enumerate(whole.shafts) for path, _words, _value in _leaves(one, f"shafts[{k}]")),
     ]
     text = _("{row}: {source}; {sure}.")
     for row in rows_behind(whole, rows, *paths):
@@ -158,13 +158,3 @@ def _value(value: Any, dimension: str) -> Text:
     if isinstance(value, str):
         return value
     return Quantity(value, dimension, trim=True, unit="h" if dimension == "time" and value >= HOURS else "")
-
-
-def _paths(thing: Any, path: str) -> Iterator[str]:
-    """Yield the paths of all numbers and words at and below a path."""
-    for name in fields_of(type(thing)):
-        value = getattr(thing, name)
-        if is_dataclass(value):
-            yield from _paths(value, f"{path}.{name}")
-        elif value is not None:
-            yield f"{path}.{name}"

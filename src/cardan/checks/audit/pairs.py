@@ -457,10 +457,12 @@ def _twice(asked: Asked) -> Values:
     found = asked.mobility
     if found is None or not found.certain:
         return {}
+    if not found.redundant:
+        return {"": 0.0}
     system = constraints(found.mechanism)
     held = [k for k, ends in enumerate(system.ends) if FRAME in ends]
     loads = stresses(system)[:, held]
-    return {"": float(np.linalg.matrix_rank(loads.reshape(len(loads), -1), tol=STRAINED)) if loads.size else 0.0}
+    return {"": float(np.linalg.matrix_rank(loads.reshape(len(loads), -1), tol=STRAINED))}
 
 
 def _degree(asked: Asked) -> Values:

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan.answers.quantity import Quantity, Text, say
-from cardan.figures.axes import axis, steps, written
-from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Panel, Row, Rule, Series
+from cardan.figures.axes import axis
+from cardan.figures.figure import Axis, Band, Curve, Figure, Panel, Row, Rule, Series
 from cardan.figures.palette import DASHES
 from cardan.maths.arrays import Array
-from cardan.questions.torsion.steady.figure import looks, worst_elements
+from cardan.questions.torsion.steady.figure import looks, order_bars, worst_elements
 from cardan.texts import _
 from cardan.units import deg
 
@@ -147,35 +147,7 @@ def _spectrum(found: RoadTorsion) -> Panel:
     e = found.peak[1]
     envelope = found.envelope[e]
     kept = [k for k in range(len(found.order)) if envelope[k] > 1e-4 * np.max(envelope)] or [0]
-    top = float(np.max(envelope)) or 1.0
-    ticks = steps(0.0, top, 4)
-    return Panel(
-        series=(
-            Bars(
-                at=np.arange(len(kept), dtype=float),
-                size=envelope[kept],
-                roles=("accent",),
-                texts=tuple(say("{torque:bare}", torque=Quantity(float(envelope[k]), "torque", 3)) for k in kept),
-            ),
-        ),
-        x=Axis(
-            label=say(_("order of the input shaft, in {name}"), name=found.train.elements[e]),
-            low=-0.6,
-            high=len(kept) - 0.4,
-            ticks=tuple(float(k) for k in range(len(kept))),
-            texts=tuple(f"{found.order[k]:g}" for k in kept),
-            grid=False,
-        ),
-        y=Axis(
-            label=_("Largest amplitude"),
-            unit="Nm",
-            dimension="torque",
-            low=0.0,
-            high=1.2 * top,
-            ticks=ticks,
-            texts=written(ticks),
-        ),
-    )
+    return order_bars(_("Largest amplitude"), found.train.elements[e], found.order, envelope, kept)
 
 
 FIGURES = {RoadTorsion: road_figures}

@@ -79,38 +79,7 @@ def response_figure(found: TorsionResponse) -> Figure:
     e = worst[0]
     order, amplitude = orders_of(found, e)
     kept = [k for k in np.argsort(-amplitude, kind="stable")[:BARS] if amplitude[k] > 1e-4 * np.max(amplitude)]
-    kept = sorted(int(k) for k in kept)
-    words = tuple(f"{order[k]:g}" for k in kept)
-    at = np.arange(len(kept), dtype=float)
-    top = float(np.max(amplitude[kept], initial=0.0)) or 1.0
-    ticks = steps(0.0, top, 4)
-    bars = Panel(
-        series=(
-            Bars(
-                at=at,
-                size=amplitude[kept],
-                roles=("accent",),
-                texts=tuple(say("{torque:bare}", torque=_torque(amplitude[k])) for k in kept),
-            ),
-        ),
-        x=Axis(
-            label=say(_("order of the input shaft, in {name}"), name=names[e]),
-            low=-0.6,
-            high=max(len(kept), 1) - 0.4,
-            ticks=tuple(at),
-            texts=words,
-            grid=False,
-        ),
-        y=Axis(
-            label=_("Amplitude"),
-            unit="Nm",
-            dimension="torque",
-            low=0.0,
-            high=1.2 * top,
-            ticks=ticks,
-            texts=written(ticks),
-        ),
-    )
+    bars = order_bars(_("Amplitude"), names[e], order, amplitude, sorted(int(k) for k in kept))
     source = _("periodic solution of the exact equations of motion")
     return Figure(
         name="torsion-response",
@@ -118,6 +87,39 @@ def response_figure(found: TorsionResponse) -> Figure:
         sentence="",
         source=Joined([source, _left_out(found, worst), _beside(found)], between=""),
         rows=(Row(panels=(over,), height=2.0), Row(panels=(bars,), height=1.2)),
+    )
+
+
+def order_bars(label: str, name: Text, order: Array, amplitude: Array, kept: Sequence[int]) -> Panel:
+    """Return amplitudes (K,) [N·m] of orders (K,) in an element as bars: those that are kept, in their order."""
+    top = float(np.max(amplitude[list(kept)], initial=0.0)) or 1.0
+    ticks = steps(0.0, top, 4)
+    return Panel(
+        series=(
+            Bars(
+                at=np.arange(len(kept), dtype=float),
+                size=amplitude[list(kept)],
+                roles=("accent",),
+                texts=tuple(say("{torque:bare}", torque=_torque(amplitude[k])) for k in kept),
+            ),
+        ),
+        x=Axis(
+            label=say(_("order of the input shaft, in {name}"), name=name),
+            low=-0.6,
+            high=max(len(kept), 1) - 0.4,
+            ticks=tuple(float(k) for k in range(len(kept))),
+            texts=tuple(f"{order[k]:g}" for k in kept),
+            grid=False,
+        ),
+        y=Axis(
+            label=label,
+            unit="Nm",
+            dimension="torque",
+            low=0.0,
+            high=1.2 * top,
+            ticks=ticks,
+            texts=written(ticks),
+        ),
     )
 
 
