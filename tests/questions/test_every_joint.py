@@ -258,14 +258,18 @@ def test_a_moving_joint_rubs_by_its_joint_angle():
 def test_a_half_shaft_of_a_car_answers():
     drive = example("front-halfshaft")
     duty = replace(drive.duty, torque=600.0)
-    found = forces(replace(drive, duty=duty))
+    lost = losses(replace(drive, duty=duty))
+    rubbing = forces(replace(drive, duty=duty))
+    assert rubbing.input_torque == pytest.approx(lost.input_torque)
+    assert rubbing.loss == pytest.approx(lost.joint_power)
+    found = forces(replace(drive, duty=duty, joints=tuple(replace(one, friction=None) for one in drive.joints)))
     assert found.input_torque == pytest.approx(600.0)
     bent = np.tan(0.5 * np.radians([6.0, 30.0])) * 600.0
     assert np.asarray(found.bending_couple)[[0, 2], 0] == pytest.approx(bent)
 
 
 def test_answers_about_the_half_shaft_agree():
-    """Losses count what rubs in its joints, forces say that they do not: no two of them contradict each other."""
+    """Losses and forces count what rubs in its joints: no two answers contradict each other."""
     drive = example("front-halfshaft")
     drive = replace(drive, duty=replace(drive.duty, torque=600.0))
     assert losses(drive).heat > 1000.0

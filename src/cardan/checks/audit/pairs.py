@@ -178,9 +178,9 @@ def _light(asked: Asked) -> bool:
     whole, case = asked.train, asked.case
     if whole is None or case is None or case.vibration is not None:
         return False
-    return all(one is None for one in (whole.drag, whole.resisting_torque)) and (
-        not asked.drive.duty.speed or (whole.inertia is None and whole.cross_inertia is None)
-    )
+    if whole.rubs or whole.resisting_torque is not None:
+        return False
+    return not asked.drive.duty.speed or (whole.inertia is None and whole.cross_inertia is None)
 
 
 def _torque_carried(asked: Asked) -> Values:
@@ -239,8 +239,6 @@ def _rubs(asked: Asked) -> bool:
     if found is None or found.each or found.locked or not abs(found.input_power) > 0.0:
         return False
     if whole is None or whole.cross_inertia is not None:
-        return False
-    if any(joint.rubbing and joint.friction for joint in asked.drive.joints):  # forces say that they leave it out
         return False
     return float(np.sum(found.supports) + np.sum(found.splines)) <= RUBBING * SAMPLED * abs(found.input_power)
 
@@ -364,7 +362,7 @@ def _driving_torque(asked: Asked) -> Values:
     """Return the same without damping, where no friction counts either."""
     found, whole, duty = asked.forces, asked.train, asked.drive.duty
     plain = duty.torque_at == "output" and (duty.speed or 0.0) > 0.0 and duty.load is None
-    if found is None or whole is None or whole.drag is not None or whole.resisting_torque is not None or not plain:
+    if found is None or whole is None or whole.rubs or whole.resisting_torque is not None or not plain:
         return {}
     return {"": float(np.mean(found.input_torque[:-1]))}
 

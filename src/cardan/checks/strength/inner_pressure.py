@@ -57,7 +57,7 @@ def _force(joint: Joint, k: int, joint_angle: Array) -> Array:
     """Return the largest force on parts alike of a joint over its torque [1/m], at joint angles (...) [rad]."""
 
     def exact(angle: float) -> float:
-        return float(np.max(unit_loads(joint, angle)[k].high))
+        return float(np.max([unit_loads(joint, angle, fed=fed)[k].high for fed in (True, False)]))
 
     flat = np.unique(joint_angle)
     if flat.size > FEW:

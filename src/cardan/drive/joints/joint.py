@@ -280,6 +280,11 @@ class Joint:
         return tuple(name for name in names if getattr(self, name) is None)
 
     @property
+    def rubs(self) -> bool:
+        """Whether it tells what rubs in it besides the journals of a cross: friction and sizes are given."""
+        return bool(self.rubbing and self.friction) and not self.without(self.rubbing)
+
+    @property
     def told(self) -> bool:
         """Whether its sizes tell the forces that go with its torque."""
         return self.fixed

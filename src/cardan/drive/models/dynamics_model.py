@@ -92,6 +92,11 @@ class Train:
         """Number of joints n."""
         return int(self.points.shape[-2]) - 2
 
+    @property
+    def rubs(self) -> bool:
+        """Whether friction in any joint counts."""
+        return self.drag is not None or any(kind.rubs for kind in self.kinds)
+
 
 def train_of_points(
     points: Array, *, yoke_angle: Array | None = None, start_phase: Array | float = 0.0, **parts: object

@@ -390,14 +390,11 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
         yield Remark(
             text=_("Journals carry the couples alone here; supports would tell the forces between the shafts.")
         )
-    within = [i for i, joint in enumerate(drive.joints, 1) if joint.rubbing and joint.friction]
-    if within:
-        text = plural(
-            "Friction within joint {numbers} does not count in the forces; losses count it.",
-            "Friction within joints {numbers} does not count in the forces; losses count it.",
-            len(within),
-        )
-        yield Remark(text=say(text, numbers=together(names, [i - 1 for i in within])))
+    short = {i: joint.without(joint.rubbing) for i, joint in enumerate(drive.joints, 1) if joint.friction}
+    lacking = [f"joints[{i - 1}].{one}" for i, keys in short.items() for one in keys]
+    if lacking:
+        text = _("Warning: friction within joints does not count where the file does not give {keys}.")
+        yield Remark(text=say(text, keys=", ".join(spelled(one) for one in lacking)), tone="warning")
     loose = [
         i
         for i, joint in enumerate(drive.joints, 1)

@@ -96,7 +96,7 @@ def joint_table(drive: Drive, found: Forces) -> Table:
         ),
         note=_(
             "Largest force in the joint centre, and largest load of a journal in the driving and in the driven yoke; "
-            "mean power loss in the journals."
+            "mean power loss."
         ),
     )
 
@@ -108,7 +108,9 @@ def journal_peaks(found: Forces) -> tuple[Array, Array]:
 
 
 def rubs(joint: Joint) -> bool:
-    """Return whether friction in the journals of a joint counts."""
+    """Return whether friction in a joint counts."""
+    if joint.rubbing:
+        return joint.rubs
     given = joint.friction is not None or joint.material_friction is not None
     return given and joint.cross is not None and None not in (joint.cross.span, joint.cross.journal)
 
@@ -157,7 +159,7 @@ def inner_table(drive: Drive, loads: Sequence[InnerLoad]) -> Table:
             ),
         ),
         note=_(
-            "Largest over a turn of any of the parts alike, and the least force of any; rigid, without friction and "
+            "Largest over a turn of any of the parts alike, and the least force of any; rigid, without "
             "clearance. Pressure by Hertz."
         ),
     )

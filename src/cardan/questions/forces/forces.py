@@ -34,6 +34,7 @@ from .reactions import (
     frame,
     pushes,
     right_side,
+    shoves,
     solved,
     thrusts,
     weights,
@@ -83,7 +84,7 @@ def forces(
     Notes
     -----
     End shafts on which no support stands are held by their machines, where the drive has any supports. Rigid shafts
-    and crosses; Coulomb friction in the journals and splines where the drive gives it. Torques go from the load
+    and crosses; Coulomb friction in the joints and splines where the drive gives it. Torques go from the load
     backwards, forces follow from one linear system for the whole drive (statics of Book p. 129-150). Supports without
     friction: what they take is small beside the torque, see `losses`. The couple of a joint of another kind works on no
     motion that the joint allows; one that turns by a law without a Möbius map counts by the nearest map.
@@ -118,7 +119,7 @@ def _forces(
         used, whole = Duty() if duty is None else duty, drive
     if used.torque is None:
         raise refuse("duty.torque", _("missing; forces follow from the torque that the drive carries"), "missing")
-    if used.speed == 0.0 and whole.drag is not None:
+    if used.speed == 0.0 and whole.rubs:
         raise refuse("duty.speed", _("at standstill the sense of friction is open; give the speed of running, or none"))
     xp = namespace(whole.points, angle)
     phi = positions(angle, xp, turns=turns(used.harmonics))
@@ -466,7 +467,7 @@ def forces_from(
         held = frame(whole, stand, points)
         equations, unknowns = held.equations, held.unknowns
         loads = [*pushes(whole, held, stand, found), *weights(whole, held, stand, acceleration)]
-        known = right_side(held, found.secondary, loads, push)
+        known = right_side(held, found.secondary, loads, push, shoves(whole, held, stand, found.rubbed))
         amounts, status = _amounts(
             whole, held, known, field, lambda: elastic(whole, held, stand, found, loads, push, known)
         )

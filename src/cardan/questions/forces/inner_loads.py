@@ -16,7 +16,15 @@ from cardan.formulas.hertz import point_contact
 from cardan.maths.arrays import Array
 from cardan.maths.curves.cycle_statistics import harmonics
 from cardan.maths.kernel import frames
-from cardan.questions.motion.joint_mechanism import STRAIGHT, JointCarried, joint_carried, stance_of
+from cardan.questions.motion.joint_mechanism import (
+    CLOSER,
+    STRAIGHT,
+    JointCarried,
+    joint_carried,
+    over,
+    rubbed_push,
+    stance_of,
+)
 from cardan.questions.motion.motion import motion
 
 from .forces import Forces
@@ -27,8 +35,8 @@ PLACES = 72
 ROUNDING = 1e-9
 """Couples below this for a torque of 1 N·m, and forces below this share of the largest, are nothing but rounding."""
 
-CLOSER = 720
-"""The same of the force that friction makes, which jumps."""
+EVEN = np.arange(CLOSER) * (2.0 * np.pi / CLOSER)
+"""Places of a turn at which the force that friction makes is taken [rad]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -59,17 +67,19 @@ class InnerLoad:
 def inner_loads(drive: Drive, found: Forces) -> tuple[InnerLoad, ...]:
     """Return what the parts inside of the joints of a drive carry, joints that tell it.
 
-    found: forces of the drive as drawn. Rigid parts without friction and play; what balls and cage share beyond the
-    balances they share so that the sum of squares is least, as equal springs do.
+    found: forces of the drive as drawn. Rigid parts without play, with friction where the joint tells it; what balls
+    and cage share beyond the balances they share so that the sum of squares is least, as equal springs do.
     """
     loads = []
     angles = given_chain(drive).joint_angle
     turned = np.asarray(motion(drive, found.angle).yoke_rotation)
     for i, joint in enumerate(drive.joints):
-        units = unit_loads(joint, float(angles[i]))
-        torque = np.abs(np.asarray(found.shaft_torque)[i + 1]) if units else np.zeros(1)
-        for one in units:
-            high, low, couple = (torque * over(values, turned[i]) for values in (one.high, one.low, one.couple))
+        torque = np.asarray(found.shaft_torque)[i + 1]
+        for one, other in zip(*(unit_loads(joint, float(angles[i]), fed=fed) for fed in (True, False)), strict=True):
+            high, low, couple = (
+                np.abs(torque) * np.where(torque * found.speed[i + 1] < 0.0, *(over(row, turned[i]) for row in rows))
+                for rows in ((other.high, one.high), (other.low, one.low), (other.couple, one.couple))
+            )
             least = float(np.min(low))
             loads.append(
                 InnerLoad(
@@ -107,7 +117,7 @@ def thrusts(drive: Drive, found: Forces) -> tuple[Thrust, ...]:
     angles = given_chain(drive).joint_angle
     turned = np.asarray(motion(drive, found.angle).yoke_rotation)
     for i, joint in enumerate(drive.joints):
-        if joint.slides and joint.friction and joint.rubbing and not joint.without(joint.rubbing):
+        if joint.slides and joint.rubs:
             torque = np.asarray(found.shaft_torque)[i + 1]
             fed, back = (over(row, turned[i]) for row in unit_thrust(joint, float(angles[i])))
             force = torque * np.where(torque < 0.0, back, fed)
@@ -117,26 +127,13 @@ def thrusts(drive: Drive, found: Forces) -> tuple[Thrust, ...]:
     return tuple(pushed)
 
 
-@lru_cache(maxsize=512)
 def unit_thrust(joint: Joint, joint_angle: float) -> Array:
-    """Return the axial force of a joint on its driven shaft for 1 N·m at `CLOSER` places, array (2, `CLOSER`) [1/m].
+    """Return the force of a joint along its driven shaft, on this, for 1 N·m, array (2, `CLOSER`) [1/m].
 
     joint_angle [rad]. While its driving shaft drives, and while the other does; nought where nothing in it moves.
     """
-    if joint_angle < STRAIGHT:
-        return np.zeros((2, CLOSER))
-    angle = np.arange(CLOSER // joint.alike) * (2.0 * np.pi / CLOSER)
-    rows = []
-    for fed in (True, False):
-        one = joint_carried(joint, joint_angle, angle, friction=joint.friction or 0.0, fed=fed)
-        rows.append(np.tile(frames.dot(one.wrench[:, 3:], one.axis), joint.alike))
-    return np.stack(rows)
-
-
-def over(values: Array, angle: Array) -> Array:
-    """Return values (p,) at even places of a turn at angles (...) [rad] of the driving mark, straight between them."""
-    places = np.arange(values.size + 1) * (2.0 * np.pi / values.size)
-    found: Array = np.interp(np.remainder(angle, 2.0 * np.pi), places, np.append(values, values[0]))
+    along, aside = (rubbed_push(joint, joint_angle, EVEN)[:, k] for k in (1, 2))
+    found: Array = np.cos(joint_angle) * along + np.sin(joint_angle) * aside
     return found
 
 
@@ -146,11 +143,19 @@ def pressure(contact: Contact | None, force: float) -> float | None:
 
 
 @lru_cache(maxsize=512)
-def unit_loads(joint: Joint, joint_angle: float) -> tuple[UnitLoad, ...]:
-    """Return what the parts of a joint carry at a joint angle [rad] for 1 N·m; empty where it tells nothing."""
+def unit_loads(joint: Joint, joint_angle: float, *, fed: bool = True) -> tuple[UnitLoad, ...]:
+    """Return what the parts of a joint carry at a joint angle [rad] for 1 N·m; empty where it tells nothing.
+
+    fed: whether the driving shaft drives; where nothing rubs it makes no difference.
+    """
+    if not _tells(joint):
+        return ()
+    mu = (joint.friction or 0.0) if joint.rubs and joint_angle >= STRAIGHT else 0.0
+    if not mu and not fed:
+        return unit_loads(joint, joint_angle)
     repeats = joint.alike if PLACES % joint.alike == 0 else 1
     angle = np.arange(PLACES // repeats) * (2.0 * np.pi / PLACES)
-    return tuple(_loads(joint_carried(joint, joint_angle, angle, loads=True), repeats)) if _tells(joint) else ()
+    return tuple(_loads(joint_carried(joint, joint_angle, angle, friction=mu, fed=fed, loads=True), repeats))
 
 
 def _tells(joint: Joint) -> bool:

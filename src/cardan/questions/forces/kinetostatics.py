@@ -1,7 +1,8 @@
 """Torque and couples of every shaft and cross while a drive turns: exact, backwards from the load, as arrays.
 
 A cross passes on a couple along its own normal and nothing else, but for what turns the cross itself and what rubs in
-its bearings. So the couple at the load gives that of every shaft before it, one joint at a time.
+its bearings. So the couple at the load gives that of every shaft before it, one joint at a time. What rubs in a joint
+of another kind adds to its couple what its inner mechanism says, `InnerFriction`.
 """
 
 from __future__ import annotations
@@ -15,8 +16,9 @@ from cardan.drive.models.kinematics_model import Chain
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.curves.paths import Jet
 from cardan.maths.kernel import frames
+from cardan.questions.motion.joint_mechanism import FEW, STRAIGHT, rubbed_push, rubbed_share
 from cardan.questions.motion.motion import Motion, motion
-from cardan.questions.motion.moving_chain import Spins, moving_axes
+from cardan.questions.motion.moving_chain import Spins, moving_axes, seen
 
 from .turn_loads import lean
 
@@ -81,6 +83,8 @@ class Couples:
     loss: Array  # (..., p, n) [W]: power lost in the journals of each joint
     power: Array  # (..., p) [W]: what the power balance leaves
     flow: Array  # (..., p) [W]: largest power in that balance, to judge what is left by
+    # of each joint (..., p, 3) [N]: force that friction within it puts on its driven shaft; None where nothing rubs
+    rubbed: tuple[Array | None, ...]
 
 
 def standing(
@@ -161,7 +165,7 @@ def couples(train: Train, stand: KinematicState, load: Array) -> Couples:
     With h = Ḣ of the cross: T⁺ = [τ_{i+1} + (h·u)(u·e_{i+1})]/(n·e_{i+1}), K⁺ = T⁺ n - (h·u) u, K⁻ = K⁺ + h,
     τ_i = K⁻·e_i + L_i + J_i ε_i. Friction of the journals adds -κ|T| sgn(p) u + κ|T| sgn(q) v to both couples, p and q
     the rates of the cross against the driving and of the driven yoke against the cross; where one of them changes its
-    sense, the sense right after. Book (103), (113) are cases.
+    sense, the sense right after. Book (103), (113) are cases. Other joints that rub: `inner_friction`.
     """
     xp = namespace(stand.speed, load)
     n = train.joints
@@ -173,12 +177,14 @@ def couples(train: Train, stand: KinematicState, load: Array) -> Couples:
     rows: list[list[Array]] = [[], [], [], [], []]
     torque, pushed, driving, driven, losses = rows
     entering = [tau]
+    rubbed: list[Array | None] = []
     for i in reversed(range(n)):
         u, v = stand.driving_arm[..., i, :], stand.driven_arm[..., i, :]
         normal = stand.couple_way(i)
         lean = frames.dot(u, e[..., i + 1, :])
         into = frames.dot(normal, e[..., i + 1, :])
         swing = _cross_swing(train, stand, i, (u, v, normal))
+        inside = inner_friction(train, stand, i)
         top = tau if swing is None else tau + swing.rate[0] * lean
         if train.drag is not None:
             (p, q), (ahead, behind) = _journal_rates(stand, i, u, v, lean)
@@ -192,6 +198,13 @@ def couples(train: Train, stand: KinematicState, load: Array) -> Couples:
             t = top / into
             lost = zero
             out = t[..., None] * normal
+        if inside is not None:
+            power = tau * w[..., i + 1]
+            added = tau[..., None] * inside.of(power, inside.couple)
+            out = out + added
+            t = t + frames.dot(added, normal)
+            lost = lost + frames.dot(added, stand.turning(i) - stand.turning(i + 1))
+        rubbed.insert(0, None if inside is None else tau[..., None] * inside.of(power, inside.force))
         back, given = t, out
         if swing is not None:
             hu, hv, hn = swing.rate
@@ -222,6 +235,7 @@ def couples(train: Train, stand: KinematicState, load: Array) -> Couples:
         loss=xp.stack(losses, axis=-1),
         power=tau * w[..., 0] - work,
         flow=flow,
+        rubbed=tuple(rubbed),
     )
 
 
@@ -252,9 +266,56 @@ def resisted(train: Train, stand: KinematicState, drive: Array) -> Array:
             tau = t * into - kappa * xp.abs(t) * ahead * lean
         else:
             tau = left / out * into
+        inside = inner_friction(train, stand, i)
+        if inside is not None:
+            tau = left / (out / into + inside.of(left * stand.speed[..., i], frames.dot(inside.couple, e[..., i, :])))
         if swing is not None:
             tau = tau - swing.rate[0] * lean
     return tau - _own(train, stand, train.joints)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class InnerFriction:
+    """What friction within a joint without a single cross adds to its couple and force on the driven shaft.
+
+    For a torque of 1 N·m on this; first axis: while power flows forwards, and while it flows backwards.
+    """
+
+    couple: Array  # (2, ..., p, 3)
+    force: Array  # (2, ..., p, 3) [1/m]
+
+    @staticmethod
+    def of(power: Array, both: Array) -> Array:
+        """Return rows (...) or (..., 3) of both flows (2, ...) by the sense of a power (...)."""
+        ahead = power >= 0.0
+        found: Array = np.where(ahead[..., None] if both.ndim > ahead.ndim + 1 else ahead, both[0], both[1])
+        return found
+
+
+def inner_friction(train: Train, stand: KinematicState, i: int) -> InnerFriction | None:
+    """Return what friction within joint i adds; None where it does not rub or is a single cross.
+
+    Its inner mechanism tells the share s of the power of the driving shaft that it rubs away, and what it adds about
+    the normal N of the plane of the shafts, `rubbed_share` and `rubbed_push`. The couple about the driven shaft is
+    given, so with K·e = (K_0·e)/(1 ∓ s) the rest of it is along N × e'.
+    """
+    if not train.kinds or not train.kinds[i].rubs:
+        return None
+    before, after = stand.axis[..., i, :], stand.axis[..., i + 1, :]
+    plane = None if train.normal is None else train.normal[..., None, i, :]
+    normal, aside, theta, alpha = seen(stand.driving_arm[..., i, :], before, after, plane)
+    many = np.unique(np.round(alpha, 9)).size > FEW
+    shares = rubbed_share(train.kinds[i], alpha, theta, many=many)
+    push = rubbed_push(train.kinds[i], alpha, theta, many=many)
+    way = stand.couple_way(i)
+    step = frames.dot(way, before) / frames.dot(way, after)
+    bent = np.where(alpha > STRAIGHT, np.sin(alpha), np.inf)
+    more = np.stack([shares[0] / (1.0 - shares[0]), -shares[1] / (1.0 + shares[1])])
+    across = -step * more / bent
+    return InnerFriction(
+        couple=across[..., None] * frames.cross(normal, after) + push[:, 0][..., None] * normal,
+        force=sum(push[:, 1 + k][..., None] * axis for k, axis in enumerate((before, aside, normal))),
+    )
 
 
 def _own(train: Train, stand: KinematicState, i: int) -> Array:

@@ -6,7 +6,7 @@ left of the balance when everything is summed up again.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -155,11 +155,36 @@ def weights(train: Train, frame: Frame, stand: KinematicState, acceleration: Arr
 
 def pushes(train: Train, frame: Frame, stand: KinematicState, couples: Couples) -> list[Load]:
     """Return the forces that loose joints put on their shafts with their couples, at the joints."""
-    return [load for i in range(train.joints) for load in push_of(train, frame, stand, i, couples.driven[..., i, :])]
+    return [
+        load
+        for i in range(train.joints)
+        for load in push_of(train, frame, stand, i, couples.shaft_torque[..., i + 1], couples.rubbed[i])
+    ]
 
 
-def push_of(train: Train, frame: Frame, stand: KinematicState, i: int, couple: Array) -> list[Load]:
-    """Return the forces that joint i puts on its shafts with a couple (..., p, 3) [N·m]; none where it is not loose."""
+def shoves(train: Train, frame: Frame, stand: KinematicState, forces: Sequence[Array | None]) -> list[Array]:
+    """Return the known forces along all that slides, each (..., p) [N], in the order of `support_statics.sliding`.
+
+    forces: what friction within each joint puts on its driven shaft, (..., p, 3) [N]; None without any. Along its
+    driving shaft a joint that slides passes on nothing else; what a loose joint passes on stands among the loads.
+    """
+    rows: list[Array] = []
+    for i, free in enumerate(frame.layout.slides):
+        force = None if not train.kinds or train.kinds[i].loose else forces[i]
+        for k, slides in enumerate(free):
+            if slides:
+                along = 0.0 * stand.speed[..., i] if force is None or k else frames.dot(force, stand.axis[..., i, :])
+                rows.append(along)
+    return rows
+
+
+def push_of(
+    train: Train, frame: Frame, stand: KinematicState, i: int, torque: Array, added: Array | None = None
+) -> list[Load]:
+    """Return the forces that joint i puts on its shafts with a torque on the driven one; none where it is not loose.
+
+    torque (..., p) [N·m]; added (..., p, 3) [N]: what friction within it adds to the force on the driven shaft.
+    """
     if not train.kinds or not train.kinds[i].loose:
         return []
     before, after = stand.axis[..., i, :], stand.axis[..., i + 1, :]
@@ -167,8 +192,8 @@ def push_of(train: Train, frame: Frame, stand: KinematicState, i: int, couple: A
     size = train.kinds[i].push(theta, alpha)
     if size is None:
         return []
-    torque = frames.dot(couple, after + 0.0 * couple)
     force = torque[..., None] * sum(size[..., k, None] * way for k, way in enumerate((before, aside, normal)))
+    force = force if added is None else force + added
     length = frame.acting.length[..., i]
     return [
         Load(shaft=i, force=-force, place=length, behind=True),
@@ -198,8 +223,11 @@ def thrusts(train: Train, stand: KinematicState, couples: Couples, sense: Array 
     return way * train.grip[..., None, :] * xp.abs(torque)
 
 
-def right_side(frame: Frame, secondary: Array, loads: list[Load], thrust: Array) -> Array:
-    """Return the known side of the balance, array (..., p, rows), in the order of `held.balance`."""
+def right_side(frame: Frame, secondary: Array, loads: list[Load], thrust: Array, shoved: Sequence[Array] = ()) -> Array:
+    """Return the known side of the balance, array (..., p, rows), in the order of `held.balance`.
+
+    shoved: of `shoves`; nothing pushes along what slides when empty.
+    """
     xp = namespace(secondary, thrust)
     acting = frame.acting
     size = xp.mean(acting.length, axis=-1)
@@ -230,7 +258,7 @@ def right_side(frame: Frame, secondary: Array, loads: list[Load], thrust: Array)
         shove = [frames.dot(across[..., k, :], force) for k in range(2)]
         ahead += [-row for row in (*shove, first, *turn)]
     rows = [*ahead, *behind]
-    rows += [0.0 * rows[0]] * frame.slides
+    rows += shoved or [0.0 * rows[0]] * frame.slides
     shape = broadcast_shapes(*(tuple(row.shape) for row in rows))
     return xp.stack([xp.broadcast_to(row, shape) for row in rows], axis=-1)
 

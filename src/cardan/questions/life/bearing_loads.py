@@ -20,6 +20,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.curves.cycle_statistics import mean_between
 from cardan.questions.losses.chain_friction import kinks
 from cardan.questions.losses.loss_model import Model, flowing, moving
+from cardan.questions.losses.loss_parts import rubbing_of
 from cardan.questions.motion.motion import Motion
 from cardan.questions.torsion.steady.dynamic_torque import DynamicTorque
 from cardan.texts import _
@@ -67,7 +68,7 @@ def bearing_loads(
     vibrating (b,): the torques of each part with torsional vibration; None, or none at all, where it is not counted.
     drawn: machine half for which these are, where it is another one: what vibration adds there is added here.
     Raises InputError: friction locks a joint.
-    Torques go from the end where they are given through the drive, with the friction of the journals, inertia and
+    Torques go from the end where they are given through the drive, with the friction of the joints, inertia and
     resisting torques of the shafts where the drive gives them; the means by Gauss's rule between the angles at which
     a cross stops in a yoke.
     """
@@ -121,6 +122,7 @@ def _model(drive: Drive, machine: Train, duty: Duty, chain: Chain, parts: Sequen
         on=np.zeros(0, dtype=int),
         grip=none,
         slide=none,
+        rubbing=rubbing_of(drive.joints, many=bool(drive.movements)),
     )
 
 
@@ -129,8 +131,7 @@ class _Flow:
 
     def __init__(self, model: Model, drawn: Model, vibrating: Sequence[DynamicTorque | None]) -> None:
         self.model, self.drawn, self.vibrating = model, drawn, vibrating
-        halves = round(2 * model.turns) if model.harmonics else 1
-        halves = math.lcm(halves, *(round(one.orbit.period / np.pi) for one in vibrating if one is not None))
+        halves = math.lcm(model.halves, *(round(one.orbit.period / np.pi) for one in vibrating if one is not None))
         self.period = halves * np.pi
 
     def at(self, angle: Array) -> tuple[Motion, Array, Array, Array]:

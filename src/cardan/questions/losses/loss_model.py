@@ -70,10 +70,12 @@ class Model:
     rubbing: Callable[[Motion], tuple[Array, Array]] | None = None
 
     @property
-    def turns(self) -> int:
-        """After how many turns of the input everything repeats."""
+    def halves(self) -> int:
+        """After how many half turns of the input everything repeats: crosses stand alike after one."""
+        if not self.harmonics:
+            return 1 if self.rubbing is None else 2
         steps = [Fraction(one.order).limit_denominator(LONGEST).denominator for one in self.harmonics]
-        return min(lcm(*steps), LONGEST) if steps else 1
+        return 2 * min(lcm(*steps), LONGEST)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -174,8 +176,8 @@ def mean_powers(model: Model) -> Powers:
 
     Integrated between the angles at which a cross stops in a yoke or a torque turns about; there friction jumps.
     """
-    period = np.pi if not model.harmonics else 2.0 * np.pi * model.turns
-    count = round(period / np.pi)
+    count = model.halves
+    period = count * np.pi
     outer = np.broadcast_shapes(np.shape(model.speed), np.shape(model.torque))
     places = np.ravel(kinks(model.chain)[:, None] + np.pi * np.arange(count))
     turning = _reversals(model, outer, period) if model.harmonics or np.any(model.inertia + model.resisting) else None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -15,8 +15,18 @@ from cardan.drive.models.dynamics_model import Train, place_of, train
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
-from cardan.questions.forces.kinetostatics import KinematicState, standing
-from cardan.questions.forces.reactions import Frame, Load, forces_of, frame, push_of, right_side, solved, weights
+from cardan.questions.forces.kinetostatics import KinematicState, inner_friction, standing
+from cardan.questions.forces.reactions import (
+    Frame,
+    Load,
+    forces_of,
+    frame,
+    push_of,
+    right_side,
+    shoves,
+    solved,
+    weights,
+)
 from cardan.questions.motion.articulation import articulation
 from cardan.questions.motion.joint_mechanism import rubbed_share
 from cardan.questions.motion.motion import Motion
@@ -157,11 +167,6 @@ def model_of(drive: Drive, duty: Duty, parts: Parts) -> Model:
     n = len(drive.joints)
     none = np.zeros(n + 1)
     machine = parts.train
-    rub = [bool(joint.rubbing and joint.friction) and not joint.without(joint.rubbing) for joint in drive.joints]
-
-    def rubbing(moved: Motion) -> tuple[Array, Array]:
-        return rubbed(drive.joints, rub, moved, many=bool(drive.movements))
-
     drag = np.zeros(n) if machine.drag is None else machine.drag
 
     def holding(angle: Array) -> Holding:
@@ -183,19 +188,26 @@ def model_of(drive: Drive, duty: Duty, parts: Parts) -> Model:
         holding=holding if np.any(parts.rub) else None,
         grip=parts.grip,
         slide=parts.slide,
-        rubbing=rubbing if any(rub) else None,
+        rubbing=rubbing_of(drive.joints, many=bool(drive.movements)),
     )
 
 
-def rubbed(joints: Sequence[Joint], rub: Sequence[bool], moved: Motion, *, many: bool) -> tuple[Array, Array]:
-    """Return what joints rub away over the power of their driving shafts, forwards and backwards, (..., n, p)."""
-    theta = np.asarray(moved.yoke_rotation)
-    found = np.zeros((2, *theta.shape))
-    for i, joint in enumerate(joints):
-        if rub[i]:
-            alpha = float(np.asarray(moved.joint_angle)[..., i].flat[0])
-            found[:, ..., i, :] = rubbed_share(joint, alpha, theta[..., i, :], many=many)
-    return found[0], found[1]
+def rubbing_of(joints: Sequence[Joint], *, many: bool) -> Callable[[Motion], tuple[Array, Array]] | None:
+    """Return what joints without a cross rub away, see `Model`; None where none of them does.
+
+    many: whether many joint angles are asked.
+    """
+
+    def rubbing(moved: Motion) -> tuple[Array, Array]:
+        theta = np.asarray(moved.yoke_rotation)
+        found = np.zeros((2, *theta.shape))
+        for i, joint in enumerate(joints):
+            if joint.rubs:
+                alpha = float(np.asarray(moved.joint_angle)[..., i].flat[0])
+                found[:, ..., i, :] = rubbed_share(joint, alpha, theta[..., i, :], many=many)
+        return found[0], found[1]
+
+    return rubbing if any(joint.rubs for joint in joints) else None
 
 
 # What holds a drive while its journals rub: the forces on its supports, for the friction in them.
@@ -245,7 +257,8 @@ def response(train: Train, drag: Array, angle: Array) -> Response:
     train: one drive, its supports determinate; drag (n,): κ of each joint; angle (..., p) [rad]: input angles.
     The couple T n ∓ κ|T| u ± κ|T| v of every cross bends its two shafts; what its part across them needs, and
     the weights, is in balance with the forces in the joints and supports. That balance is linear, so each part is
-    solved for once. Thrust of splines is left out: at rest lengthwise they need not push.
+    solved for once; what rubs within a joint adds one part by T and one by |T|. Thrust of splines is left out: at rest
+    lengthwise they need not push.
     """
     n = train.joints
     stand, held = _held(train, np.reshape(angle, -1))
@@ -257,21 +270,35 @@ def response(train: Train, drag: Array, angle: Array) -> Response:
     ):  # those of other kinds count by their part about the driving shaft, see `torque_flow`
         along = frames.dot(normal, e[..., :-1, :])
         normal = normal / np.where(train.chain.laws.own, along, 1.0)[..., None]
-    couples = normal, -drag[:, None] * slip
 
-    def solved_for(across: Array, loads: list[Load]) -> Array:
+    def solved_for(across: Array, loads: list[Load], shoved: Sequence[Array] = ()) -> Array:
         none = np.zeros((*across.shape[:-2], len(train.splines)))
-        reaction = forces_of(held, solved(held, right_side(held, across, loads, none))[0])[1]
+        reaction = forces_of(held, solved(held, right_side(held, across, loads, none, shoved))[0])[1]
         found: Array = np.reshape(reaction, (*angle.shape, *reaction.shape[-2:]))
         return found
 
+    def solved_joint(i: int, couple: Array, torque: Array, force: Array | None) -> Array:
+        """Return the forces for a couple of joint i alone, with the torque and force it puts on its driven shaft."""
+        forces = [force if k == i else None for k in range(n)]
+        loads = push_of(train, held, stand, i, torque, force)
+        return solved_for(_across(e, couple, i), loads, shoves(train, held, stand, forces))
+
+    pull, rub = [], []
+    for i in range(n):
+        before, after, own = e[..., i, :], e[..., i + 1, :], normal[..., i, :]
+        inside = inner_friction(train, stand, i)
+        if inside is None:
+            pull.append(solved_joint(i, own, frames.dot(own, after), None))
+            rub.append(solved_joint(i, -drag[i] * slip[..., i, :], 0.0 * stand.speed[..., i], None))
+            continue
+        whole = own / frames.dot(own, after)[..., None] + inside.couple
+        torque = 1.0 / frames.dot(whole, before)
+        both = [torque[..., None] * whole, torque, torque[..., None] * inside.force]
+        pull.append(solved_joint(i, *(0.5 * (one[0] + one[1]) for one in both)))
+        rub.append(solved_joint(i, *(0.5 * (one[0] - one[1]) for one in both)))
     still = np.zeros((angle.size, n + 1, 3))
-    pushed = [push_of(train, held, stand, i, normal[..., i, :]) for i in range(n)]
-    parts = [
-        np.stack([solved_for(_across(e, one, i), pushed[i] if one is normal else []) for i in range(n)], axis=-3)
-        for one in couples
-    ]
-    return Response(weight=solved_for(still, weights(train, held, stand, None)), pull=parts[0], rub=parts[1])
+    weight = solved_for(still, weights(train, held, stand, None))
+    return Response(weight=weight, pull=np.stack(pull, axis=-3), rub=np.stack(rub, axis=-3))
 
 
 def _held(train: Train, angle: Array) -> tuple[KinematicState, Frame]:
@@ -282,8 +309,8 @@ def _held(train: Train, angle: Array) -> tuple[KinematicState, Frame]:
 
 
 def _across(axis: Array, couple: Array, i: int) -> Array:
-    """Return what the couple of cross i alone leaves across each shaft, array (p, n+1, 3)."""
+    """Return what a couple (p, 3) of joint i alone leaves across each shaft, array (p, n+1, 3)."""
     whole = np.zeros((couple.shape[0], axis.shape[-2], 3))
-    whole[:, i], whole[:, i + 1] = -couple[:, i], couple[:, i]
+    whole[:, i], whole[:, i + 1] = -couple, couple
     found: Array = whole - frames.dot(whole, axis)[..., None] * axis
     return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -138,44 +139,116 @@ def link_of(pair: InnerPair, end: int) -> str:
     return pair.links[end].replace("{count}", str(pair.count))
 
 
-# What a joint rubs away, as a table over its turn.
+# What a joint rubs away and how that pushes its shafts, as tables over its turn.
 
 PLACES = 72
 """Places of a turn at which what a joint rubs away is taken; its curve has kinks, between them it is straight."""
 
+CLOSER = 360
+"""The same of what friction does to its shafts, which jumps, where few joint angles are asked."""
+
 NODE = np.radians(1.0)
 """Step of the joint angles at which it is taken where many are asked."""
 
+FEW = 4
+"""Joint angles up to which each is taken by itself."""
 
-def rubbed_share(joint: Joint, joint_angle: float, angle: Array, *, many: bool = False) -> tuple[Array, Array]:
+DIGITS = 12
+"""Decimals to which a joint angle counts: two that differ by rounding are one."""
+
+
+def rubbed_share(joint: Joint, joint_angle: ArrayLike, angle: Array, *, many: bool = False) -> tuple[Array, Array]:
     """Return what a joint rubs away over the power of its driving shaft, while this drives and while the other does.
 
-    joint_angle [rad]; angle (...) [rad]: of its driving mark from the plane of the shafts.
+    joint_angle (...) [rad]; angle (...) [rad]: of its driving mark from the plane of the shafts.
     many: whether many joint angles are asked: by a cubic through those at full degrees, each solved once.
     Returns two arrays (...).
     """
+    fed, back = _looked_up(_shares, PLACES, joint, joint_angle, angle, many=many)[:, 0]
+    return (np.maximum(fed, 0.0), np.maximum(back, 0.0)) if many else (fed, back)
+
+
+def rubbed_push(joint: Joint, joint_angle: ArrayLike, angle: Array, *, many: bool = False) -> Array:
+    """Return what friction in a joint adds to its couple and force on the driven shaft, for 1 N·m on this.
+
+    As `rubbed_share`. Returns (2, 4, ...) [1, 1/m]: while the driving shaft drives and while the other does, the couple
+    about the normal N of the plane of the shafts, and the force along e, N×e and N; the couple across N follows from
+    the share, as that about the driven shaft is given.
+    """
+    return _looked_up(_pushes, PLACES if many else CLOSER, joint, joint_angle, angle, many=many)
+
+
+def _looked_up(
+    table: Callable[[Joint, float, int], Array],
+    places: int,
+    joint: Joint,
+    joint_angle: ArrayLike,
+    angle: Array,
+    *,
+    many: bool,
+) -> Array:
+    """Return tables (2, r, places) of a joint at joint angles and angles (...) of its mark, array (2, r, ...)."""
+    alpha, theta = (np.asarray(one, dtype=float) for one in (joint_angle, angle))
+    shape = np.broadcast_shapes(alpha.shape, theta.shape)
+    alpha, theta = (np.ravel(np.broadcast_to(one, shape)) for one in (alpha, theta))
+    found: list[tuple[Array, Array]] = []
     if many:
-        first = max(int(joint_angle / NODE) - 1, 0)
-        nodes = [(first + k) * NODE for k in range(4)]
-        tables = np.stack([_shares(joint, one) for one in nodes])
-        weights = [np.prod([(joint_angle - b) / (a - b) for b in nodes if b != a]) for a in nodes]
-        table = np.maximum(np.tensordot(np.asarray(weights), tables, axes=1), 0.0)
+        cell = np.maximum((alpha / NODE).astype(int) - 1, 0)
+        for first in np.unique(cell):
+            own = cell == first
+            nodes = [(int(first) + k) * NODE for k in range(4)]
+            rows = 0.0
+            for a in nodes:
+                weight = np.prod([(alpha[own] - b) / (a - b) for b in nodes if b != a], axis=0)
+                rows = rows + weight * over(table(joint, a, places), theta[own])
+            found.append((own, rows))
     else:
-        table = _shares(joint, joint_angle)
-    places = np.arange(PLACES + 1) * (2.0 * np.pi / PLACES)
-    turn = np.remainder(angle, 2.0 * np.pi)
-    fed, back = (np.interp(turn, places, np.append(row, row[0])) for row in table)
-    return fed, back
+        rounded = np.round(alpha, DIGITS)
+        for one in np.unique(rounded):
+            own = rounded == one
+            found.append((own, over(table(joint, float(one), places), theta[own])))
+    whole = np.empty((*found[0][1].shape[:-1], alpha.size))
+    for own, rows in found:
+        whole[..., own] = rows
+    return np.reshape(whole, (*whole.shape[:-1], *shape))
+
+
+def over(values: Array, angle: Array) -> Array:
+    """Return values (..., p) at even places of a turn at angles [rad] of any shape, straight between them."""
+    place = np.remainder(angle, 2.0 * np.pi) * (values.shape[-1] / (2.0 * np.pi))
+    low = np.floor(place)
+    here, share = low.astype(int) % values.shape[-1], place - low
+    found: Array = (1.0 - share) * values[..., here] + share * values[..., (here + 1) % values.shape[-1]]
+    return found
 
 
 @lru_cache(maxsize=512)
-def _shares(joint: Joint, joint_angle: float) -> Array:
-    """Return both shares of `rubbed_share` at even places of a turn, array (2, `PLACES`)."""
+def _shares(joint: Joint, joint_angle: float, places: int) -> Array:
+    """Return both shares of `rubbed_share` at even places of a turn, array (2, 1, places)."""
+    found = [one.loss for one in _turned(joint, joint_angle, places)]
+    return _all_round(joint, np.reshape(np.stack(found), (2, 1, -1)) if found else np.zeros((2, 1, places)), places)
+
+
+@lru_cache(maxsize=512)
+def _pushes(joint: Joint, joint_angle: float, places: int) -> Array:
+    """Return what `rubbed_push` finds at even places of a turn, array (2, 4, places)."""
+    found = [one.wrench[:, 2:] for one in _turned(joint, joint_angle, places, bare=True)]
+    if not found:
+        return np.zeros((2, 4, places))
+    return _all_round(joint, np.stack([np.swapaxes(one - found[2], 0, 1) for one in found[:2]]), places)
+
+
+def _turned(joint: Joint, joint_angle: float, places: int, *, bare: bool = False) -> list[JointCarried]:
+    """Return a joint over a turn, or the part after which it repeats, while either shaft drives, then frictionless."""
     if joint_angle < STRAIGHT:
-        return np.zeros((2, PLACES))
-    repeats = joint.alike if PLACES % joint.alike == 0 else 1
-    angle = np.arange(PLACES // repeats) * (2.0 * np.pi / PLACES)
-    rows = [
-        joint_carried(joint, joint_angle, angle, friction=joint.friction or 0.0, fed=fed).loss for fed in (True, False)
-    ]
-    return np.tile(np.stack(rows), repeats)
+        return []
+    count = places // (joint.alike if places % joint.alike == 0 else 1)
+    angle = np.arange(count) * (2.0 * np.pi / places)
+    mu = joint.friction or 0.0
+    asked = [(mu, True), (mu, False), *([(0.0, True)] if bare else [])]
+    return [joint_carried(joint, joint_angle, angle, friction=own, fed=fed) for own, fed in asked]
+
+
+def _all_round(joint: Joint, rows: Array, places: int) -> Array:
+    """Return rows over the part of a turn after which a joint repeats as rows over the whole turn."""
+    return np.tile(rows, places // rows.shape[-1])
