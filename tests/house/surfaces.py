@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Iterator
 from contextlib import redirect_stdout
 from dataclasses import dataclass, field, fields
@@ -56,6 +57,15 @@ class Once(Question):
 def once(question: Question) -> Once:
     """Return a question of the register that remembers its results."""
     return Once(**{one.name: getattr(question, one.name) for one in fields(Question)})
+
+
+SENTENCE_ENDS = re.compile(r"(?<!\bno)(?<!\beq)(?<!\bp)[.!?](?=\s+[A-ZΑ-Ω\[])")
+"""Where one sentence ends and another begins."""
+
+
+def sentences(text: str) -> int:
+    """Return how many sentences an English text has."""
+    return 1 + len(SENTENCE_ENDS.findall(text))
 
 
 def page(question: Question, drive: Drive) -> Page:

@@ -23,6 +23,8 @@ from cardan.questions.gathering import gather, principal
 from cardan.register import QUESTIONS
 from tests.fixtures.joint_keys import KEYS
 
+from .surfaces import sentences
+
 ASPECTS = ("pose", "movement", "case", "error")
 
 MISSING: set[tuple[str, str]] = set()
@@ -215,6 +217,7 @@ def test_every_question_depends_on_it_or_says_why_not(name, aspect, kind):
     assert now is not None, "the drive of this test answers every question"
     if name in MOVING and aspect == "movement":
         return
+    assert [one["text"] for one in now["remarks"] if sentences(one["text"]) > 1] == []
     own = {one["text"] for one in (before or {}).get("remarks", ())}
     new = [one for one in now["remarks"] if one["text"] not in own]
     without = [one for one in new if one.get("code") in (f"without_{aspect}", "same", "left_out")]

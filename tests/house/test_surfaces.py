@@ -9,7 +9,7 @@ from cardan.answers.reader import Reader, reading
 from cardan.errors import InputError
 from cardan.io import example, example_names
 from cardan.register import QUESTIONS
-from cardan.report.block import Table
+from cardan.report.block import Table, shown
 from cardan.texts import speaking
 from cardan.units import DIMENSIONS, label
 
@@ -96,6 +96,8 @@ def test_every_question_is_told_on_every_surface(name, who, monkeypatch):
         for one, question, drive, result in answers(name):
             told = question.answer(drive, result)
             page = surfaces.page(question, drive)
+            if who == "en":
+                assert [one.text for one in told.remarks if surfaces.sentences(shown(one.text)) > 1] == [], one
             printed, tree = surfaces.terminal(told, drive), surfaces.as_data(told, reader)
             assert printed, one
             assert surfaces.csv(told, reader) or not told.tables, one

@@ -69,7 +69,7 @@ def parsed(text: str) -> Nesting:
 
 def proof(on: Subject) -> str:
     """Return what the appendix says of the sides of the polygon."""
-    return shown(yokes.proof(on.drive, on.phasing))
+    return " ".join(map(shown, yokes.proof(on.drive, on.phasing)))
 
 
 @cache

@@ -182,7 +182,7 @@ def _remarks(work: SweepWork, found: Sweep, plan: Path, keeps: bool) -> Iterator
         yield Remark(text=_("To look at it:"), command=("cardan", "sweep", "show", _near(found.folder)), tone="next")
     elif found.folder is None:
         keeping = ("cardan", "sweep", _plan(plan), "--into", plan.stem)
-        yield Remark(text=_("No table was kept. To keep one:"), command=keeping, tone="next")
+        yield Remark(text=_("No table was kept; to keep one:"), command=keeping, tone="next")
 
 
 def _as_drawn(work: SweepWork) -> Iterator[Remark]:

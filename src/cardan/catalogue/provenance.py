@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import Any
 
 from cardan.drive.drive import Drive
@@ -45,7 +46,9 @@ def _row(drive: Drive, known: Catalogue, path: str) -> Row | None:
             grade = known.grade(material.grade) if material is not None and material.grade else None
         except InputError:
             return None
-        return grade if grade is not None and getattr(grade, name, None) == getattr(material, name) else None
+        if grade is None or getattr(grade, name, None) != getattr(material, name):
+            return None
+        return grade if grade.id == material.grade else replace(grade, id=f"{material.grade} = {grade.id}")
     if holder.endswith(".ply"):
         own = _at(drive, holder)
         lamina = known.rows(Lamina).get(own.grade) if own is not None else None

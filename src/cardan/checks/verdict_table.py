@@ -148,8 +148,8 @@ def unconfirmed_remark(verdicts: Sequence[Verdict]) -> Iterator[Remark]:
     loose = [one for one in verdicts if not one.sure and not one.advice]
     if loose:
         text = plural(
-            "One verdict is met or failed by an unconfirmed rating: {rows}. Give the maker's or the standard's own.",
-            "{count} verdicts are met or failed by unconfirmed ratings: {rows}. Give the maker's or the standard's "
+            "One verdict is met or failed by an unconfirmed rating: {rows}; give the maker's or the standard's own.",
+            "{count} verdicts are met or failed by unconfirmed ratings: {rows}; give the maker's or the standard's "
             "own.",
             len(loose),
         )

@@ -185,7 +185,7 @@ def _remarks(result: BearingLayouts) -> Iterator[Remark]:
         yield Remark(
             text=_(
                 "Best first: by the fluctuation δ of the output, the largest force on a bearing where torque and "
-                "lengths are known, in steps of a tenth, and the number of bearings and splines. All turn all round."
+                "lengths are known, in steps of a tenth, and the number of bearings and splines; all turn all round."
             )
         )
         yield Remark(

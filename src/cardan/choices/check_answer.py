@@ -381,7 +381,7 @@ def _remarks(result: Checked, *, sources: bool, missing: bool) -> Iterator[Remar
     if result.failed:
         yield Remark(text=sentence(result.verdicts), tone="failed", alarm=True, depth="data")
     yield from (
-        Remark(text=say(_("Two answers contradict each other. {note}"), note=one.note), tone="failed", alarm=True)
+        Remark(text=say(_("Two answers contradict each other: {note}"), note=one.note), tone="failed", alarm=True)
         for one in result.failed
         if one.check == AUDIT.name
     )

@@ -211,7 +211,7 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
             found = None if result is None else question.answer(way.drive, result)
         except InputError as error:
             problem = error.problems[0]
-            text = _("Warning: not calculated in this condition: {condition}. {field}: {message}")
+            text = _("Warning: not calculated in this condition, {condition}: {field}: {message}")
             said = say(text, condition=_called(way.name), field=problem.field, message=problem.message)
             remarks.append(Remark(text=said, tone="warning"))
             continue
@@ -241,7 +241,7 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
     return replace(
         answer,
         keys=keys,
-        tables=answer.tables if same else (*answer.tables, _table(told)),
+        tables=answer.tables if same else (*answer.tables, replace(_table(told), note=_first(told, every[0]))),
         remarks=_after(answer, remarks),
         full=answer.full or ((lambda: answer.tables[-1]) if answer.tables else None),
     )
@@ -280,6 +280,15 @@ def _as_made(drive: Drive) -> tuple[tuple[KeyFigure, ...], Remark]:
         KeyFigure(name="angle_error_as_made", title=titles[1], value=angle_error),
     )
     return figures, Remark(text=say(text, share=share, angle_error=angle_error), code="as_made")
+
+
+def _first(told: Sequence[Told], drawn: Way) -> Text:
+    """Return which condition the rest of an answer is of; nothing where it could not be told in that."""
+    if told[0].way is not drawn:
+        return ""
+    return say(
+        _("Where nothing else is said, figures are of this condition: {condition}."), condition=_called(drawn.name)
+    )
 
 
 def _called(name: Text) -> Text:

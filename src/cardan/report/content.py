@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from cardan.answers.answer import Answer
+from cardan.answers.quantity import Joined
 from cardan.answers.question import Question
 from cardan.answers.reader import reader, reading
 from cardan.book import answer as classical
@@ -35,15 +36,13 @@ from .answers import (
     refused,
     warnings_by_laws,
 )
-from .block import Block, Page, Picture, Points, Table, Words, key_figures, key_table, page, shown, untold
+from .block import Block, Page, Picture, Points, Table, Words, key_figures, key_table, page, untold
 from .description import description
 from .method import method
 from .subject import Subject, asked
 from .summary import changes, judgement, warnings
 from .title_block import Head, Noting, logo_of, rows
 from .verdicts import Judged, judged
-
-POLYGON = "polygon"  # name of the figure of the yokes that stands in the appendix
 
 
 def today() -> str:
@@ -155,8 +154,8 @@ def phased(on: Subject) -> Page:
             raise
         return replace(refused("phasing", _("Phasing of the yokes"), error), alarms=())
     said = gather(QUESTIONS["phasing"], on.drive, said)
-    drawn, proof = [one for one in said.figures() if one.name != POLYGON], shown(yokes.proof(on.drive, on.phasing))
-    remarks = [one for one in said.remarks if shown(one.text) != proof]
+    drawn = [one for one in said.figures() if one.name != yokes.POLYGON]
+    remarks = [one for one in said.remarks if one.code != yokes.POLYGON]
     return page(replace(said, remarks=remarks, figures=lambda: drawn), reader())
 
 
@@ -169,9 +168,11 @@ def _appendix(on: Subject, limits: Judged, source_text: str | None) -> Iterator[
     if limits.missing is not None:
         yield limits.missing
     if not on.by_laws:
-        drawn = [Picture(figure=one) for one in yokes.answer(on.drive, on.phasing).figures() if one.name == POLYGON]
-        proof = yokes.proof(on.drive, on.phasing)
-        yield Page(name=POLYGON, title=_("Phase polygon"), answer=proof, blocks=drawn)
+        drawn = [
+            Picture(figure=one) for one in yokes.answer(on.drive, on.phasing).figures() if one.name == yokes.POLYGON
+        ]
+        proof = Joined(yokes.proof(on.drive, on.phasing), between=" ")
+        yield Page(name=yokes.POLYGON, title=_("Phase polygon"), answer=proof, blocks=drawn)
     seen = classical.ask(on.drive)
     if seen is not None and classical.differ(seen):
         yield page(gather(QUESTIONS["classical"], on.drive, classical.answer(on.drive, seen)), reader())

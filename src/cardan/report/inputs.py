@@ -85,7 +85,8 @@ def sources(drive: Drive, known: Catalogue | None = None) -> Iterator[Text]:
     ]
     text = _("{row}: {source}; {sure}.")
     for row in rows_behind(whole, rows, *paths):
-        yield text.format(row=row.id, source=row.source.rstrip("."), sure=_(SURE[row.confidence]))
+        source, sure = row.source.rstrip("."), _(SURE[row.confidence])
+        yield text.format(row=row.id, source=source, sure=sure) if source != sure else f"{row.id}: {source}."
 
 
 def _parts(drive: Drive, name: str) -> Sequence[Any]:

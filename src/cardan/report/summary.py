@@ -73,12 +73,13 @@ def uniformity(on: Subject) -> Words:
     share = Quantity(on.fluctuation, "share", 3)
     posed, pose = _in_poses(on)
     text, tone = _as_specified(on, posed)
+    toothed = _on_teeth(on)
     parts: list[Text] = [
         say(
             text,
             name=on.drive.name or _("The drive"),
             share=share,
-            least=_share(on.best.speed_fluctuation if on.best else 0.0),
+            least=_share(toothed or (on.best.speed_fluctuation if on.best else 0.0)),
         )
     ]
     parts += _errors_told(on)
@@ -131,6 +132,12 @@ def _as_specified(on: Subject, posed: float) -> tuple[str, Tone]:
                 "errors of its joints as made."
             )
             return text, "warning"
+        if _on_teeth(on):
+            text = _(
+                "{name} has {share} speed fluctuation as specified; with its yokes re-phased it is exactly uniform, "
+                "{least} is left where they keep to the teeth of its splines."
+            )
+            return text, "warning"
         if on.phasing.feasible:
             text = _(
                 "{name} has {share} speed fluctuation as specified; with its yokes re-phased it is exactly uniform."
@@ -151,6 +158,12 @@ def _as_specified(on: Subject, posed: float) -> tuple[str, Tone]:
         )
         return text, "warning"
     return _("{name} has {share} speed fluctuation, and no phasing of the yokes reduces it."), "warning"
+
+
+def _on_teeth(on: Subject) -> float:
+    """Return what the yokes leave at best on the teeth of the splines where none of these makes the drive uniform."""
+    least = min((one.speed_fluctuation for one in on.phasing.spline_settings), default=0.0)
+    return least if on.curable and least > UTMOST else 0.0
 
 
 def _share(value: float) -> Quantity:

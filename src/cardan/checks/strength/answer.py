@@ -422,12 +422,11 @@ def _vibrating(result: Strength, *, runs_up: bool) -> Iterator[Remark]:
     torques = {"low": found.low, "high": found.high}
     told = {name: Quantity(value, "torque", 4) for name, value in torques.items()}
     more = Quantity(found.factor, digits=3)
-    parts: list[Text] = [say(text, speed=speed, name=found.name, more=more, **told)]
-    if runs_up:
-        parts.append(_("While running up it may be more: see Run-up."))
     grows = found.factor > LITTLE
     tone: Tone = "plain" if not grows else "failed" if result.enough is False else "warning"
-    yield Remark(text=Joined(parts, between=" "), tone=tone, alarm=grows)
+    yield Remark(text=say(text, speed=speed, name=found.name, more=more, **told), tone=tone, alarm=grows)
+    if runs_up:
+        yield Remark(text=_("While running up it may be more: see Run-up."), tone=tone)
 
 
 def _keys(result: Strength) -> Iterator[KeyFigure]:

@@ -387,18 +387,18 @@ def _passed(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
     for k, part in enumerate(result.part):
         if result.crossed[k] and part.kind == "support":
             text = _(
-                "Warning: the drive passes {speed}, {part}, and half of it. Pass each quickly: in {half_time} half of "
+                "Warning: the drive passes {speed}, {part}, and half of it; pass each quickly: in {half_time} half of "
                 "the resonance builds up, in {full_time} all of it (loss factor of rubber, {loss})."
             )
         elif result.crossed[k]:
             text = _(
-                "Warning: the drive passes {speed}, {part}. Pass it quickly: in {half_time} half of the resonance "
+                "Warning: the drive passes {speed}, {part}; pass it quickly: in {half_time} half of the resonance "
                 "builds up, in {full_time} all of it (loss factor of steel shafts, {loss})."
             )
         elif result.half_crossed[k]:
             text = _(
                 "Warning: from {low:bare} to {high} the joints, whose excitation is of 2nd order, excite half the "
-                "critical speed: {part}. Pass this band quickly ({half_time} lets half of the resonance build up, "
+                "critical speed: {part}; pass this band quickly ({half_time} lets half of the resonance build up, "
                 "{full_time} all of it), or reduce the joint angles."
             )
         else:

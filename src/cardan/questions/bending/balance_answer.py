@@ -191,7 +191,7 @@ def _remarks(result: Balance) -> Iterator[Remark]:
     if not any(one.corrections for one in result.shafts):
         text = _("Measured unbalances go into the file as shafts[…].unbalance: place, amount and angle.")
         yield Remark(text=text)
-    yield Remark(text=_("Unbalance from clearances cannot be balanced out. Mark parts before they come apart."))
+    yield Remark(text=_("Unbalance from clearances cannot be balanced out: mark parts before they come apart."))
 
 
 def _facts(result: Balance) -> dict[str, Any]:

@@ -312,14 +312,19 @@ def _assumptions(drive: Drive, result: LineWhirl) -> Iterator[Remark]:
     """Yield what the drive does not say and the answer takes."""
     taken = [path for path in result.assumed if path.endswith(".unbalance")]
     if taken:
-        text = _("Shafts without a measured unbalance, {keys}, count with what their balance grade allows, amid them.")
+        text = _(
+            "Shafts without a measured unbalance, {keys}, count with what their balance grade allows, in the middle."
+        )
         yield Remark(text=text.format(keys=", ".join(map(spelled, taken))))
     if "duty.torque" in result.assumed:
         yield Remark(text=_("Without a torque the secondary couples of the joints do not count; give duty.torque."))
     if result.worn:
         factors = wear_factors(drive)
-        text = _("For the play of splines shafts count with k_n² of their bending stiffness: {factors}.")
-        said = [say("{number}: {factor}", number=n, factor=Quantity(factors[n - 1], digits=2)) for n in result.worn]
+        text = _("Splines have play: a shaft with one counts with k_n² of its bending stiffness, {factors}.")
+        said = [
+            say(_("k_n = {factor} for shaft {number}"), number=n, factor=Quantity(factors[n - 1], digits=2))
+            for n in result.worn
+        ]
         yield Remark(text=say(text, factors=Joined(said)))
     low, high = (float(one) for one in (np.min(result.damping_ratio), np.max(result.damping_ratio)))
     text = _("Damping ratio of the modes {low} to {high}, beside the dampers of the supports.")
@@ -328,7 +333,10 @@ def _assumptions(drive: Drive, result: LineWhirl) -> Iterator[Remark]:
     yield Remark(text=say(text, low=Quantity(low, "share", 2), high=Quantity(high, "share", 2)))
     soft = [number for number in result.support if drive.supports[number - 1].damping is None]
     if soft:
-        text = _("Supports without damping, {which}, lose what rubber does; how high the bounce is depends on it.")
+        text = _(
+            "Supports {which} are damped as rubber is, for want of their own damping; the height of the bounce "
+            "depends on it."
+        )
         yield Remark(text=say(text, which=listed(soft)))
 
 

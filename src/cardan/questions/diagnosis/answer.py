@@ -260,7 +260,7 @@ def _doubt(findings: Sequence[Finding]) -> Iterator[Remark]:
     """Yield how little a recording can be relied on."""
     confidence = findings[0].confidence
     if confidence < SURE:
-        text = _("The answer can be relied on by {share} only; the cautions say why. Check before you repair.")
+        text = _("The answer can be relied on by {share} only; the cautions say why; check before you repair.")
         yield Remark(text=say(text, share=_share(confidence)), tone="warning", alarm=True)
 
 

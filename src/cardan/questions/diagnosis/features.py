@@ -335,7 +335,7 @@ def doubts(signal: Signal, shaft: Rotation, base: DriveModel) -> Iterator[tuple[
     shaking = [one for one in signal.measured if one.quantity in ("acceleration", "velocity", "displacement")]
     lost = [one for one in shaking if base.housing_at(one.place) is None]
     if lost:
-        text = _("It is not known where {names} sits; it counts as sitting at the output. Known places are {places}.")
+        text = _("It is not known where {names} sits; it counts as sitting at the output; known places are {places}.")
         names = ", ".join(f"{one.name} ({one.place})" if one.place else one.name for one in lost)
         places = ", ".join(one.place for one in base.housings)
         yield text.format(names=names, places=places), PLACELESS

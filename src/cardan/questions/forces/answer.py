@@ -265,7 +265,7 @@ def _listings(drive: Drive) -> Iterator[Listing]:
 def _remarks(drive: Drive, result: Carried, machines: tuple[int, ...]) -> Iterator[Remark]:
     found = result.forces
     for k, problem in enumerate(result.unheld):
-        text = _("Warning: forces on the supports are not calculated. {field}: {message}")
+        text = _("Warning: forces on the supports are not calculated: {field}: {message}")
         yield Remark(text=say(text, **_parts(problem)), tone="warning", alarm=k == 0)
     yield from steep_joints(drive)
     yield from yokes_estimated(drive)
@@ -322,9 +322,9 @@ def _closing(drive: Drive, found: Forces) -> Iterator[Remark]:
         yield Remark(text=say(text, most=most, where=where), depth="full")
         return
     text = plural(
-        "Warning: the gaps of joint {which} open: inertia reverses its torque over {share} of the turn. Only {most} "
+        "Warning: the gaps of joint {which} open: inertia reverses its torque over {share} of the turn; only {most} "
         "{where} would keep all of them closed.",
-        "Warning: the gaps of joints {which} open: inertia reverses their torque over up to {share} of the turn. Only "
+        "Warning: the gaps of joints {which} open: inertia reverses their torque over up to {share} of the turn; only "
         "{most} {where} would keep all of them closed.",
         len(opened),
     )

@@ -22,7 +22,7 @@ from cardan.drive.yokes import yokes_estimated
 from cardan.maths.ties import foremost
 from cardan.texts import _, mark
 
-from .figure import life_figures
+from .figure import life_figures, part_names
 from .joint_bearings import joint_bearings
 from .life import life as ask
 from .life_cautions import LEAST
@@ -183,7 +183,7 @@ def _duty_cycle(result: Life) -> Iterator[Table]:
     yield Table(
         title=_("Parts of the duty cycle, and their share of the damage"),
         columns=(
-            *((Column(key="condition", heading=_("condition"), values=_named(result)),) if result.named else ()),
+            *((Column(key="condition", heading=_("condition"), values=part_names(result)),) if result.named else ()),
             Column(key="torque", heading=_("torque"), values=[part.torque for part in parts], dimension="torque"),
             Column(key="speed", heading=_("speed"), values=[part.speed for part in parts], dimension="angular_speed"),
             Column(key="share", heading=_("time"), values=result.share, dimension="share", decimals=1),
@@ -199,12 +199,6 @@ def _duty_cycle(result: Life) -> Iterator[Table]:
             ),
         ),
     )
-
-
-def _named(result: Life) -> list[str]:
-    """Return what the parts of the duty are called."""
-    cases = len({part.path for part in result.parts if part.path}) > 1
-    return [part.name or (_("the torque of the duty") if cases else _("as drawn")) for part in result.parts]
 
 
 def _everything(result: Life) -> Table:
@@ -228,7 +222,7 @@ def _everything(result: Life) -> Table:
         name="parts",
         columns=(
             Column(key="part", values=np.repeat(np.arange(1, parts + 1), joints)),
-            Column(key="condition", values=np.repeat(_named(result), joints).tolist()),
+            Column(key="condition", values=np.repeat(part_names(result), joints).tolist()),
             Column(key="joint", values=np.tile(np.arange(1, joints + 1), parts)),
             *(Column(key=key, values=np.ravel(values), dimension=unit) for key, (values, unit) in every.items()),
         ),
@@ -252,7 +246,7 @@ def _remarks(drive: Drive, result: Life, loose: tuple[str, ...]) -> Iterator[Rem
         levels = result.history
         text = _(
             "The measured torque runs from {low:bare} to {high}, {mean} on average; for the bearings it is equivalent "
-            "to a constant {same}. By rainflow it has {count} cycles, the largest of {most}."
+            "to a constant {same}, and by rainflow it has {count} cycles, the largest of {most}."
         )
         torques = {"low": levels.low, "high": levels.high, "mean": levels.mean, "same": levels.equivalent}
         torques["most"] = float(max(result.cycles.range, default=0.0))
@@ -291,7 +285,7 @@ def _conditions(result: Life) -> Iterator[Remark]:
             "damage": Quantity(float(damage[k]), "share", 3),
             "share": Quantity(float(result.share[k]), "share", 3),
         }
-        said = say(text, joint=result.governing, condition=_named(result)[k], **values)
+        said = say(text, joint=result.governing, condition=part_names(result)[k], **values)
         yield Remark(text=said, code="governing_condition")
     if result.moving:
         yield Remark(text=_("Damage is summed over the movement; joint angles and torques are its means."))

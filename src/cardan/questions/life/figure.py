@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from cardan.answers.quantity import Quantity, Say, say
+from cardan.answers.quantity import Quantity, Say, Text, say
 from cardan.answers.reader import significant
 from cardan.figures.axes import axis, decades, steps, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule
@@ -119,14 +120,14 @@ def parts_figure(found: Life) -> Figure:
     damage = 100.0 * found.damage[:, found.governing - 1]
     time = 100.0 * found.share
     shown = np.argsort(-damage, kind="stable")[:SHOWN] if damage.size > SHOWN else np.arange(damage.size)
-    names = tuple(
+    loads = [
         say(
-            "{torque}, {speed}",
-            torque=Quantity(found.parts[k].torque, "torque", 3),
-            speed=Quantity(found.parts[k].speed, "angular_speed", 3),
+            "{torque}, {speed}", torque=Quantity(one.torque, "torque", 3), speed=Quantity(one.speed, "angular_speed", 3)
         )
-        for k in shown
-    )
+        for one in found.parts
+    ]
+    every: Sequence[Text] = part_names(found) if found.named else loads
+    names = tuple(every[k] for k in shown)
     at = np.arange(len(shown), 0, -1, dtype=float)
     bars = tuple(
         Bars(
@@ -155,8 +156,8 @@ def parts_figure(found: Life) -> Figure:
         name="life-parts",
         title=_("What each part of the duty cycle does"),
         sentence=say(
-            _("{torque} in {time} of the time does {damage} of the damage to joint {number}."),
-            torque=Quantity(found.parts[most].torque, "torque", 3),
+            _("{part} in {time} of the time does {damage} of the damage to joint {number}."),
+            part=every[most] if found.named else Quantity(found.parts[most].torque, "torque", 3),
             time=Quantity(float(found.share[most]), "share", 3),
             damage=Quantity(float(damage[most]) / 100.0, "share", 3),
             number=found.governing,
@@ -164,6 +165,12 @@ def parts_figure(found: Life) -> Figure:
         source=_("rule of Palmgren and Miner, Kozhevnikov & Perfil'ev (1978), eq. 268"),
         rows=(Row(panels=(panel,), height=0.5 * len(shown) + 0.3),),
     )
+
+
+def part_names(found: Life) -> list[str]:
+    """Return what the parts of the duty are called."""
+    cases = len({part.path for part in found.parts if part.path}) > 1
+    return [part.name or (_("the torque of the duty") if cases else _("as drawn")) for part in found.parts]
 
 
 def history_figure(found: Life) -> Figure:

@@ -134,10 +134,12 @@ def loss_figure(found: Losses, drive: Drive | None = None) -> Figure:
                 height=1.3,
             )
         )
+    text = _("Means are of all conditions, the course over a turn of the first: {condition}.")
+    gathered = bool(found.each) and not found.worst
     return Figure(
         name="losses",
         title=_("Where power is lost"),
-        sentence="",
+        sentence=say(text, condition=found.each[0].name or _("as drawn")) if gathered and len(rows) > 1 else "",
         source=_(
             "Coulomb friction acting on itself, integrated between its turning points; instead of Kozhevnikov and "
             "Perfil'ev (1978), eq. 136–139"

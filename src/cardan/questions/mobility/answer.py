@@ -61,7 +61,7 @@ def ask(drive: Drive) -> Mobility | None:
 def otherwise(drive: Drive) -> str:
     """Return why nothing can be told although nothing is missing."""
     return _(
-        "The drive file leaves bearings out: shafts that nothing holds say nothing of redundant constraints. Add "
+        "The drive file leaves bearings out: shafts that nothing holds say nothing of redundant constraints; add "
         "supports."
     )
 

@@ -273,7 +273,7 @@ def _remarks(result: Beside) -> Iterator[Remark]:
     pairs = zip(result.named, result.turns, strict=True)
     ideal = [one.name for one, turn in pairs if not one.sizes and not turn.error]
     if ideal:
-        text = _("Without sizes these count as made exactly uniform: {names}. Sizes are keys of the drive file:")
+        text = _("Without sizes these count as made exactly uniform: {names}; sizes are keys of the drive file:")
         yield Remark(text=text.format(names=", ".join(ideal)), command=("cardan", "joint"), tone="next")
     elif len(result.named) == 1:
         joint = result.turns[0].joint

@@ -55,6 +55,7 @@ LITTLE = 0.01
 LEVEL = 5e-5
 """Speed ratios of a steering column that differ by less than this are told as the same."""
 
+POLYGON = "polygon"  # figure of the yokes, and code of the remarks about it
 SIDES = 8
 """So many sides of the phase polygon are told."""
 
@@ -298,7 +299,7 @@ def _remarks(drive: Drive, found: Phasing, fixed: Mapping[int, float], nearest: 
     if not found.complete:
         text = _("Warning: the search was stopped; these are the best settings so far.")
         yield Remark(text=text, tone="warning")
-    yield Remark(text=proof(drive, found), depth="full")
+    yield from (Remark(text=one, code=POLYGON, depth="full") for one in proof(drive, found))
     if not found.feasible and not wants_fluctuation(drive):
         yield from _limits(drive, found)
     if meaning := letters(found, nearest=nearest):
@@ -449,22 +450,23 @@ def command(fixed: Mapping[int, float], *more: str, nearest: bool) -> tuple[str,
     return ("cardan", "phasing", FILE, *fixes, *(["--goal", "nearest"] if nearest else []), *more)
 
 
-def proof(drive: Drive, found: Phasing) -> Text:
-    """Return what the sides of the phase polygon say of a drive."""
-    drawn = _("This concerns the drive as drawn, standing still.") if drive.movements else ""
+def proof(drive: Drive, found: Phasing) -> list[Text]:
+    """Return what the sides of the phase polygon say of a drive, sentence by sentence."""
     if each_uniform(drive):
-        said = _("Every joint turns uniformly by itself, straight or of constant velocity: there is nothing to cancel.")
-        return Joined([said, drawn], between=" ")
+        said = [
+            _("Every joint turns uniformly by itself, straight or of constant velocity: there is nothing to cancel.")
+        ]
+        return [*said, _("This concerns the drive as drawn, standing still.")] if drive.movements else [*said]
     try:
         seen = closure(drive)
     except InputError:
-        return _("Yoke angles of the joints beside those that turn by laws of their own.")
+        return [_("Yoke angles of the joints beside those that turn by laws of their own.")]
     longest = float(np.max(seen.length))
     places = min(max(4, 2 - math.floor(math.log10(longest))), 12) if longest > 0.0 else 4
     sides: list[Text] = [Quantity(float(value), decimals=places) for value in seen.length[:SIDES]]
     if len(drive.joints) > SIDES:
         sides.append("…")
-    text = _("Every joint is a side of length L = −ln cos α, here {sides}.")
+    texts = [_("Every joint is a side of length L = −ln cos α, here {sides}.")]
     values: dict[str, Any] = {
         "sides": Joined(sides),
         "longest": seen.longest,
@@ -473,27 +475,23 @@ def proof(drive: Drive, found: Phasing) -> Text:
         "low": Quantity(found.speed_fluctuation_min, "share", 3),
         "high": Quantity(found.speed_fluctuation_max, "share", 3),
         "angle": Quantity(seen.joint_angle_allowed, "angle", decimals=2),
+        "held": ", ".join(map(str, found.fixed)),
     }
     if len(drive.joints) == 1:
-        text = f"{text} {_('One side never comes back to its start.')}"
+        texts.append(_("One side never comes back to its start."))
     elif found.fixed:
-        values["held"] = ", ".join(map(str, found.fixed))
-        more = _(
-            "The yokes of shaft {held} are held, so the joints at their ends count as one. The free yokes reach every "
-            "fluctuation from {low:bare} to {high}."
-        )
-        text = f"{text} {more}"
+        texts.append(_("The yokes of shaft {held} are held, so the joints at their ends count as one."))
+        texts.append(_("The free yokes reach every fluctuation from {low:bare} to {high}."))
     else:
-        text = f"{text} {_('The yoke angles are the corners.')} {_closing(drive, found, closes=seen.closes)}"
+        texts += [_("The yoke angles are the corners."), _closing(drive, found, closes=seen.closes)]
         if not seen.closes and not is_rounding(drive, found.speed_fluctuation_min):
-            alike = not drive.joints[seen.longest - 1].single_cross
-            more = _("It could be closed if that joint had a joint angle of {angle}.")
-            if alike:
-                more = _("It could be closed if the Hooke joint that turns like that joint had an angle of {angle}.")
-            text = f"{text} {more}"
+            allowed = _("It could be closed if that joint had a joint angle of {angle}.")
+            if not drive.joints[seen.longest - 1].single_cross:
+                allowed = _("It could be closed if the Hooke joint that turns like that joint had an angle of {angle}.")
+            texts.append(allowed)
     if mixed(drive.joints):
-        text = f"{text} {_('α is the angle of the Hooke joint that turns alike.')}"
-    return say(text, **values)
+        texts.append(_("α is the angle of the Hooke joint that turns alike."))
+    return [say(text, **values) for text in texts]
 
 
 def _closing(drive: Drive, found: Phasing, *, closes: bool) -> str:
@@ -549,24 +547,24 @@ def excess(found: Phasing, joints: int, joint_angle: float, *, plain: bool = Tru
     """
     left = Quantity(found.speed_fluctuation_min, "share", 3)
     if not plain:
-        text = _("Joint {number} fluctuates more than the others can undo. What remains is {left}.")
+        text = _("Joint {number} fluctuates more than the others can undo; what remains is {left}.")
         return say(text, number=found.limiting_joint, left=left)
     spare = math.asinh(0.5 * found.speed_fluctuation_min)
     closing = math.acos(min(1.0, math.cos(joint_angle) * math.exp(spare)))
     decimals = next((d for d in (2, 3, 4, 5) if round(closing / deg, d) != round(joint_angle / deg, d)), 6)
     text = plural(
         "The angle of joint {number} is too large for the other one: at {closing} instead of {now} the drive could be "
-        "uniform. What remains is {left}.",
+        "uniform; what remains is {left}.",
         "The angle of joint {number} is too large for the others: at {closing} instead of {now} the drive could be "
-        "uniform. What remains is {left}.",
+        "uniform; what remains is {left}.",
         joints - 1,
     )
     if found.speed_fluctuation_min < LITTLE:
         text = plural(
             "The angle of joint {number} is a little too large for the other one: at {closing} instead of {now} the "
-            "drive could be uniform. What remains is {left}.",
+            "drive could be uniform; what remains is {left}.",
             "The angle of joint {number} is a little too large for the others: at {closing} instead of {now} the drive "
-            "could be uniform. What remains is {left}.",
+            "could be uniform; what remains is {left}.",
             joints - 1,
         )
     return say(

@@ -255,7 +255,7 @@ def _remarks(drive: Drive, found: RoadTorsion) -> Iterator[Remark]:
     yield from _quickness(found)
     if np.any(_rattling(found)):
         text = _(
-            "The torque changes its sign: joints and splines with backlash rattle. Backlash counts as closed here."
+            "The torque changes its sign: joints and splines with backlash rattle; backlash counts as closed here."
         )
         yield Remark(text=text, tone="warning")
     if any(isinstance(one, Random) for one in drive.movements):
@@ -303,7 +303,7 @@ def _quickness(found: RoadTorsion) -> Iterator[Remark]:
     else:
         text = _(
             "Warning: the movement ({rate}) is quick beside the {rest} at which mode {mode} comes to rest, and "
-            "the torques stay behind it; they are told as if the drive stood at every instant. It was not "
+            "the torques stay behind it; they are told as if the drive stood at every instant, and it was not "
             "followed in time: {why}."
         )
         yield Remark(text=say(text, why=found.why, **values), tone="warning")

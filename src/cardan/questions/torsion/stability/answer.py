@@ -183,8 +183,8 @@ def _unproved(found: Stability, over: MapAxis) -> Iterator[Remark]:
     if not proof.looked_at:
         step = over.quantity(float(np.max(np.diff(np.sort(over.values)), initial=0.0)), 2)
         text = _(
-            "Only points {step} apart were judged: narrower zones may be missed. A proof between them would take too "
-            "long for a line this stiff."
+            "Only points {step} apart were judged: narrower zones may be missed, and a proof between them would take "
+            "too long for a line this stiff."
         )
         yield Remark(text=say(text, step=step), tone="warning")
         return
