@@ -40,7 +40,7 @@ def test_it_says_what_whirls_and_what_to_mind(cardan):
     found = bending_speeds(files.load(VAN))
     assert "first bending mode, shaft 3 (rear piece) at 7 095 rpm, 1.82 times" in said
     half, full = found.passing(0)
-    assert f"bounce mode on support 1 (centre bearing), and half of it. Pass each quickly: in {half:.2g} s" in said
+    assert f"bounce mode on support 1 (centre bearing), and half of it; pass each quickly: in {half:.2g} s" in said
     assert f"in {full:.2g} s all of it (loss factor of rubber, 0.1)" in said
     low, high = found.half_band[1] / rpm
     assert f"from {low:,.0f} to {high:,.0f} rpm the joints".replace(",", " ") in said

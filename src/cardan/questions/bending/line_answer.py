@@ -334,7 +334,7 @@ def _assumptions(drive: Drive, result: LineWhirl) -> Iterator[Remark]:
     soft = [number for number in result.support if drive.supports[number - 1].damping is None]
     if soft:
         text = _(
-            "Supports {which} are damped as rubber is, for want of their own damping; the height of the bounce "
+            "Supports without a damping of their own, {which}, are damped as rubber is; the height of the bounce "
             "depends on it."
         )
         yield Remark(text=say(text, which=listed(soft)))
