@@ -97,7 +97,7 @@ def test_supports_that_tell_nothing_leave_the_torques():
     assert result.forces.reaction is None
     assert [one.name for one in said.figures()] == ["torques"]
     (alarm,) = [told(one.text, USUAL) for one in said.remarks if one.alarm]
-    assert alarm.startswith("Warning: forces on the supports are not calculated. supports")
+    assert alarm.startswith("Warning: forces on the supports are not calculated: supports")
 
 
 def test_a_moving_drive_tells_its_forces_over_the_movement():
