@@ -214,19 +214,7 @@ def _steps(
     here: Linearised, left: Array, bases: Array, back: Array, omega: Array, chosen: Array, free: bool
 ) -> tuple[Array, Array]:
     """Return Newton's steps of the chosen rows and of the forces."""
-    rate = omega[chosen, None, None]
-    damping, stiffness, mass = here.damping[chosen], here.stiffness[chosen], here.mass[chosen]
-    coupled = np.any((damping != 0.0) | (stiffness != 0.0), axis=(0, 1))
-    rank = left.shape[-2]
-    blocks: dict[tuple[int, int], Array] = {}
-    for r in range(rank):
-        for s in range(rank):
-            if not (coupled[r, s] or r == s):
-                continue
-            inner = stiffness[:, :, r, s, None] * bases[0] + rate * damping[:, :, r, s, None] * bases[1]
-            if r == s:
-                inner = inner + rate**2 * mass[:, :, r, None] * bases[2]
-            blocks[r, s] = np.matmul(back, inner)
+    blocks = _matrix(here, bases, back, omega, chosen)
     if free:
         for (_r, s), block in blocks.items():
             if s == 0:
@@ -237,6 +225,40 @@ def _steps(
     if free:
         step[:, 0, 0] = 0.0
     return step, pushed
+
+
+def _matrix(here: Linearised, bases: Array, back: Array, omega: Array, chosen: Array) -> dict[tuple[int, int], Array]:
+    """Return Newton's matrix of the chosen rows in blocks, as `solve_blocks` takes them."""
+    rate = omega[chosen, None, None]
+    damping, stiffness, mass = here.damping[chosen], here.stiffness[chosen], here.mass[chosen]
+    coupled = np.any((damping != 0.0) | (stiffness != 0.0), axis=(0, 1))
+    blocks: dict[tuple[int, int], Array] = {}
+    for r, s in np.ndindex(coupled.shape):
+        if not (coupled[r, s] or r == s):
+            continue
+        inner = stiffness[:, :, r, s, None] * bases[0] + rate * damping[:, :, r, s, None] * bases[1]
+        if r == s:
+            inner = inner + rate**2 * mass[:, :, r, None] * bases[2]
+        blocks[r, s] = np.matmul(back, inner)
+    return blocks
+
+
+def odd_growth(equation: Equation, frequency: ArrayLike, coefficient: Array) -> Array:
+    """Tell about which motions an odd number of disturbances grows without swinging, array of bool (B,).
+
+    frequency (B,) [rad/s]: of either sign; coefficient (B, R, H+1), complex: motions that are not free.
+    So is the middle one of three motions: real multipliers above 1 are odd in number where the determinant of Newton's
+    matrix is negative, which for a line at rest is positive and passes through 0 with a multiplier through 1.
+    """
+    omega = np.atleast_1d(np.asarray(frequency, dtype=float))
+    phase, bases, back = _bases(coefficient.shape[-1] - 1)
+    known = np.concatenate([coefficient.real, -coefficient.imag[..., 1:]], axis=-1)
+    x, v, a = (np.matmul(basis, known.swapaxes(-1, -2)) for basis in bases)
+    rate = omega[:, None, None]
+    here = equation(np.arange(len(omega)), phase, x, rate * v, rate**2 * a)
+    blocks = _matrix(here, bases, back, omega, np.ones(len(omega), dtype=bool))
+    found: Array = np.linalg.slogdet(_assembled(blocks, coefficient.shape[-2]))[0] < 0.0
+    return found
 
 
 def solve_blocks(blocks: dict[tuple[int, int], Array], right: Array) -> Array:

@@ -210,24 +210,29 @@ def spring_torque(table: tuple[tuple[float, ...], tuple[float, ...]], twist: flo
     return torques[k] + slope * (twist - twists[k]), slope
 
 
-def _stored(table: tuple[tuple[float, ...], tuple[float, ...]], twist: float) -> float:
-    """Return the work that twists a spring by its table from 0 [J]: trapezia between its points."""
-    inside = sorted(x for x in table[0] if min(0.0, twist) < x < max(0.0, twist))
-    places = [0.0, *(inside if twist > 0.0 else inside[::-1]), twist]
-    torque = [spring_torque(table, x)[0] for x in places]
-    return sum(0.5 * (torque[k] + torque[k + 1]) * (places[k + 1] - places[k]) for k in range(len(places) - 1))
-
-
 def _springs(model: TorsionalModel, twist: Array) -> tuple[Array, Array, Array]:
     """Return torque, stiffness and energy of springs by their tables, arrays (..., E); 0 for all others."""
     xp = namespace(twist)
     found = np.zeros((3, *twist.shape))
     for e, table in enumerate(model.tables):
         if table is not None:
-            at = np.ravel(twist[..., e]).tolist()
-            rows = np.asarray([(*spring_torque(table, x), _stored(table, x)) for x in at])
-            found[..., e] = np.reshape(rows.T, (3, *twist.shape[:-1]))
+            found[:, ..., e] = _by_table(table, np.asarray(twist[..., e]))
     return xp.asarray(found[0]), xp.asarray(found[1]), xp.asarray(found[2])
+
+
+def _by_table(table: tuple[tuple[float, ...], tuple[float, ...]], twist: Array) -> Array:
+    """Return torque, stiffness and energy of a spring by its table, array (3, ...): its work from the twist 0 on."""
+    twists, torques = np.asarray(table)
+    slope = np.diff(torques) / np.diff(twists)
+    work = np.append(0.0, np.cumsum(0.5 * (torques[1:] + torques[:-1]) * np.diff(twists)))
+
+    def at(x: Array) -> tuple[Array, Array, Array]:
+        k = np.clip(np.searchsorted(twists, x, side="right") - 1, 0, len(slope) - 1)
+        torque = torques[k] + slope[k] * (x - twists[k])
+        return torque, slope[k], work[k] + 0.5 * (torques[k] + torque) * (x - twists[k])
+
+    torque, stiffness, energy = at(twist)
+    return np.stack([torque, stiffness, energy - at(np.zeros(()))[2]])
 
 
 def _rubbing(model: TorsionalModel, turning: Array, like: Array) -> tuple[Array, Array]:

@@ -279,6 +279,8 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
         pair = _("{order} (±{torque})")
         bands = [say(pair, order=_order(order), torque=_torque(size)) for order, size in beside]
         yield Remark(text=say(text, bands=Joined(bands)))
+    if found.beside:
+        yield _beside(found)
     if drive.duty.engine is not None and drive.duty.engine.mean_pressure is not None:
         yield _engine(drive.duty.engine, found)
     if found.train.model.free and not swept and bool(steady.found):
@@ -297,6 +299,25 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
     if not swept:
         command = ("cardan", "torsion", "response", FILE, "--speeds", "LOW:HIGH")
         yield Remark(text=_("The same over a range of speeds, in rpm:"), command=command, tone="next")
+
+
+def _beside(found: TorsionResponse) -> Remark:
+    """Return that there are further stable motions: at one speed their torque, over many where they are."""
+    if not found.speed.ndim:
+        text = _(
+            "Other stable motions at this speed: {swings}. Which one runs depends on how the speed was reached; the "
+            "one with the largest swing is told."
+        )
+        swings = [say("±{torque}", torque=_torque(float(np.max(one.swing)))) for one in found.beside]
+        return Remark(text=say(text, swings=Joined(swings)), tone="warning")
+    text = _(
+        "Several stable motions at {where}, down to ±{torque}: the torque jumps on the way up and down; the one with "
+        "the largest swing is told."
+    )
+    several = np.isin(np.arange(len(found.speed)), [one.row for one in found.beside])
+    where = ranges(np.abs(found.speed), several, "angular_speed")
+    least = min(float(np.max(one.swing)) for one in found.beside)
+    return Remark(text=say(text, where=where, torque=_torque(least)), tone="warning")
 
 
 def _alarms(found: TorsionResponse) -> Iterator[Remark]:
@@ -410,6 +431,14 @@ def _facts(found: TorsionResponse) -> dict[str, Any]:
             for one in found.apart
         ],
         "side_bands": [{"order": order, "torque": Quantity(size, "torque")} for order, size in found.side_orders(0.0)],
+        "other_motions": [
+            {
+                "speed": Quantity(np.abs(one.orbit.speed[0]), "angular_speed"),
+                "min": Quantity(one.lowest, "torque"),
+                "max": Quantity(one.highest, "torque"),
+            }
+            for one in found.beside
+        ],
         "residual": steady.residual,
         "power_residual": steady.power_residual,
         "assumed": found.assumed,

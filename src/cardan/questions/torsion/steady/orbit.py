@@ -212,6 +212,11 @@ def pieces_of(
     return None
 
 
+def pieces_near(turning: Turning, start: Array) -> Pieces | None:
+    """Return the steady running of one drive next to a Fourier sum (R, H+1) by shooting, or None."""
+    return _Search(turning, Shooting()).near(_Sum(start, 0.0))
+
+
 class _Search:
     """Tries to find the motion of one drive, within the work that all of them may take."""
 

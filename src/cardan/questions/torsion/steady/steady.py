@@ -21,6 +21,9 @@ from cardan.texts import _
 from .orbit import Orbit, at_rest, pieces_of
 from .steady_result import Orders, SteadyResponse, read_off
 
+ORDERS = 10.0
+"""Highest order told."""
+
 Progress: TypeAlias = Callable[[float], object]
 """Told the share done; may answer "stop"."""
 
@@ -48,7 +51,7 @@ def periodic_response(
     *,
     speed: ArrayLike | None = None,
     method: HarmonicBalance | Shooting | None = None,
-    orders: float = 10.0,
+    orders: float = ORDERS,
     progress: Progress | None = None,
 ) -> SteadyResponse:
     """Return the steady running of drives.
@@ -94,7 +97,7 @@ def periodic_response(
     array([123.541, 117.368])
     """
     orbit, status = steady_orbits(model, speed=speed, method=method, progress=progress)
-    return _described(orbit, status, orders)
+    return described(orbit, status, orders)
 
 
 def steady_orbits(
@@ -193,14 +196,18 @@ def _with_pieces(waves: Waves, pieces: dict[int, Pieces]) -> Waves:
     coefficient, force, status = waves.coefficient.copy(), waves.force.copy(), waves.status.copy()
     if coefficient.shape[-1] < LOWER:
         coefficient = np.pad(coefficient, ((0, 0), (0, 0), (0, LOWER - coefficient.shape[-1])))
-    order = np.arange(coefficient.shape[-1])
     for k, found in pieces.items():
-        time, weight, x, _v, _a = found.points
-        turn = np.exp(-1j * found.omega * time[..., None] * order) * weight[..., None] * (2.0 / found.duration)
-        turn[..., 0] *= 0.5
-        coefficient[k] = np.einsum("nsk,nsr->rk", turn, x)
+        coefficient[k] = fourier_of(found, coefficient.shape[-1])
         force[k], status[k] = found.force, Status.CONVERGED
     return replace(waves, coefficient=coefficient, force=force, status=status)
+
+
+def fourier_of(found: Pieces, width: int) -> Array:
+    """Return the lower coefficients of a motion in pieces, array (R, width), complex."""
+    time, weight, x, _v, _a = found.points
+    turn = np.exp(-1j * found.omega * time[..., None] * np.arange(width)) * weight[..., None] * (2.0 / found.duration)
+    turn[..., 0] *= 0.5
+    return np.asarray(np.einsum("nsk,nsr->rk", turn, x))
 
 
 def _nothing(count: int, coordinates: int, status: Status) -> Waves:
@@ -216,7 +223,7 @@ def _by_waves(part: Turning, method: HarmonicBalance | None) -> tuple[Waves, Wav
     """Return motions as Fourier sums, where play stays closed, and sums to search from where there are none."""
     half_turns, smooth = round(part.period / np.pi), closed(part)
     how = method or HarmonicBalance(harmonics=HARMONICS * half_turns, most=96)
-    found = _sums(smooth, at_rest(smooth), how)
+    found = sums_of(smooth, at_rest(smooth), how)
     lost = np.flatnonzero((found.status == Status.NO_CONVERGENCE) | ~stays_closed(part, found.coefficient))
     if not lost.size:
         return found, found
@@ -235,15 +242,15 @@ def _sharp(part: Turning, near: Waves) -> Waves:
     """Return what motions with open play are, at least coarsely, where no pieces were found."""
     half_turns = round(part.period / np.pi)
     how = HarmonicBalance(harmonics=KINKED * half_turns, most=2 * KINKED * half_turns)
-    found = _sums(part, near.coefficient, how)
+    found = sums_of(part, near.coefficient, how)
     lost = np.flatnonzero(found.status == Status.NO_CONVERGENCE)
     if lost.size:  # the way from the straight drive may have turned back
         some = part.part(lost)
-        found = _put(found, lost, _sums(some, at_rest(some), how))
+        found = _put(found, lost, sums_of(some, at_rest(some), how))
     return found
 
 
-def _sums(part: Turning, start: Array, how: HarmonicBalance) -> Waves:
+def sums_of(part: Turning, start: Array, how: HarmonicBalance) -> Waves:
     """Return motions by harmonic balance, those of free drives beginning with the shaft angle."""
     free = part.model.free
     found = harmonic_balance(part, part.frequency, part.coordinates, free=free, start=start, method=how)
@@ -269,7 +276,7 @@ def _along(part: Turning, way: tuple[tuple[float, float], ...], how: HarmonicBal
     )
     for share, rounding in way:
         bent = Turning(part.model, part.angle_error, part.speed, part.period, np.full(len(part.speed), share), rounding)
-        next_ = _sums(bent, found.coefficient, how)
+        next_ = sums_of(bent, found.coefficient, how)
         there = np.flatnonzero(next_.status != Status.NO_CONVERGENCE)
         found = replace(_put(found, there, _some(next_, there)), status=next_.status)
     return found
@@ -310,7 +317,7 @@ def started(coefficient: Array, period: float) -> Array:
     return moved
 
 
-def _described(orbit: Orbit, status: Array, orders: float) -> SteadyResponse:
+def described(orbit: Orbit, status: Array, orders: float = ORDERS) -> SteadyResponse:
     """Return what is known of the motions."""
     base = 2.0 * np.pi / orbit.period
     count = max(1, int(np.ceil(orders / base - 1e-9)))

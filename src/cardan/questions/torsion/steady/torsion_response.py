@@ -22,7 +22,8 @@ from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_ti
 from cardan.texts import _
 
 from .run_stability import Floquet, floquet, nearest_zone
-from .steady import periodic_response
+from .several import Beside, stable_motions
+from .steady import described, steady_orbits
 from .steady_result import SteadyResponse
 from .two_frequencies import SideBands, grouped, side_bands
 
@@ -67,6 +68,8 @@ class TorsionResponse:
     bands : tuple of SideBands
         The exact motions under the joints and these torques, with the side bands |ν ± 2r|; where there is none, as
         with open backlash, the straight line answers and its amplitudes are added.
+    beside : tuple of Beside
+        Further stable motions, each with a smaller swing than the one that is told at its speed.
     assumed : tuple of str
         Paths of what the drive does not say and the answer assumes.
     """
@@ -77,6 +80,7 @@ class TorsionResponse:
     apart: tuple[NonsynchronousOrder, ...]
     assumed: tuple[str, ...]
     bands: tuple[SideBands, ...] = ()
+    beside: tuple[Beside, ...] = ()
 
     @property
     def speed(self) -> Array:
@@ -183,7 +187,9 @@ def torsion_response(
     speeds = np.asarray(_speeds(chosen, speed), dtype=float)
     train, model = loaded_model(drive, chosen, speeds, pieces=pieces)
     model, loose = parted(model)
-    steady = periodic_response(model, speed=speeds, method=method, progress=_scaled(progress, 0.0, SHARE))
+    found = steady_orbits(model, speed=speeds, method=method, progress=_scaled(progress, 0.0, SHARE))
+    orbit, status, beside = stable_motions(*found)
+    steady = described(orbit, status)
     slow = parted(loaded_model(drive, chosen, speeds, pieces=pieces, disturbed=True)[1])[0]
     verdict = floquet(replace(steady.orbit, model=slow) if np.any(train.model.loss_factor) else steady)
     bands = {base: (side_bands(steady.orbit, base, group), group) for base, group in grouped(loose)}
@@ -195,6 +201,7 @@ def torsion_response(
         floquet=verdict,
         apart=tuple(_apart(model, tuple(bands.values()), speeds)),
         bands=tuple(band for band, _group in bands.values()),
+        beside=beside,
         assumed=train.assumed,
     )
 

@@ -1,0 +1,128 @@
+"""Several steady motions at one speed, against equations of one mass written apart and integrated from many starts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan.maths.periodic.harmonics import Status
+from cardan.questions.torsion.model.inputs import Constant, Swinging
+from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
+from cardan.questions.torsion.steady.run_stability import Kind, Verdict, floquet
+from cardan.questions.torsion.steady.several import stable_motions
+from cardan.questions.torsion.steady.steady import steady_orbits
+from cardan.questions.torsion.steady.steady_result import read_off
+from tests.builders.torsion_in_time import flow
+
+STIFFNESS, INERTIA = 1000.0, 0.1
+
+
+def line(*, load: float, swing: float, damping: float, backlash: float = 0.0) -> TorsionalModel:
+    """Return a mass on a spring behind a forced speed, with a torque of order 1 on it."""
+    return torsional_line(
+        [[1.0, INERTIA]],
+        stiffness=[[STIFFNESS]],
+        damping=[[damping]],
+        backlash=[[backlash]],
+        input_speed=50.0,
+        torques=[
+            Torque(station=1, law=Constant(value=-load)),
+            Torque(station=1, law=Swinging(amplitude=swing, frequency=1.0)),
+        ],
+    )
+
+
+def settled(
+    spring: Callable[[np.ndarray, np.ndarray], np.ndarray], speed: float, load: float, swing: float
+) -> list[tuple[float, float]]:
+    """Return the extremes of the twist to which a mass settles from 60 places and speeds, the widest first."""
+    draw = np.random.default_rng(1)
+    x, v = draw.uniform(-0.08, 0.08, 60), draw.uniform(-6.0, 6.0, 60)
+    count, periods = 120, 150
+    h = 2.0 * np.pi / speed / count
+    low, high = np.full(60, np.inf), np.full(60, -np.inf)
+
+    def pushed(t: float, x: np.ndarray, v: np.ndarray) -> np.ndarray:
+        return (spring(-x, -v) - load + swing * np.sin(speed * t + x)) / INERTIA
+
+    for k in range(periods * count):
+        t = k * h
+        if k >= (periods - 2) * count:
+            low, high = np.minimum(low, -x), np.maximum(high, -x)
+        a = pushed(t, x, v)
+        b = pushed(t + h / 2, x + h / 2 * v, v + h / 2 * a)
+        c = pushed(t + h / 2, x + h / 2 * v + h * h / 4 * a, v + h / 2 * b)
+        d = pushed(t + h, x + h * v + h * h / 2 * b, v + h * c)
+        x, v = x + h * v + h * h / 6 * (a + b + c), v + h / 6 * (a + 2 * b + 2 * c + d)
+    found: list[tuple[float, float]] = []
+    for pair in sorted(zip(low.tolist(), high.tolist(), strict=True), key=lambda one: one[0] - one[1]):
+        if not found or abs(pair[1] - found[-1][1]) > 5e-4:
+            found.append(pair)
+    return found
+
+
+def told(model: TorsionalModel, speed: float) -> list[tuple[float, float]]:
+    """Return the extremes of the twist of the motions that are told, the widest first."""
+    orbit, status, beside = stable_motions(*steady_orbits(model, speed=[speed]))
+    assert status[0] == Status.CONVERGED
+    assert floquet(orbit).verdict[0] == Verdict.STABLE
+    highest = read_off(orbit, 1).highest[0, 0]
+    assert all(one.highest[0] < highest for one in beside)
+    angles = np.linspace(0.0, orbit.period, 2000)
+    twists = [np.subtract(*one.at(angles)[0][0].T) for one in (orbit, *(one.orbit for one in beside))]
+    return [(float(np.min(one)), float(np.max(one))) for one in twists]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("speed", "count"), [(63.0, 2), (69.0, 2), (75.0, 2), (100.0, 1)])
+def test_play_has_all_motions_to_which_it_settles(speed: float, count: int) -> None:
+    half, damping = 0.01, 1.5
+
+    def spring(twist: np.ndarray, rate: np.ndarray) -> np.ndarray:
+        over = np.where(twist > half, twist - half, np.where(twist < -half, twist + half, 0.0))
+        return STIFFNESS * over + np.where(over != 0.0, damping * rate, 0.0)
+
+    truth = settled(spring, speed, 4.0, 2.0)
+    found = told(line(load=4.0, swing=2.0, damping=damping, backlash=2.0 * half), speed)
+    assert len(found) == len(truth) == count
+    np.testing.assert_allclose(found, truth, atol=1e-4)  # what is left of the start, of steps across contacts
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("speed", "count"), [(95.0, 1), (115.0, 2), (118.0, 2), (125.0, 1)])
+def test_a_hardening_spring_near_its_resonance_has_both_motions(speed: float, count: int) -> None:
+    """Duffing's: torque c x + d x³, d by a table so fine that its corners do not count."""
+    cubic, damping, swing = 8e5, 0.8, 2.4
+    at = np.linspace(-0.15, 0.15, 1201)
+    model = line(load=0.0, swing=swing, damping=damping)
+    table = (tuple(at.tolist()), tuple((cubic * at**3).tolist()))
+    model = replace(model, tables=(table,), friction=np.zeros(1), creep=np.ones(1))
+    truth = settled(lambda x, v: STIFFNESS * x + cubic * x**3 + damping * v, speed, 0.0, swing)
+    assert len(truth) == count
+    np.testing.assert_allclose(told(model, speed), truth, rtol=2e-3)
+
+
+@pytest.mark.slow
+def test_of_three_motions_of_a_steep_joint_the_unstable_middle_one_is_left_for_the_others() -> None:
+    model = torsional_line(
+        [[1.0, 0.001], [0.001, 0.1]],
+        stiffness=[[3000.0], [1500.0]],
+        damping=[[0.0], [0.5]],
+        joint_angle=[np.radians(40.0)],
+        input_speed=49.5,
+    )
+    orbit, status = steady_orbits(model, speed=[49.5])
+    middle = floquet(orbit)
+    assert (middle.verdict[0], middle.kind[0]) == (Verdict.UNSTABLE, Kind.REPEATING)
+    whole, _status, beside = stable_motions(orbit, status)
+    assert len(beside) == 1
+    for one in (whole, beside[0].orbit):
+        q, rate, _acceleration = (values[0, 0, 1:] for values in one.at([0.0]))
+        start = np.concatenate([q, rate])
+        turned = np.pi * (np.arange(4) < 2)
+        np.testing.assert_allclose(flow(model, 49.5, np.pi / 49.5, start) - start, turned, atol=1e-6)
+        pushed = flow(model, 49.5, 40 * np.pi / 49.5, start * [1.002, 1.002, 1.0, 1.0])
+        np.testing.assert_allclose(pushed - start, 40 * turned, atol=5e-3)  # it comes back
