@@ -34,7 +34,10 @@ INSIDE = "the contact pressure of balls and rollers is judged, as advice"
 
 SIGN = "of a shape that is alike both ways the first peak counts; rounding had decided its sign"
 
+SEVERAL = "with open backlash stable motions are found where none was; told is that of the largest alternating torque"
+
 NUMBERS: tuple[tuple[str, str, str], ...] = (
+    (r"torsion response examples/pto-flywheel\.toml --speeds", r".*", SEVERAL),
     (
         r"select examples/(pto-hitch|rolling-mill-(lower|upper)-spindle|truck-rear-axle)\.toml --torque-Nm",
         r"(need|sizes|types)\..*",

@@ -305,14 +305,14 @@ def _beside(found: TorsionResponse) -> Remark:
     """Return that there are further stable motions: at one speed their torque, over many where they are."""
     if not found.speed.ndim:
         text = _(
-            "Other stable motions at this speed: {swings}. Which one runs depends on how the speed was reached; the "
-            "one with the largest swing is told."
+            "Other stable motions at this speed: {torques}. Which one runs depends on how the speed was reached; told "
+            "is the one with the largest alternating torque."
         )
-        swings = [say("±{torque}", torque=_torque(float(np.max(one.swing)))) for one in found.beside]
-        return Remark(text=say(text, swings=Joined(swings)), tone="warning")
+        torques = [say("±{torque}", torque=_torque(float(np.max(one.swing)))) for one in found.beside]
+        return Remark(text=say(text, torques=Joined(torques)), tone="warning")
     text = _(
-        "Several stable motions at {where}, down to ±{torque}: the torque jumps on the way up and down; the one with "
-        "the largest swing is told."
+        "Several stable motions at {where}, down to ±{torque}: the torque jumps on the way up and down; told is the "
+        "one with the largest alternating torque."
     )
     several = np.isin(np.arange(len(found.speed)), [one.row for one in found.beside])
     where = ranges(np.abs(found.speed), several, "angular_speed")
