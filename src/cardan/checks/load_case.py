@@ -17,7 +17,7 @@ from cardan.drive.torsional_layout import has_torsion
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
-from cardan.questions.forces.turn_loads import TurnLoads, case_loads, largest_loads, turn_loads
+from cardan.questions.forces.turn_loads import TurnLoads, case_loads, largest_loads, sprung, turn_loads
 from cardan.questions.motion.motion import motion
 from cardan.questions.torsion.model.torsion import torsion_modes
 from cardan.questions.torsion.steady.dynamic_torque import DynamicTorque, dynamic_torque
@@ -227,11 +227,14 @@ class Case:
         if self.torque_at not in self.unit:
             self.unit[self.torque_at] = _unit_loads(self.chain, self.torque_at)
         size = np.abs(torque)[..., None]
-        return TurnLoads(**{name: size * values for name, values in vars(self.unit[self.torque_at]).items()})
+        found = TurnLoads(**{name: size * values for name, values in vars(self.unit[self.torque_at]).items()})
+        return found if self.chain.laws is None else sprung(found, self.chain.laws)
 
 
 def _unit_loads(chain: Chain, torque_at: str) -> TurnLoads:
     """Return the loads that a torque of 1 makes, of many drives block by block."""
+    if chain.laws is not None:
+        chain = replace(chain, laws=replace(chain.laws, spring=0.0 * chain.laws.spring))
     outer = chain.joint_angle.shape[:-1]
     if math.prod(outer) <= BLOCK:
         return turn_loads(chain, 1.0, torque_at=torque_at)

@@ -127,8 +127,15 @@ class ElasticHalfCardan(Joint):
     )
     axial_stiffness: float | None = quantity("stiffness", None, doc="stiffness along the shafts", above=0.0)
     lateral_stiffness: float | None = quantity("stiffness", None, doc="stiffness across the shafts", above=0.0)
-    axial_shift: float | None = quantity("length", None, doc="by how much both shafts stand closer or farther apart")
+    axial_shift: float | None = quantity(
+        "length", None, doc="by how much both shafts stand farther apart than without load, negative where closer"
+    )
     lateral_shift: float | None = quantity("length", None, doc="by how much both shafts miss each other", low=0.0)
+    lateral_direction: float = quantity(
+        "angle",
+        0.0,
+        doc="where the driven shaft is shifted to, about the driving one: from the side to which the joint bends",
+    )
 
     def pair(self, joint_angle: Array) -> mobius.Pair | None:
         """Return the identity, None where the links are counted."""
@@ -171,6 +178,21 @@ class ElasticHalfCardan(Joint):
             yield Strain(name=mark("force along the shafts"), force=self.axial_stiffness * abs(self.axial_shift))
         if self.lateral_stiffness is not None and self.lateral_shift:
             yield Strain(name=mark("force across the shafts"), force=self.lateral_stiffness * self.lateral_shift)
+
+    @property
+    def bend_spring(self) -> float:
+        """Its stiffness against the joint angle, where it is given."""
+        return self.bending_stiffness or 0.0
+
+    def sprung(self, joint_angle: Array) -> Array | None:
+        """Return its forces against both shifts, along the middle of both shafts and across the driving one."""
+        axial = -(self.axial_stiffness or 0.0) * (self.axial_shift or 0.0)
+        lateral = -(self.lateral_stiffness or 0.0) * (self.lateral_shift or 0.0)
+        if not axial and not lateral:
+            return None
+        half, way = 0.5 * joint_angle, self.lateral_direction
+        aside = lateral * math.cos(way) + axial * np.sin(half)
+        return np.stack((axial * np.cos(half), aside, lateral * math.sin(way) + 0.0 * half), axis=-1)
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield how its links are strained."""

@@ -30,6 +30,8 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``strained``         nothing: nothing in it is strained but by the torque
 ``carried``          a driven shaft that keeps its direction, of a loose joint one in a bearing
 ``push``             no force goes with its couple
+``bend_spring``      nought: nothing in it holds against the joint angle
+``sprung``           no force goes with its stiffness
 ``shaft_behind``     the driven shaft turns about its axis and does not wobble
 ``wobbles``          no: the driven shaft keeps its place while it turns
 ``head``             the driven shaft starts at the joint centre
@@ -335,6 +337,18 @@ class Joint:
     def carried(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the pairs that hold both its shafts in the frame, so that it turns once and is held but once."""
         yield from inner.carried(stance, loose=self.loose, slides=self.slides)
+
+    @property
+    def bend_spring(self) -> float:
+        """Its stiffness against the joint angle [N·m/rad]."""
+        return 0.0
+
+    def sprung(self, joint_angle: Array) -> Array | None:
+        """Return the force that its stiffness puts on its driven shaft, array (..., 3) [N]; None where it has none.
+
+        joint_angle (...) [rad]. Along the driving shaft e, N × e and the normal N of the plane, whatever the torque.
+        """
+        return None
 
     def push(self, angle: Array, joint_angle: Array) -> Array | None:
         """Return the force of a loose joint on its driven shaft over the torque of this, array (..., 3) [1/m].

@@ -149,6 +149,7 @@ class Laws:
     growth: Array  # (..., n) [1/rad]: dκ_i/dα_i
     # (..., n) [rad]: how far the driving yoke of the Hooke joint stands ahead of the driving mark: 0 or π/2
     ahead: Array
+    spring: Array  # (..., n) [N·m/rad]: their stiffness against the joint angle
     own: tuple[bool, ...]  # tuple of bool (n): which joints are of another kind
 
 
@@ -233,7 +234,8 @@ def alike(
     quarter = xp.asarray([0.0 if joint.crossed else 0.5 * np.pi for joint in joints[:-1]], dtype=xp.float64)
     twist = plane_twist + quarter + aheads[..., :-1] - aheads[..., 1:]
     own = tuple(not joint.single_cross for joint in joints)
-    laws = Laws(joint_angle=joint_angle, steepness=steepness, growth=growths, ahead=aheads, own=own)
+    spring = xp.asarray([joint.bend_spring for joint in joints], dtype=xp.float64) + 0.0 * joint_angle
+    laws = Laws(joint_angle=joint_angle, steepness=steepness, growth=growths, ahead=aheads, spring=spring, own=own)
     return equal, twist, aheads[..., 0], laws
 
 

@@ -467,7 +467,7 @@ def forces_from(
         held = frame(whole, stand, points)
         equations, unknowns = held.equations, held.unknowns
         loads = [*pushes(whole, held, stand, found), *weights(whole, held, stand, acceleration)]
-        known = right_side(held, found.secondary, loads, push, shoves(whole, held, stand, found.rubbed))
+        known = right_side(held, found.secondary, loads, push, shoves(whole, held, stand, found.pushed))
         amounts, status = _amounts(
             whole, held, known, field, lambda: elastic(whole, held, stand, found, loads, push, known)
         )

@@ -83,8 +83,8 @@ class Couples:
     loss: Array  # (..., p, n) [W]: power lost in the journals of each joint
     power: Array  # (..., p) [W]: what the power balance leaves
     flow: Array  # (..., p) [W]: largest power in that balance, to judge what is left by
-    # of each joint (..., p, 3) [N]: force that friction within it puts on its driven shaft; None where nothing rubs
-    rubbed: tuple[Array | None, ...]
+    # of each joint (..., p, 3) [N]: force that friction within it or its stiffness puts on its driven shaft, or None
+    pushed: tuple[Array | None, ...]
 
 
 def standing(
@@ -177,7 +177,7 @@ def couples(train: Train, stand: KinematicState, load: Array) -> Couples:
     rows: list[list[Array]] = [[], [], [], [], []]
     torque, pushed, driving, driven, losses = rows
     entering = [tau]
-    rubbed: list[Array | None] = []
+    forces: list[Array | None] = []
     for i in reversed(range(n)):
         u, v = stand.driving_arm[..., i, :], stand.driven_arm[..., i, :]
         normal = stand.couple_way(i)
@@ -204,7 +204,11 @@ def couples(train: Train, stand: KinematicState, load: Array) -> Couples:
             out = out + added
             t = t + frames.dot(added, normal)
             lost = lost + frames.dot(added, stand.turning(i) - stand.turning(i + 1))
-        rubbed.insert(0, None if inside is None else tau[..., None] * inside.of(power, inside.force))
+        forces.insert(0, None if inside is None else tau[..., None] * inside.of(power, inside.force))
+        spring = sprung(train, stand, i)
+        if spring is not None:
+            out, forces[0] = out + spring[0], spring[1]
+            work = work + frames.dot(spring[0], stand.turning(i) - stand.turning(i + 1))
         back, given = t, out
         if swing is not None:
             hu, hv, hn = swing.rate
@@ -235,7 +239,7 @@ def couples(train: Train, stand: KinematicState, load: Array) -> Couples:
         loss=xp.stack(losses, axis=-1),
         power=tau * w[..., 0] - work,
         flow=flow,
-        rubbed=tuple(rubbed),
+        pushed=tuple(forces),
     )
 
 
@@ -292,6 +296,13 @@ class InnerFriction:
         return found
 
 
+def seen_by(train: Train, stand: KinematicState, i: int) -> tuple[Array, Array, Array, Array, Array]:
+    """Return N, N × e, θ and α as joint i sees its driving mark, see `seen`, and the direction e of its shaft."""
+    before, after = stand.axis[..., i, :], stand.axis[..., i + 1, :]
+    plane = None if train.normal is None else train.normal[..., None, i, :]
+    return (*seen(stand.driving_arm[..., i, :], before, after, plane), before)
+
+
 def inner_friction(train: Train, stand: KinematicState, i: int) -> InnerFriction | None:
     """Return what friction within joint i adds; None where it does not rub or is a single cross.
 
@@ -301,9 +312,8 @@ def inner_friction(train: Train, stand: KinematicState, i: int) -> InnerFriction
     """
     if not train.kinds or not train.kinds[i].rubs:
         return None
-    before, after = stand.axis[..., i, :], stand.axis[..., i + 1, :]
-    plane = None if train.normal is None else train.normal[..., None, i, :]
-    normal, aside, theta, alpha = seen(stand.driving_arm[..., i, :], before, after, plane)
+    after = stand.axis[..., i + 1, :]
+    normal, aside, theta, alpha, before = seen_by(train, stand, i)
     many = np.unique(np.round(alpha, 9)).size > FEW
     shares = rubbed_share(train.kinds[i], alpha, theta, many=many)
     push = rubbed_push(train.kinds[i], alpha, theta, many=many)
@@ -316,6 +326,22 @@ def inner_friction(train: Train, stand: KinematicState, i: int) -> InnerFriction
         couple=across[..., None] * frames.cross(normal, after) + push[:, 0][..., None] * normal,
         force=sum(push[:, 1 + k][..., None] * axis for k, axis in enumerate((before, aside, normal))),
     )
+
+
+def sprung(train: Train, stand: KinematicState, i: int) -> tuple[Array, Array | None] | None:
+    """Return couple and force of the stiffness of joint i on its driven shaft, (..., p, 3) [N·m, N]; None without any.
+
+    The couple -c α N works on no turn of the shafts, only on their bending.
+    """
+    kind = train.kinds[i] if train.kinds else None
+    if kind is None or not (kind.bend_spring or kind.sprung(np.zeros(1)) is not None):
+        return None
+    normal, aside, _theta, alpha, before = seen_by(train, stand, i)
+    none, force = 0.0 * stand.speed[..., i, None], kind.sprung(alpha)
+    couple = none - kind.bend_spring * alpha[..., None] * normal
+    if force is None:
+        return couple, None
+    return couple, none + sum(force[..., k, None] * axis for k, axis in enumerate((before, aside, normal)))
 
 
 def _own(train: Train, stand: KinematicState, i: int) -> Array:

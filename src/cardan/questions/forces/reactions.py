@@ -18,9 +18,8 @@ from cardan.drive.models.machine_held import machine_held
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import frames
 from cardan.maths.linear.systems import RANK, broadcast_shapes, solve_regular, surplus
-from cardan.questions.motion.moving_chain import seen
 
-from .kinetostatics import Couples, KinematicState, standing, swing_need
+from .kinetostatics import Couples, KinematicState, seen_by, standing, swing_need
 from .support_statics import Actions, Crosses, Layout, actions, balance, crosses, sliding
 
 
@@ -158,7 +157,7 @@ def pushes(train: Train, frame: Frame, stand: KinematicState, couples: Couples) 
     return [
         load
         for i in range(train.joints)
-        for load in push_of(train, frame, stand, i, couples.shaft_torque[..., i + 1], couples.rubbed[i])
+        for load in push_of(train, frame, stand, i, couples.shaft_torque[..., i + 1], couples.pushed[i])
     ]
 
 
@@ -183,26 +182,23 @@ def push_of(
 ) -> list[Load]:
     """Return the forces that joint i puts on its shafts with a torque on the driven one; none where it is not loose.
 
-    torque (..., p) [N·m]; added (..., p, 3) [N]: what friction within it adds to the force on the driven shaft.
+    torque (..., p) [N·m]; added (..., p, 3) [N]: what its friction and stiffness add to the force on the driven shaft.
     """
     if not train.kinds or not train.kinds[i].loose:
         return []
-    before, after = stand.axis[..., i, :], stand.axis[..., i + 1, :]
-    normal, aside, theta, alpha = seen(stand.driving_arm[..., i, :], before, after, _plane(train, i))
+    normal, aside, theta, alpha, before = seen_by(train, stand, i)
     size = train.kinds[i].push(theta, alpha)
-    if size is None:
+    if size is None and added is None:
         return []
-    force = torque[..., None] * sum(size[..., k, None] * way for k, way in enumerate((before, aside, normal)))
-    force = force if added is None else force + added
+    force = 0.0 * torque[..., None] if added is None else added
+    if size is not None:
+        ways = (before, aside, normal)
+        force = force + torque[..., None] * sum(size[..., k, None] * way for k, way in enumerate(ways))
     length = frame.acting.length[..., i]
     return [
         Load(shaft=i, force=-force, place=length, behind=True),
         Load(shaft=i + 1, force=force, place=0.0 * length, behind=False),
     ]
-
-
-def _plane(train: Train, i: int) -> Array | None:
-    return None if train.normal is None else train.normal[..., None, i, :]
 
 
 def thrusts(train: Train, stand: KinematicState, couples: Couples, sense: Array | None = None) -> Array:

@@ -137,7 +137,7 @@ def largest_loads(
     # K² = T² + M_b² on either shaft, so 4 M_b² + 3 T² = 4 K² - T².
     mises = (np.sqrt(4.0 * couple**2 - one**2) for one in (before, after))
     ends = _at_ends(*(peak(one) for one in mises)) if joint_angle.shape[-2] else math.sqrt(3.0) * np.abs(high)
-    return TurnLoads(
+    found = TurnLoads(
         low=low,
         high=high,
         couple=peak(couple),
@@ -145,6 +145,19 @@ def largest_loads(
         driven=peak(on_driven),
         mises=ends,
     )
+    return found if chain.laws is None else sprung(found, chain.laws)
+
+
+def sprung(found: TurnLoads, laws: Laws) -> TurnLoads:
+    """Return loads with the couples of joints that hold against their joint angle.
+
+    They stand on the plane of the shafts, those that go with an even torque in it.
+    """
+    if not np.any(laws.spring):
+        return found
+    couple = np.asarray(laws.spring * laws.joint_angle)
+    whole = {name: np.hypot(getattr(found, name), couple) for name in ("couple", "driving", "driven")}
+    return replace(found, **whole, mises=np.hypot(found.mises, 2.0 * _at_ends(couple, couple)))
 
 
 def across(laws: Laws, theta: Array, ratio: Array) -> tuple[Array, Array]:

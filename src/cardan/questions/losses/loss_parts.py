@@ -15,7 +15,7 @@ from cardan.drive.models.dynamics_model import Train, place_of, train
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
-from cardan.questions.forces.kinetostatics import KinematicState, inner_friction, standing
+from cardan.questions.forces.kinetostatics import KinematicState, inner_friction, sprung, standing
 from cardan.questions.forces.reactions import (
     Frame,
     Load,
@@ -296,8 +296,13 @@ def response(train: Train, drag: Array, angle: Array) -> Response:
         both = [torque[..., None] * whole, torque, torque[..., None] * inside.force]
         pull.append(solved_joint(i, *(0.5 * (one[0] + one[1]) for one in both)))
         rub.append(solved_joint(i, *(0.5 * (one[0] - one[1]) for one in both)))
-    still = np.zeros((angle.size, n + 1, 3))
-    weight = solved_for(still, weights(train, held, stand, None))
+    still, always = np.zeros((angle.size, n + 1, 3)), weights(train, held, stand, None)
+    for i in range(n):
+        spring = sprung(train, stand, i)
+        if spring is not None:
+            still = still + _across(e, spring[0], i)
+            always = [*push_of(train, held, stand, i, 0.0 * stand.speed[..., i], spring[1]), *always]
+    weight = solved_for(still, always)
     return Response(weight=weight, pull=np.stack(pull, axis=-3), rub=np.stack(rub, axis=-3))
 
 
