@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from cardan.answers.data import data
@@ -9,7 +10,7 @@ from cardan.answers.printed import printed
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
 from cardan.checks import check
-from cardan.choices.check_answer import answer, ask, checked, lacking, otherwise, urgent
+from cardan.choices.check_answer import COLUMNS, answer, ask, checked, lacking, otherwise, urgent
 from cardan.drive.drive import Drive
 from cardan.io import example
 from cardan.texts import speaking
@@ -94,3 +95,14 @@ def test_a_drive_of_which_nothing_is_said_tells_what_it_lacks():
     assert lacking(bare) == ()
     assert ask(bare) is None
     assert "duty.speed_rpm" in otherwise(bare)
+
+
+def test_a_sweep_tells_how_many_verdicts_rest_on_unconfirmed_ratings():
+    sure, unsure = example("two-piece-rear-drive"), example("pickup-two-piece")
+    (asked,) = COLUMNS
+    verdicts = [one for one in check(unsure) if one.run and not one.advice and one.check != "audit"]
+    used, failed, loose = asked.of_one(unsure)
+    assert used == max(float(np.max(one.utilisation)) for one in verdicts)
+    assert (failed, loose) == (0.0, sum(one.state == "unconfirmed" for one in verdicts))
+    assert loose > 0.0
+    assert asked.of_one(sure)[2] == sum(not one.sure for one in check(sure) if one.run and not one.advice)

@@ -448,16 +448,21 @@ def answer_of_list() -> Answer:
     )
 
 
-def _column_values(drive: Drive) -> tuple[float, float]:
+def _column_values(drive: Drive) -> tuple[float, float, float]:
     verdicts = check(drive, only=[name for name in CHECKS if name != AUDIT.name])
-    used = [float(np.max(one.utilisation)) for one in verdicts if one.run and not one.advice]
-    return (max(used, default=0.0), float(sum(not one <= 1.0 for one in used)))
+    binding = [one for one in verdicts if one.run and not one.advice]
+    used = [float(np.max(one.utilisation)) for one in binding]
+    failed, loose = sum(not one <= 1.0 for one in used), sum(not one.sure for one in binding)
+    return (max(used, default=0.0), float(failed), float(loose))
 
 
 COLUMNS = (
     SweepQuestion(
         name="check",
-        doc=mark("greatest utilisation over all checks that the drive can be put to, and how many fail"),
+        doc=mark(
+            "greatest utilisation over all checks that the drive can be put to, how many fail, and how many rest on "
+            "unconfirmed ratings"
+        ),
         told=(
             OutputColumn(
                 name="utilisation_percent",
@@ -466,6 +471,9 @@ COLUMNS = (
                 text=mark("greatest utilisation of a limit"),
             ),
             OutputColumn(name="failed_checks", text=mark("how many checks fail")),
+            OutputColumn(
+                name="unconfirmed_checks", text=mark("how many checks are met or failed by unconfirmed ratings")
+            ),
         ),
         of_one=_column_values,
         counts=("pose", "movement", "case", "error"),

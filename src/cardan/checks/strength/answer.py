@@ -480,15 +480,18 @@ def _named(one: Verdict | None) -> dict[str, Any] | None:
     return None if one is None else {"check": one.check, "subject": one.subject, "title": one.title}
 
 
-def _column_values(drive: Drive) -> tuple[float, float]:
+def _column_values(drive: Drive) -> tuple[float, float, float]:
     found = strength(drive)
-    return (found.utilisation, found.rated_torque)
+    return (found.utilisation, found.rated_torque, float(sum(not one.sure for one in found.binding)))
 
 
 COLUMNS = (
     SweepQuestion(
         name="strength",
-        doc=mark("greatest use of the strength of a part, and the torque at which it is used up"),
+        doc=mark(
+            "greatest use of the strength of a part, the torque at which it is used up, and how many limits rest on "
+            "unconfirmed ratings"
+        ),
         told=(
             OutputColumn(
                 name="strength_used_percent",
@@ -499,6 +502,7 @@ COLUMNS = (
             OutputColumn(
                 name="rated_torque_Nm", dimension="torque", unit="Nm", text=mark("torque that uses the strength up")
             ),
+            OutputColumn(name="unconfirmed_limits", text=mark("how many limits rest on unconfirmed ratings")),
         ),
         of_one=_column_values,
         counts=("pose", "movement", "case"),
