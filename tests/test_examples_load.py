@@ -26,6 +26,7 @@ def test_all_of_them_are_there() -> None:
         "mill-spindle",
         "overconstrained-pump",
         "pickup-two-piece",
+        "pto-baler",
         "pto-drive",
         "pto-hitch",
         "pto-spline-thrust",

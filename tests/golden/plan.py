@@ -96,6 +96,7 @@ SOME: dict[str, tuple[str, ...]] = {
     "assembly {drive} --angle-deg 30 --angle-deg 100": ("overconstrained-pump", "truck-supports"),
     f"torsion simulate {{drive}} --settled --span-s 0.2 --samples 101 {SWEEP}": ("truck-supports", "unstable-drive"),
     "torsion simulate {drive} --samples 101": ("pto-flywheel", "pto-flywheel-absorber"),
+    "torsion road {drive}": ("pto-baler",),
     "torsion stability {drive} --speeds 300:1500:6 --bends 2:20:4": ("unstable-drive", "pto-flywheel"),
     "torsion stability {drive} --speeds 1200:1460:8": ("unstable-drive", "truck-power-unit"),
     "torsion stability {drive} --over shafts[1].inertia_kg_m2=0.01:0.2:4 --speeds 300:900:4": ("unstable-drive",),

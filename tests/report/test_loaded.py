@@ -39,6 +39,7 @@ WITH = {
     "truck-power-unit": {"torsion", "balance"},
     "pto-flywheel": {"torsion", "run-up", "bending", "line", "balance"},
     "pto-flywheel-absorber": {"torsion", "run-up", "bending", "line", "balance"},
+    "pto-baler": {"torsion", "bending", "line", "balance"},
     "unstable-drive": {"torsion"},
     "cured-drive": {"torsion"},
     "car-propshaft": {"bending", "line", "rotor", "balance"},

@@ -135,6 +135,7 @@ ABOUT = {
     "overconstrained-pump": mark("Motor and pump, each shaft in two bearings: statically indeterminate, it binds."),
     "propshaft-with-rzeppa": mark("Two-piece propeller shaft with a Rzeppa joint beside the centre bearing."),
     "pickup-two-piece": mark("Two-piece propeller shaft of a pick-up: mean torque, hill with a trailer, pulling away."),
+    "pto-baler": mark("Power take-off shaft of a baler with a flywheel in a turn: torsional vibration on the move."),
     "pto-drive": mark("Power take-off shaft of a tractor at 540 rpm with large joint angles."),
     "pto-flywheel": mark("Power take-off shaft with a flywheel: backlash, torque reversal, run-up."),
     "pto-flywheel-absorber": mark("The same shaft with a torsional vibration absorber on its flywheel."),

@@ -310,3 +310,33 @@ def test_orders_that_do_not_repeat_count_to_first_order() -> None:
         assert places.high[k, 0] == pytest.approx(float(exact.torque_highest[0]), rel=0.01)
         assert places.low[k, 0] == pytest.approx(float(exact.torque_lowest[0]), abs=0.01 * places.high[k, 0])
         assert places.high[k, 0] > 2.0 + road_torsion(plain).standing.high[k, 0]
+
+
+@pytest.mark.slow
+def test_play_opens_where_the_torque_falls_through_zero() -> None:
+    """At the instant of the largest torque, against a mass behind a gap integrated in time until it repeats."""
+    speed, half = 70.0, 0.002
+    drive = lifted(swing(0.06, 0.05), speed=speed, load=8.0)
+    loose = replace(drive, joints=(replace(drive.joints[0], backlash=2.0 * half),))
+    found = road_torsion(loose)
+    assert found.opened is not None
+    assert road_torsion(drive).opened is None
+    k = int(np.argmax(np.max(found.opened.largest, axis=-1)))
+    alpha = float(found.standing.joint_angle[found.opened.row[k], 0])
+    tau = math.tan(0.5 * alpha) ** 2
+
+    def rates(time: float, state: np.ndarray) -> list[float]:
+        theta = speed * time
+        yoke = theta + math.atan2(tau * math.sin(2.0 * theta), 1.0 - tau * math.cos(2.0 * theta))
+        turn = speed * math.cos(alpha) / (1.0 - (math.sin(alpha) * math.cos(theta)) ** 2)
+        twist = yoke - state[0]
+        over = math.copysign(max(abs(twist) - half, 0.0), twist)
+        torque = STIFFNESS * over + (DAMPING * (turn - state[1]) if over else 0.0)
+        return [state[1], (torque - 8.0) / INERTIA]
+
+    begin, end = 400 * math.pi / speed, 402 * math.pi / speed
+    times = np.linspace(begin, end, 2001)
+    path = solve_ivp(rates, (0.0, end), [0.0, speed], t_eval=times, rtol=1e-9, atol=1e-11, max_step=2e-3).y
+    theta = speed * times
+    yoke = theta + np.arctan2(tau * np.sin(2.0 * theta), 1.0 - tau * np.cos(2.0 * theta))
+    assert found.opened.high[k, 0] == pytest.approx(STIFFNESS * (np.max(yoke - path[0]) - half), rel=0.01)

@@ -26,6 +26,9 @@ from .road import MULTIPLE, NEAR, SLOW, STRONG, RoadTorsion, road_torsion
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
+LONGER = 0.02
+"""Share of its length by which a shaft may telescope without a word."""
+
 HOUR = 3600.0
 
 SEEN = 5e-3
@@ -253,17 +256,13 @@ def _remarks(drive: Drive, found: RoadTorsion) -> Iterator[Remark]:
         values = {"multiple": Quantity(MULTIPLE, trim=True), "torque": _torque(found.nominal)}
         yield Remark(text=say(text, near=Quantity(NEAR, "share", trim=True), **values), depth="full")
     yield from _quickness(found)
-    if np.any(_rattling(found)):
-        text = _(
-            "The torque changes its sign: joints and splines with backlash rattle; backlash counts as closed here."
-        )
-        yield Remark(text=text, tone="warning")
+    yield from _play(found)
     if any(isinstance(one, Random) for one in drive.movements):
         text = _("The random movements are taken by their distribution, crossings of a torque by Rice's formula.")
         if found.chance is None:
             text = _("The random movements are followed along their sample path.")
         yield Remark(text=text)
-    yield Remark(text=_("Masses, stiffness and damping are those of the drive as drawn."), depth="full")
+    yield _as_drawn(found)
     loose = nonsynchronous(drive)
     if loose is not None:
         text = _(
@@ -276,6 +275,44 @@ def _remarks(drive: Drive, found: RoadTorsion) -> Iterator[Remark]:
     yield from yokes_estimated(drive)
     text = _("Torques over a turn, at the speed of the duty as drawn:")
     yield Remark(text=text, command=("cardan", "torsion", "response", FILE), tone="next")
+
+
+def _play(found: RoadTorsion) -> Iterator[Remark]:
+    """Yield what backlash does where the torque changes its sign."""
+    opened = found.opened
+    if opened is None:
+        if np.any(_rattling(found)):
+            text = _(
+                "The torque changes its sign: joints and splines with backlash rattle; backlash counts as closed here."
+            )
+            yield Remark(text=text, tone="warning")
+        return
+    largest = opened.largest[:, found.line]
+    known = np.flatnonzero(np.isfinite(largest).all(axis=-1))
+    count = len(opened.row)
+    if not known.size:
+        text = _("The torque changes its sign and backlash opens; no steady motion with open backlash was found.")
+        yield Remark(text=text, tone="warning")
+        return
+    k = int(known[np.argmax(np.max(largest[known], axis=-1))])
+    text = _(
+        "The torque changes its sign and backlash opens: with its play the torque reaches {torque} where it reaches "
+        "{closed} with closed backlash (the largest of {count} instants). All else counts with closed backlash."
+    )
+    closed = float(np.max(found.standing.largest[opened.row[k], found.line]))
+    said = say(text, torque=_torque(float(np.max(largest[k]))), closed=_torque(closed), count=count)
+    yield Remark(text=said, tone="warning")
+
+
+def _as_drawn(found: RoadTorsion) -> Remark:
+    share, shaft = found.stretched
+    if share < LONGER:
+        return Remark(text=_("Masses, stiffness and damping are those of the drive as drawn."), depth="full")
+    text = _(
+        "Masses, stiffness and damping are those of the drive as drawn, although shaft {shaft} becomes up to {share} "
+        "longer or shorter."
+    )
+    return Remark(text=say(text, shaft=shaft, share=_share(share)))
 
 
 def _quickness(found: RoadTorsion) -> Iterator[Remark]:
@@ -324,6 +361,10 @@ def _facts(found: RoadTorsion) -> dict[str, Any]:
         "mean_growth": Quantity(found.mean_growth, "rate"),
         "largest_growth": found.grown,
         "reversals_per_hour": HOUR * found.reversals,
+        "largest_torque_open_backlash": Quantity(
+            math.nan if found.opened is None else float(np.max(np.nan_to_num(found.opened.largest[:, found.line]))),
+            "torque",
+        ),
         "lag": found.lag.share,
         "slow_enough": bool(found.lag.share <= SLOW),
         "why_not_in_time": found.why,

@@ -26,7 +26,11 @@ from cardan.maths.kernel import frames
 from cardan.questions.motion.moving_points import default_times, moving_points, random_shifts
 from cardan.questions.motion.random_motion import SURE
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
+from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
+from cardan.questions.torsion.steady.several import stable_motions
+from cardan.questions.torsion.steady.steady import steady_orbits
+from cardan.questions.torsion.steady.steady_result import read_off
 from cardan.questions.torsion.steady.torsion_response import loaded_model, parted
 from cardan.texts import _
 
@@ -54,6 +58,9 @@ MOST = 4001
 
 FEWER = 4
 """By how much fewer places than others the torques of several random movements are asked at."""
+
+OPENED = 8
+"""Instants or places at which motions with open backlash are looked for."""
 
 EXTINCT = 1e3
 """Rate at which vibration dies out, over the speed, beyond which it does not matter how fast."""
@@ -83,11 +90,26 @@ class ShaftDamage:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class Opened:
+    """Torques with the play that backlash opens, at some of the instants or places at which it does."""
+
+    row: Array  # (k,) of int: which of the places, those of the largest torques among them
+    low: Array  # low, high (k, E) [N·m]: least and largest torque of every element; nan where no motion was found
+    high: Array
+
+    @property
+    def largest(self) -> Array:
+        """Largest torque of either sign of every element, array (k, E) [N·m]."""
+        return np.asarray(np.maximum(np.abs(self.low), np.abs(self.high)))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class RoadTorsion:
     """Torsional vibration of a drive along a movement, or over all that random movements bring."""
 
     train: TorsionalTrain  # the model
     speed: float  # [rad/s]: of the input
+    drawn: Array  # (n-1,) [m]: lengths of the shafts between joints as drawn
     standing: Places  # as if the drive stood at every instant, or at places of the distribution of random movements
     lag: Lag  # by how much that may be wrong
     order: Array  # (K,): orders of the shaft
@@ -101,6 +123,7 @@ class RoadTorsion:
     why: str = ""  # why nothing was integrated although the movement is too quick
     chance: Chance | None = None  # least, then largest torque of every element over the distribution
     periodic: bool = False  # whether the movement repeats with the span
+    opened: Opened | None = None  # with open backlash; None where it stays closed, and in time
     damage: tuple[ShaftDamage, ...] = ()  # what it costs the shafts whose strength is told
 
     @property
@@ -116,6 +139,16 @@ class RoadTorsion:
         rounds = max(self.lag.rate * self.span / (2.0 * math.pi), math.e)
         radius = np.tile(self.chance.grid.radius, len(self.chance.grid.ray))
         return self.places.found & np.asarray(radius <= math.sqrt(2.0 * math.log(rounds)))
+
+    @property
+    def stretched(self) -> tuple[float, int]:
+        """Largest change of the length of a shaft between joints, as a share of it, and the shaft from 1; 0 if none."""
+        lengths = np.linalg.norm(np.diff(self.standing.points, axis=1), axis=-1)[:, 1:-1]
+        if not lengths.size:
+            return 0.0, 0
+        share = np.max(np.abs(lengths / self.drawn - 1.0), axis=0)
+        k = int(np.argmax(share))
+        return float(share[k]), k + 2
 
     @property
     def nominal(self) -> float:
@@ -210,10 +243,11 @@ def road_torsion(drive: Drive, *, progress: Progress | None = None) -> RoadTorsi
     progress: told the share done; when it answers "stop", an integration in time ends with what is done.
     Raises InputError: what the model misses; no movement; a joint that bends 90° or more.
 
-    Masses, stiffness and damping are as drawn, backlash counts as closed; angles and phases of the joints are those of
-    every instant. Random movements alone are taken by their distribution: means over rays of normal coordinates, and
-    the rate at which a level is crossed by S. O. Rice, Bell System Technical Journal 24 (1945). Otherwise the movement
-    is followed, random ones along their sample path.
+    Masses, stiffness and damping are as drawn; angles and phases of the joints are those of every instant. Backlash
+    counts as closed, and with its play at `OPENED` of the instants at which a torque falls through 0. Random movements
+    alone are taken by their distribution: means over rays of normal coordinates, and the rate at which a level is
+    crossed by S. O. Rice, Bell System Technical Journal 24 (1945). Otherwise the movement is followed, random ones
+    along their sample path.
 
     >>> from cardan.drive.duty import Duty
     >>> from cardan.drive.movement import Harmonic
@@ -255,6 +289,7 @@ def road_torsion(drive: Drive, *, progress: Progress | None = None) -> RoadTorsi
     found = RoadTorsion(
         train=train,
         speed=float(speed),
+        drawn=np.linalg.norm(np.diff(standing.base, axis=0), axis=-1)[1:-1],
         standing=places,
         lag=lag,
         order=standing.order,
@@ -274,7 +309,34 @@ def road_torsion(drive: Drive, *, progress: Progress | None = None) -> RoadTorsi
         else:
             moving = follow(standing, times, before, progress=progress)
             found = replace(found, moving=moving, chance=None, span=float(times[-1] - times[0]))
-    return replace(found, peak=_peak(found, standing))
+    found = replace(found, peak=_peak(found, standing))
+    return found if found.moving is not None else _with_play(found, standing, parted(whole)[0])
+
+
+def _with_play(found: RoadTorsion, standing: Standing, loose: TorsionalModel) -> RoadTorsion:
+    """Return the same with what play makes of it where the torque of an element with backlash falls through 0.
+
+    loose: the model with its backlash. The largest torque counts with the play where that makes it larger.
+    """
+    places, line = found.standing, found.line
+    own = [e for e in line if np.any(loose.backlash[..., e] > 0.0)]
+    opens = np.any((places.low[:, own] < 0.0) & (places.high[:, own] > 0.0), axis=-1) & found.likely
+    rows = np.flatnonzero(opens)
+    if not rows.size:
+        return found
+    rows = rows[np.argsort(-np.max(places.largest[rows][:, line], axis=-1), kind="stable")]
+    rows = rows[np.unique(np.linspace(0, len(rows) - 1, OPENED).round().astype(int))]
+    joint_angle, phase, _turns = standing.turned(places.points[rows])
+    speeds = np.full(len(rows), found.speed)
+    motions = steady_orbits(replace(loose, joint_angle=joint_angle, phase=phase), speed=speeds)
+    torque = read_off(stable_motions(*motions)[0], 1)
+    opened = Opened(row=rows, low=torque.lowest, high=torque.highest)
+    largest = np.nan_to_num(opened.largest[:, line])
+    k, e = (int(one) for one in np.unravel_index(int(np.argmax(largest)), largest.shape))
+    if largest[k, e] > found.peak[0]:
+        time = math.nan if places.times is None else float(places.times[rows[k]])
+        found = replace(found, peak=(float(largest[k, e]), line[e], time))
+    return replace(found, opened=opened)
 
 
 def _shares(times: Array) -> Array:
