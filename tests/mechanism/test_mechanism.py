@@ -7,7 +7,7 @@ from cardan.mechanism.mechanism import PAIRS, Mechanism, axes
 from tests.builders.mechanisms import anyhow, hooke, pair
 
 # tmm Table 1 and the Book: freedoms of each kind of pair.
-FREEDOMS = {"R": 1, "P": 1, "H": 1, "C": 2, "U": 2, "S": 3, "E": 3, "SG": 4, "L4": 4, "PT": 5}
+FREEDOMS = {"R": 1, "P": 1, "H": 1, "C": 2, "U": 2, "S": 3, "E": 3, "SG": 4, "L4": 4, "PT": 5, "RO": 5}
 
 
 def test_freedoms_are_those_of_the_table():

@@ -26,6 +26,7 @@ from cardan.drive.shaft import Bond, Layup, Notch, Ply, PointMass, Segment, Shaf
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.steering import Steering
 from cardan.drive.support import Support
+from cardan.mechanism.load import LinkMass, Load
 from cardan.mechanism.mechanism import Mechanism, Pair
 from cardan.reading.fields import WORD_OR_FLAG, Field, fields_of
 from cardan.reading.ranges import allowed
@@ -247,7 +248,12 @@ def mechanism_reference() -> str:
     >>> mechanism_reference().splitlines()[0]
     '## Head of the mechanism file'
     """
-    sections: tuple[tuple[str, type], ...] = (("Head of the mechanism file", Mechanism), ("`[[joints]]`", Pair))
+    sections: tuple[tuple[str, type], ...] = (
+        ("Head of the mechanism file", Mechanism),
+        ("`[[joints]]`", Pair),
+        ("`[[masses]]`", LinkMass),
+        ("`[[loads]]`", Load),
+    )
     return "\n".join(line for title, cls in sections for line in _section(title, cls))
 
 

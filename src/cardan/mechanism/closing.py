@@ -1,7 +1,7 @@
 """Loops closed at many positions at once: where every link stands once some of them are put somewhere.
 
 A link stands where its displacement from the position drawn puts it. The axis of a pair goes with its first link, its
-point and second axis with the second.
+point and second axis with the second. Rolling contacts hold no place: what they hold `turning` follows.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Linkage:
     """Links and pairs as arrays, lengths over the size about the middle."""
 
     def __init__(self, joints: Sequence[Pair], ends: Sequence[tuple[str, str]] = ()) -> None:
-        """Take pairs, none helical, and the links that they join where these have other names."""
+        """Take pairs, and the links that they join where these have other names."""
         named = [pair.links for pair in joints] if not ends else list(ends)
         self.joints = tuple(joints)
         self.links = tuple(dict.fromkeys(link for two in named for link in two))
@@ -57,6 +57,7 @@ class Linkage:
         self.angle = frames.dot(self.frame[:, 0], np.stack(given))  # cosine between both axes, kept where there are two
         self.turning = np.asarray([bool(pair.kind.turns) for pair in joints])
         self.both = np.asarray([pair.kind.turns == "both" for pair in joints])
+        self.pitch = np.asarray([pair.pitch or 0.0 for pair in joints]) / self.size
         rows = [(j, k) for j, pair in enumerate(joints) for k in _held(pair)]
         self.row_pair, self.row_way = (np.asarray([row[k] for row in rows], dtype=int) for k in (0, 1))
 
@@ -131,9 +132,24 @@ class Linkage:
         leaned = (ways @ lean[..., None])[..., 0]
         leaned[..., 0] = np.where(self.both, miss, leaned[..., 0])
         pulls = np.concatenate((frames.cross(point[..., None, :] + 0.0 * ways, ways), ways), axis=-1)
+        pulls[..., 0, :3] -= self.pitch[:, None] * ways[..., 0, :]
         wrench = np.concatenate((pulls, np.concatenate((about, 0.0 * about), axis=-1)), axis=-2)
-        rest = np.concatenate(((ways @ gap[..., None])[..., 0], leaned), axis=-1)
+        apart = (ways @ gap[..., None])[..., 0]
+        apart[..., 0] -= self._screwed(apart[..., 0], ways, own)
+        rest = np.concatenate((apart, leaned), axis=-1)
         return wrench[..., self.row_pair, self.row_way, :], rest[..., self.row_pair, self.row_way]
+
+    def _screwed(self, along: Array, ways: Array, own: Array) -> Array:
+        """Return how far helical pairs are screwed (..., m): of the threads a turn apart the nearest to what they are.
+
+        along (..., m): how far they slid; ways, own (..., m, 3, 3): frames of the pair on its first and second link.
+        """
+        if not np.any(self.pitch):
+            return 0.0 * along
+        turned = np.arctan2(frames.dot(own[..., 1, :], ways[..., 2, :]), frames.dot(own[..., 1, :], ways[..., 1, :]))
+        lead = 2.0 * np.pi * np.where(self.pitch, self.pitch, 1.0)
+        near = self.pitch * turned
+        return near + np.where(self.pitch, lead * np.round((along - near) / lead), 0.0)
 
     def _matrix(self, poses: Array) -> tuple[Array, Array]:
         """Return how twists of the links change what the pairs miss, (..., s, n, 6), and what they miss (..., s)."""
@@ -161,6 +177,10 @@ def _frame(pair: Pair) -> Array:
 
 def _held(pair: Pair) -> list[int]:
     """Return which of three forces and three couples in the frame of a pair it holds, as `held` of kinetostatics."""
+    if pair.kind.rolls:
+        return []
+    if pair.kind.screw:
+        return [0, 1, 2, 4, 5]
     forces = {"": (0, 1, 2), "axis": (1, 2), "across": (0,)}[pair.kind.slides]
     couples = {"": (3, 4, 5), "axis": (4, 5), "both": (3,), "all": ()}[pair.kind.turns]
     return [*forces, *couples]

@@ -28,6 +28,9 @@ RESTS = 1e-14
 NO_SIZE = 1e-12
 """Distance [m] of points below which all stand in one: no mechanism is so small."""
 
+NEAR = 1e-6
+"""Singular values below this share of the largest leave a motion: a mechanism within rounding of a change point."""
+
 SLOW = 1e-12
 """Speeds below this share of the largest are rounding, and rub nowhere."""
 
@@ -46,6 +49,8 @@ class Placed:
     friction: tuple[float, ...] = ()
     lever: tuple[float, ...] = ()
     spread: tuple[float, ...] = ()
+    pitch: tuple[float, ...] = ()  # of each pair [m/rad], nought where it is not helical
+    carriers: tuple[int | None, ...] = ()  # of each pair, the link that its point and axis go with; None: its own
 
     @property
     def size(self) -> float:
@@ -68,16 +73,26 @@ class Carried:
     unbalanced: Array  # (...): what keeps the links from balance, over the largest reaction
 
 
-def held(kind: Kind, point: Array, axis: Array, second: Array) -> Array:
+def held(kind: Kind, point: Array, axis: Array, second: Array, pitch: float = 0.0) -> Array:
     """Return what a pair holds, wrenches (couple; force) about the origin on its second link, array (..., s, 6).
 
-    point [m], axis, second (..., 3): as `Placed` has them.
+    point [m], axis, second (..., 3): as `Placed` has them; pitch [m/rad]: of a helical pair.
 
     >>> from .mechanism import PAIRS
     >>> x, y, z = np.eye(3)
-    >>> [held(PAIRS[name], 0.0 * x, z, x).shape[-2] for name in ("R", "P", "C", "U", "S", "E", "SG", "L4", "PT")]
-    [5, 5, 4, 4, 3, 3, 2, 2, 1]
+    >>> [held(PAIRS[name], 0.0 * x, z, x).shape[-2] for name in ("R", "P", "H", "C", "U", "S", "E", "SG", "L4", "PT")]
+    [5, 5, 5, 4, 4, 3, 3, 2, 2, 1]
     """
+    forces, couples = _ways(kind, axis, second)
+    rows = [np.concatenate((frames.cross(point, one), one), axis=-1) for one in forces]
+    if kind.screw:
+        rows.append(np.concatenate((frames.cross(point, axis) - pitch * axis, axis), axis=-1))
+    rows += [np.concatenate((one, np.zeros_like(one)), axis=-1) for one in couples]
+    return np.stack(np.broadcast_arrays(*rows), axis=-2)
+
+
+def _ways(kind: Kind, axis: Array, second: Array) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
+    """Return the directions in which a pair holds forces and couples."""
     aside = frames.perpendicular(axis)
     across = aside, frames.cross(axis, aside)
     every = (axis, *across)
@@ -85,15 +100,139 @@ def held(kind: Kind, point: Array, axis: Array, second: Array) -> Array:
     couples = {"": every, "axis": across, "both": (), "all": ()}[kind.turns]
     if kind.turns == "both":
         couples = (frames.unit(frames.cross(axis, second)),)
-    rows = [np.concatenate((frames.cross(point, one), one), axis=-1) for one in forces]
-    rows += [np.concatenate((one, np.zeros_like(one)), axis=-1) for one in couples]
+    return forces, couples
+
+
+def _held_rate(
+    kind: Kind, point: Array, axis: Array, second: Array, pitch: float, first: Array, other: Array, place: Array
+) -> Array:
+    """Return how fast what a pair holds changes, array (..., s, 6), but for what its rows share.
+
+    first, other, place (..., 6): twists of both its links and of that with which its point goes.
+    """
+    forces, couples = _ways(kind, axis, second)
+    turn = first[..., :3]
+    moved = place[..., 3:] + frames.cross(place[..., :3], point + 0.0 * place[..., 3:])
+
+    def pulled(one: Array) -> Array:
+        turned = frames.cross(turn, one + 0.0 * turn)
+        return np.concatenate(
+            (frames.cross(moved, one + 0.0 * turn) + frames.cross(point + 0.0 * turn, turned), turned), axis=-1
+        )
+
+    rows = [pulled(one) for one in forces]
+    if kind.screw:
+        leads = pitch * frames.cross(turn, axis + 0.0 * turn)
+        rows.append(pulled(axis) - np.concatenate((leads, 0.0 * leads), axis=-1))
+    if kind.turns == "both":
+        size = frames.norm(frames.cross(axis, second))[..., None]
+        ahead = frames.cross(frames.cross(turn, axis + 0.0 * turn), second + 0.0 * turn)
+        ahead = ahead + frames.cross(axis + 0.0 * turn, frames.cross(other[..., :3], second + 0.0 * turn))
+        turns = [ahead / size]
+    else:
+        turns = [frames.cross(turn, one + 0.0 * turn) for one in couples]
+    rows += [np.concatenate((one, np.zeros_like(one)), axis=-1) for one in turns]
     return np.stack(np.broadcast_arrays(*rows), axis=-2)
+
+
+def _matrix_of(placed: Placed, shape: tuple[int, ...], speed: Array | None = None) -> list[Array]:
+    """Return the rows w·(t_b - t_a) of each pair, arrays (..., s, 6n), lengths over the size.
+
+    speed (..., n, 6): twists over the size of the links; how fast the rows change is returned then.
+    """
+    size, blocks = placed.size, []
+    none = np.zeros((*shape, 6))
+    for k, (kind, ends) in enumerate(zip(placed.kinds, placed.ends, strict=True)):
+        at = placed.point[..., k, :] / size, placed.axis[..., k, :], placed.second[..., k, :]
+        pitch = placed.pitch[k] / size if placed.pitch else 0.0
+        if speed is None:
+            own = held(kind, *at, pitch)
+        else:
+            first, other = (none if link == FRAME else speed[..., link, :] for link in ends)
+            carrier = placed.carriers[k] if placed.carriers else None
+            place = other
+            if carrier is not None:
+                first = place = none if carrier == FRAME else speed[..., carrier, :]
+            own = _held_rate(kind, *at, pitch, first, other, place)
+        rows = np.zeros((*shape, own.shape[-2], 6 * placed.links))
+        for link, sign in zip(ends, (-1.0, 1.0), strict=True):
+            if link != FRAME:
+                rows[..., 6 * link : 6 * link + 6] += sign * own
+        blocks.append(rows)
+    return blocks
+
+
+def speeds(placed: Placed, *, input_link: int, about: Array) -> Array:
+    """Return the twists (..., n, 6) of all links while one of them has a twist ``about`` (..., 6)."""
+    size = placed.size
+    lengths = np.asarray([1.0, 1.0, 1.0, size, size, size])
+    shape = np.broadcast_shapes(placed.point.shape[:-2], about.shape[:-1])
+    matrix = np.concatenate(_matrix_of(placed, shape), axis=-2)
+    return _speeds(matrix, input_link, np.broadcast_to(about / lengths, (*shape, 6)))[0] * lengths
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Rates:
+    """How the links move while the input turns at 1 rad/s, uniformly."""
+
+    speed: Array  # (..., n, 6): twist (ω; v) of each link about the origin [rad/s, m/s]
+    acceleration: Array  # (..., n, 6): its rate [rad/s², m/s²]
+    free: Array  # (..., w, n, 6): motions left while the input stands, w the most anywhere; those that are not are 0
+    count: Array  # (...) of int: how many there are
+    open: Array  # (...): what keeps the rates of the pairs from closing, over the largest
+
+
+def rates(placed: Placed, *, input_link: int, about: Array) -> Rates:
+    """Return how the links move while one of them turns.
+
+    input_link: link that turns with a twist ``about`` (..., 6), always the same.
+    With the rows A of what the pairs hold: A t = 0, and A ṫ = -Ȧ t; what nothing holds rests.
+    """
+    size, n = placed.size, placed.links
+    shape = np.broadcast_shapes(placed.point.shape[:-2], about.shape[:-1])
+    lengths = np.asarray([1.0, 1.0, 1.0, size, size, size])
+    matrix = np.concatenate(_matrix_of(placed, shape), axis=-2)
+    own = np.arange(6 * input_link, 6 * input_link + 6)
+    rest = np.delete(np.arange(6 * n), own)
+    left, sizes, right = np.linalg.svd(matrix[..., rest], full_matrices=True)
+    known = min(matrix.shape[-2], len(rest))
+    holds = np.zeros((*shape, len(rest)), dtype=bool)
+    holds[..., :known] = sizes > NEAR * np.max(sizes, axis=-1, keepdims=True) if known else False
+    inverse = np.zeros((*shape, len(rest)))
+    inverse[..., :known] = np.where(holds[..., :known], 1.0 / np.where(holds[..., :known], sizes, 1.0), 0.0)
+
+    def solved(target: Array) -> Array:
+        shares = (np.swapaxes(left, -1, -2) @ target[..., None])[..., 0]
+        wide = np.zeros((*shape, len(rest)))
+        wide[..., :known] = shares[..., :known]
+        return (np.swapaxes(right, -1, -2) @ (inverse * wide)[..., None])[..., 0]
+
+    twist = np.broadcast_to(about / lengths, (*shape, 6))
+    target = -(matrix[..., own] @ twist[..., None])[..., 0]
+    whole = np.zeros((*shape, 6 * n))
+    whole[..., own], whole[..., rest] = twist, solved(target)
+    miss = np.max(np.abs((matrix @ whole[..., None])[..., 0]), axis=-1) / np.max(np.abs(whole), axis=-1)
+    speed = np.reshape(whole, (*shape, n, 6))
+    changing = np.concatenate(_matrix_of(placed, shape, speed), axis=-2)
+    steep = np.zeros((*shape, 6 * n))
+    steep[..., rest] = solved(-(changing @ whole[..., None])[..., 0])
+    count = np.sum(~holds, axis=-1)
+    most = int(np.max(count, initial=0))
+    ways = np.zeros((*shape, most, 6 * n))
+    loose = right[..., len(rest) - most :, :] * ~holds[..., len(rest) - most :, None]
+    ways[..., rest] = loose[..., ::-1, :]
+    return Rates(
+        speed=speed * lengths,
+        acceleration=np.reshape(steep, (*shape, n, 6)) * lengths,
+        free=np.reshape(ways, (*shape, most, n, 6)) * lengths,
+        count=count,
+        open=miss,
+    )
 
 
 def carried(placed: Placed, *, input_link: int, about: Array, load: Array, fed: bool = True) -> Carried:
     """Return how the links move and what the pairs carry, Coulomb's friction acting on itself.
 
-    placed: no helical pair among its pairs.
     input_link: link that turns with a twist ``about`` (..., 6), whose turning part is along its axis; a torque about
     this axis drives it.
     load (..., n, 6): wrenches (couple; force) about the origin on each link [N·m, N].
@@ -108,14 +247,7 @@ def carried(placed: Placed, *, input_link: int, about: Array, load: Array, fed: 
     shape = np.broadcast_shapes(placed.point.shape[:-2], about.shape[:-1], load.shape[:-2])
     lengths = np.asarray([1.0, 1.0, 1.0, size, size, size])
     couples = np.asarray([size, size, size, 1.0, 1.0, 1.0])  # lengths over the size, so that couples are forces
-    blocks = []
-    for k, (kind, ends) in enumerate(zip(placed.kinds, placed.ends, strict=True)):
-        own = held(kind, placed.point[..., k, :] / size, placed.axis[..., k, :], placed.second[..., k, :])
-        rows = np.zeros((*shape, own.shape[-2], 6 * n))
-        for link, sign in zip(ends, (-1.0, 1.0), strict=True):
-            if link != FRAME:
-                rows[..., 6 * link : 6 * link + 6] += sign * own
-        blocks.append(rows)
+    blocks = _matrix_of(placed, shape)
     matrix = np.concatenate(blocks, axis=-2)
     speed, open_ = _speeds(matrix, input_link, np.broadcast_to(about / lengths, (*shape, 6)))
     speed = speed * lengths

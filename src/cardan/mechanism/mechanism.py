@@ -15,6 +15,8 @@ from cardan.maths.kernel import frames, screws
 from cardan.texts import _, mark
 from cardan.units import nearest, plain, quantity
 
+from .load import LinkMass, Load
+
 MAX_JOINTS = 400
 """More joints are refused: their ranks would take minutes."""
 
@@ -46,7 +48,16 @@ class Mechanism:
     frame: str = plain(doc="the link at rest")
     input_link: str = plain("", doc="link that is driven")
     output_link: str = plain("", doc="link that is to move")
+    speed: float | None = quantity("angular_speed", None, doc="speed at which the input link turns, uniformly")
+    input_range: tuple[float, float] | None = quantity(
+        "angle", None, doc="angles of the input link from the position drawn between which it moves; a whole turn"
+    )
+    output_torque: float | None = quantity("torque", None, doc="torque that resists an output link that turns", low=0.0)
+    output_force: float | None = quantity("force", None, doc="force that resists an output link that slides", low=0.0)
+    gravity: Point = quantity("acceleration", (0.0, 0.0, 0.0), doc="acceleration of free fall [x, y, z]")
     joints: tuple[Pair, ...] = plain(doc="the joints")
+    masses: tuple[LinkMass, ...] = plain((), doc="what the links weigh; the others count as without mass")
+    loads: tuple[Load, ...] = plain((), doc="forces and torques on the links")
 
     def __post_init__(self) -> None:
         check(problems(self))
@@ -109,6 +120,38 @@ def problems(mechanism: Mechanism) -> Iterator[Problem]:
         link = getattr(mechanism, name)
         if link and link not in known:
             yield Problem(name, _no_link(link, mechanism.frame, known), "inconsistent")
+    for k, pair in enumerate(joints):
+        if pair.carrier and pair.carrier not in (*known, mechanism.frame):
+            yield Problem(f"joints[{k}].carrier", _no_link(pair.carrier, mechanism.frame, known), "inconsistent")
+    yield from _load_problems(mechanism, known)
+
+
+def _load_problems(mechanism: Mechanism, known: tuple[str, ...]) -> Iterator[Problem]:
+    for name in ("masses", "loads"):
+        for k, one in enumerate(getattr(mechanism, name)):
+            if one.link not in known:
+                yield Problem(f"{name}[{k}].link", _no_link(one.link, mechanism.frame, known), "inconsistent")
+            for problem in one.problems():
+                yield Problem(f"{name}[{k}].{problem.field}", problem.message, problem.code)
+    given = [one.link for one in mechanism.masses]
+    for k, link in enumerate(given):
+        if link in given[:k]:
+            text = _("{link} has a mass already, masses[{number}]").format(link=repr(link), number=given.index(link))
+            yield Problem(f"masses[{k}].link", text, "inconsistent")
+    if not all(map(math.isfinite, mechanism.gravity)):
+        yield Problem("gravity", _("{value} is not finite").format(value=list(mechanism.gravity)), "not_finite")
+    if mechanism.input_range is not None:
+        low, high = mechanism.input_range
+        if not (math.isfinite(low) and math.isfinite(high) and low < high):
+            text = _("{value}: the first angle of a range must lie below the second")
+            yield Problem("input_range", text.format(value=list(mechanism.input_range)), "inconsistent")
+    if mechanism.output_torque is not None and mechanism.output_force is not None:
+        yield Problem(
+            "output_force", _("the output either turns or slides: give it a torque or a force"), "inconsistent"
+        )
+    for name in ("output_torque", "output_force"):
+        if getattr(mechanism, name) is not None and not mechanism.output_link:
+            yield Problem("output_link", _("missing: {name} says what resists it").format(name=name), "missing")
 
 
 def _no_link(link: str, frame: str, known: tuple[str, ...]) -> str:
@@ -161,6 +204,7 @@ class Kind:
     # along what it lets slide: nothing, ``axis``, or all directions ``across`` it
     slides: Literal["", "axis", "across"] = ""
     screw: bool = False  # whether turning and sliding are one motion
+    rolls: bool = False  # whether it holds a speed, not a place: what touches rolls without slip along its axis
 
     @property
     def freedoms(self) -> int:
@@ -195,8 +239,13 @@ PAIRS: dict[str, Kind] = {
     "SG": Kind(name=mark("sphere in cylinder"), turns="all", slides="axis"),
     "L4": Kind(name=mark("cylinder on plane"), turns="both", slides="across"),
     "PT": Kind(name=mark("point on plane"), turns="all", slides="across"),
+    "RO": Kind(name=mark("rolling contact"), turns="all", slides="across", rolls=True),
 }
-"""Code -> kind of pair; spec structure, "Kinematic pairs", after tmm Table 1."""
+"""Code -> kind of pair; spec structure, "Kinematic pairs", after tmm Table 1.
+
+In a rolling contact the points of both links that touch move equally fast along its axis; point and axis belong to a
+third link, its carrier. It holds one force, as a point on a plane does, but no place: links roll as far as they like.
+"""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -214,6 +263,9 @@ class Pair:
     axis: Point | None = plain(None, doc="its axis, or the normal of its plane; any length [x, y, z]")
     axis2: Point | None = plain(None, doc="second axis of a universal pair, axis of the cylinder on a plane [x, y, z]")
     pitch: float | None = quantity("pitch", None, doc="lead of a helical pair, right-handed positive")
+    carrier: str = plain("", doc="link with which the point of a rolling contact moves; the frame by default")
+    traction: float | None = plain(None, doc="coefficient of friction of a rolling contact", above=0.0)
+    pressing_force: float | None = quantity("force", None, doc="force that presses a rolling contact", above=0.0)
     diameter: float | None = quantity("length", None, doc="diameter of its pin or ball, at which it rubs", above=0.0)
     bearing_distance: float | None = quantity(
         "length", None, doc="distance of the two bearings of its pin, on which a couple across the pin rests", above=0.0
@@ -292,6 +344,12 @@ def pair_problems(pair: Pair) -> Iterator[Problem]:
         yield Problem("pitch", _("missing: a helical pair has a pitch"), "missing")
     if not kind.screw and pair.pitch is not None:
         yield Problem("pitch", _("of no use: only a helical pair (H) has a pitch"), "inconsistent")
+    for name in ("carrier", "traction", "pressing_force"):
+        if not kind.rolls and getattr(pair, name):
+            yield Problem(name, _("of no use: only a rolling contact (RO) has one"), "inconsistent")
+    if kind.rolls and (pair.traction is None) != (pair.pressing_force is None):
+        text = _("missing: whether a rolling contact slips takes traction and pressing_force")
+        yield Problem("traction" if pair.traction is None else "pressing_force", text, "missing")
 
 
 def _axis_problems(name: str, value: Point | None, wanted: bool, kind: Kind) -> Iterator[Problem]:

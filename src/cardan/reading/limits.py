@@ -19,7 +19,7 @@ MAX_KEYS = 20_000
 MAX_JOINTS = 100  # of a drive
 MAX_PAIRS = 400  # the joints of a mechanism
 MAX_TABLES = 500  # of each of the other lists
-LISTS = ("joints", "movements", "poses", "shafts", "stations", "supports")
+LISTS = ("joints", "loads", "masses", "movements", "poses", "shafts", "stations", "supports")
 
 VARIABLE = "CARDAN_NO_LIMITS"  # of the environment; processes started from here know it too
 _lifted: ContextVar[bool] = ContextVar("cardan_limits_lifted", default=False)

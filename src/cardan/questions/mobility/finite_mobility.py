@@ -15,6 +15,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames, screws
 from cardan.mechanism.constraints import FRAME, constraints, spanning_tree
 from cardan.mechanism.mechanism import Mechanism
+from cardan.mechanism.turning import turned
 from cardan.texts import _
 from cardan.units import deg, nearest
 
@@ -151,8 +152,10 @@ def finite_mobility(
     number = _driven(mechanism, driven_joint)
     check_numbers(angle, tolerance, steps)
     count = _count(angle, steps)
-    loops = _Loops(mechanism, number)
     along = np.linspace(0.0, angle, count + 1)
+    if any(pair.kind.rolls for pair in mechanism.joints):
+        return _rolled(mechanism, number, along, tolerance)
+    loops = _Loops(mechanism, number)
     rows = [loops.start()]
     stopped = False
     for k, amount in enumerate(along[1:], 1):
@@ -173,11 +176,32 @@ def finite_mobility(
     )
 
 
+def _rolled(mechanism: Mechanism, driven: int, along: Array, tolerance: float) -> FiniteMobility:
+    """Return the same of a mechanism in which something rolls; its input drives it, whatever else was named."""
+    if set(mechanism.joints[driven].links) != {mechanism.frame, mechanism.input_link}:
+        raise refuse("driven_joint", _("where something rolls, only the input link drives"), "inconsistent")
+    found = turned(mechanism, along)
+    gap, turn = np.max(found.misfit, axis=1).T
+    return FiniteMobility(
+        mechanism=mechanism,
+        angle=along,
+        residual=np.hypot(gap, turn),
+        gap=gap,
+        turn=turn,
+        displacement=found.displacement,
+        tolerance=tolerance,
+    )
+
+
 def locks_at(mechanism: Mechanism, *, driven_joint: str = "") -> float | None:
     """Return the angle [rad] of the driven joint at which the loops close no more; None where it turns all round.
 
-    Followed as by `finite_mobility`, up to the first place that is not reached.
+    Followed as by `finite_mobility`, up to the first place that is not reached. What rolls follows whatever turns it,
+    and stays out.
     """
+    firm = tuple(pair for pair in mechanism.joints if not pair.kind.rolls)
+    if len(firm) < len(mechanism.joints):
+        mechanism = replace(mechanism, joints=firm)
     loops = _Loops(mechanism, _driven(mechanism, driven_joint))
     places = np.linspace(0.0, 2.0 * math.pi, _count(2.0 * math.pi, None) + 1)[1:].tolist()
     return next((amount for amount in places if loops.closed(amount)[0] >= CLOSED), None)
