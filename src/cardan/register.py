@@ -39,10 +39,12 @@ QUESTIONS: dict[str, Question] = {
             group=MOTION,
             help=mark("How every shaft turns: angle, speed ratio, acceleration."),
             apart=True,
+            mechanism="cardan.questions.mechanism.motion_answer",
             examples=(
                 "cardan motion truck.toml --speed-rpm 3000",
                 "cardan motion truck.toml --csv > turn.csv",
                 "cardan motion truck.toml --plot motion.svg",
+                "cardan motion slider.toml --table",
             ),
         ),
         Question(
@@ -109,11 +111,13 @@ QUESTIONS: dict[str, Question] = {
             group=FORCES,
             help=mark("What every shaft, joint and bearing carries over a turn."),
             gathered=("error",),
+            mechanism="cardan.questions.mechanism.forces_answer",
             examples=(
                 "cardan forces truck.toml",
                 "cardan forces truck.toml --torque-Nm 2000 --csv > turn.csv",
                 "cardan forces tractor.toml --movement all",
                 "cardan forces truck.toml --plot forces.svg",
+                "cardan forces slider.toml --speed-rpm 1500",
             ),
         ),
         Question(
@@ -364,6 +368,7 @@ QUESTIONS: dict[str, Question] = {
             help=mark("Whether a drive or mechanism turns, its redundant constraints, and what to release."),
             without={"case": GEOMETRY, "error": MINUTES},
             calm=True,
+            mechanism="cardan.questions.mobility.answer",
             examples=(
                 "cardan mobility pump.toml",
                 "cardan mobility slider.toml --turn --plot slider.svg",

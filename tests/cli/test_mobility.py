@@ -131,10 +131,10 @@ point_mm = {place}
     assert "1 motion leaves the input at rest; name output_link" in one_line(bare.out)
 
 
-def test_another_question_sends_a_mechanism_here(cardan):
-    done = cardan("motion", EXAMPLES / "mechanisms" / "crank-slider.toml")
+def test_a_question_about_drives_tells_what_a_mechanism_answers(cardan):
+    done = cardan("life", EXAMPLES / "mechanisms" / "crank-slider.toml")
     assert done.code == 2
-    assert "cardan mobility" in one_line(done.err)
+    assert "of mechanisms cardan tells motion, forces, mobility" in one_line(done.err)
 
 
 def test_the_schema_of_the_mechanism_file(cardan):

@@ -83,7 +83,7 @@ def test_units_are_those_of_the_reader_and_only_those_used():
 
 
 def test_a_large_logo_is_made_smaller(folder):
-    logo = logo_of(replace(example("z-arrangement"), report=TitleBlock(logo="logo.png")), folder)
+    logo = logo_of(TitleBlock(logo="logo.png"), folder)
     shape = matplotlib.image.imread(io.BytesIO(logo.content)).shape
     assert shape[:2] == (LOGO_SIZE[0] * 900 // 2400, LOGO_SIZE[0])
 
@@ -111,4 +111,4 @@ def test_a_wrong_logo_has_one_clear_message(tmp_path, name, bytes_, why):
 def test_a_logo_out_of_an_enclosed_folder_is_refused(folder, tmp_path):
     drive = replace(example("z-arrangement"), report=TitleBlock(logo=str(folder / "logo.svg")))
     with pytest.raises(InputError, match="leads out of the folder"):
-        logo_of(drive, Enclosed(tmp_path))
+        logo_of(drive.report, Enclosed(tmp_path))

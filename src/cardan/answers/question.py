@@ -67,6 +67,7 @@ class Question:
     calm: bool = False
     # what ``ask`` takes beside the drive, of ``known`` (a catalogue), ``progress`` and what a user may choose
     takes: tuple[str, ...] = ()
+    mechanism: str = ""  # where it is answered of a mechanism file, as ``module``; empty where it is of drives alone
     command: str = ""  # command that asks it, its words parted by blanks; the name of the question by default
     examples: tuple[str, ...] = ()  # lines below the help of the command
     aliases: tuple[str, ...] = ()  # other names of the command, which no help lists
@@ -77,6 +78,11 @@ class Question:
     def home(self) -> ModuleType:
         """The module that answers it."""
         return import_module(self.module)
+
+    @property
+    def of_mechanism(self) -> Question:
+        """The same question, asked of a mechanism."""
+        return replace(self, module=self.mechanism)
 
     @property
     def columns(self) -> tuple[SweepQuestion, ...]:

@@ -81,7 +81,10 @@ def loads(
     """
     tree = parsed(text, form, name)
     if describes_mechanism(tree):
-        raise refuse(name, _("describes a mechanism, not a drive; only cardan mobility reads it"))
+        raise refuse(
+            name,
+            _("describes a mechanism, not a drive; of mechanisms cardan tells motion, forces, mobility and a report"),
+        )
     drive = drive_from_tree(tree, folder=folder_of(folder))
     return completed(drive, known_to(drive, folder, catalogues))
 

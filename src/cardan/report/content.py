@@ -67,6 +67,7 @@ class Content:
     figures: Table  # key figures with their limits
     changes: Table | Words  # changes that make the output more even
     pages: tuple[Page, ...]  # what follows the summary, in order
+    kind: str = ""  # what it is a report of, where that is no drive
     appendix: tuple[Page, ...] = ()  # what few ask for, at the end; empty where it was not asked for
 
 
@@ -77,6 +78,7 @@ class Excerpt:
     title: str  # name of the drive; that of the page where it has none
     page: Page
     note: str = ""  # below the title
+    kind: str = ""  # what it is a report of, where that is no drive
     version: str = VERSION  # version of cardan that calculated it
     date: str = field(default_factory=today)  # day of the excerpt, as in 2026-01-31
 
@@ -100,7 +102,7 @@ def content(
     known: norms, types and sizes that it is judged by; the shipped ones when not given.
     folder: where the logo is looked for.
     """
-    logo, who = logo_of(drive, folder), Noting(units=reader().units, decimal=reader().decimal)
+    logo, who = logo_of(drive.report, folder), Noting(units=reader().units, decimal=reader().decimal)
     with reading(who):
         on = replace(asked(drive, duty, progress), known=known)
         limits = judged(on) if on.complete else Judged()

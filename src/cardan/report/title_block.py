@@ -10,7 +10,6 @@ from typing import Literal
 from xml.etree import ElementTree
 
 from cardan.answers.reader import Reader
-from cardan.drive.drive import Drive
 from cardan.drive.settings import TitleBlock
 from cardan.errors import InputError, refuse
 from cardan.files import Enclosed, folder_of, refusal
@@ -84,9 +83,9 @@ def rows(block: TitleBlock) -> Iterator[tuple[str, str]]:
     yield from ((name, getattr(block, key).strip()) for key, name in names.items() if getattr(block, key).strip())
 
 
-def logo_of(drive: Drive, folder: str | Path | Enclosed = ".") -> Logo | None:
-    """Return the logo of a drive's report, None where it names none; folder: where the file is looked for."""
-    name = drive.report.logo
+def logo_of(head: TitleBlock, folder: str | Path | Enclosed = ".") -> Logo | None:
+    """Return the logo of a report, None where it names none; folder: where the file is looked for."""
+    name = head.logo
     if not name:
         return None
     try:

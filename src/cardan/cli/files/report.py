@@ -11,22 +11,26 @@ from typing import Annotated, Any
 from cardan.answers.answer import Answer, Remark
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.reader import reader
+from cardan.cli.shared import mechanisms
+from cardan.cli.shared.failure import about
 from cardan.cli.shared.options import argument, flag, option
 from cardan.cli.shared.output import check_speed, check_target
 from cardan.cli.shared.progress import watching
-from cardan.cli.shared.source import STDIN, AsJson, DriveFile, SpeedRpm, read_with_text
+from cardan.cli.shared.source import STDIN, AsJson, EitherFile, SpeedRpm, either_with_text, read_with_text
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
 from cardan.drive.settings import TitleBlock
 from cardan.errors import Problem, check
 from cardan.files import write_bytes
 from cardan.io.drive_file import known_to
+from cardan.mechanism.mechanism import Mechanism
 from cardan.questions.motion.answer import sentence
 from cardan.questions.motion.turning import each_shaft
 from cardan.reading.fields import fields_of
 from cardan.report.block import capital
 from cardan.report.compare import Variant, compared
 from cardan.report.content import Excerpt
+from cardan.report.mechanism import content as of_mechanism
 from cardan.report.render.renderer import form_of, renderer_for
 from cardan.report.report import report as write
 from cardan.texts import _
@@ -40,7 +44,7 @@ def _headed(name: str) -> Any:
 
 
 def report(
-    file: DriveFile,
+    file: EitherFile,
     others: Annotated[
         list[Path] | None, argument("[FILE]...", _("More drive files: the report then sets them side by side."))
     ] = None,
@@ -92,10 +96,17 @@ def report(
         alone = _("is for the report of one drive; several are set side by side as their files say")
         check(Problem(option, alone) for option, used in only.items() if used)
         return _compared([file, *others], place, open_=open_, json=json)
-    drive, text = read_with_text(file)
+    drive, text = either_with_text(file)
+    folder = Path() if file == STDIN else file.parent
+    if isinstance(drive, Mechanism):
+        machine = mechanisms.on_duty(drive, speed_rpm)
+        block = TitleBlock(**head)
+        with about(str(file)), watching(_("writing the report")):
+            said = of_mechanism(machine, block, source_text=text, full=full, folder=folder)
+            write_bytes(place, renderer_for(place, interactive=interactive)(said))
+        return _told(place, said.judgement.text, file, machine, open_=open_, json=json)
     if speed_rpm is not None:
         drive = replace(drive, duty=replace(drive.duty, speed=speed_rpm * rpm))
-    folder = Path() if file == STDIN else file.parent
     drive = replace(drive, report=replace(drive.report, **head))
     who = reader()
     with watching(_("writing the report")) as progress:
@@ -133,7 +144,13 @@ def _compared(files: Sequence[Path], place: Path, *, open_: bool, json: bool) ->
 
 
 def _told(
-    place: Path, said: Text, file: Path | None = None, drive: Drive | None = None, *, open_: bool, json: bool
+    place: Path,
+    said: Text,
+    file: Path | None = None,
+    drive: Drive | Mechanism | None = None,
+    *,
+    open_: bool,
+    json: bool,
 ) -> int:
     """Say what was written."""
     opened = open_ and _opened(place)

@@ -6,14 +6,16 @@ from collections.abc import Sequence
 from typing import Annotated
 
 from cardan.cli.motion.motion import check_positions, positions
+from cardan.cli.shared import mechanisms
 from cardan.cli.shared.asked import CurveAngle, CurveStep, TorqueNm, check_options, keys_of, on_duty
 from cardan.cli.shared.options import option
 from cardan.cli.shared.progress import watching
-from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
+from cardan.cli.shared.source import AsCsv, AsJson, EitherFile, Plot, SpeedRpm, read_either
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
 from cardan.drive.movement import Movement
 from cardan.errors import refuse
+from cardan.mechanism.mechanism import Mechanism
 from cardan.questions.forces import moving_answer
 from cardan.questions.forces.answer import answer, followed
 from cardan.questions.forces.forces import forces as question
@@ -26,7 +28,7 @@ ALL = "all"  # stands for every movement of the file
 
 
 def forces(
-    file: DriveFile,
+    file: EitherFile,
     angle: CurveAngle = None,
     step: CurveStep = None,
     torque: TorqueNm = None,
@@ -48,7 +50,14 @@ def forces(
     check_positions(angle, step)
     if movement and (angle or step is not None):
         raise refuse("--movement", _("is followed in time; --angle-deg and --angle-step-deg are of a standing drive"))
-    whole = on_duty(read(file), speed_rpm, torque)
+    thing = read_either(file)
+    if isinstance(thing, Mechanism):
+        if movement:
+            raise refuse("--movement", _("is of drives; a mechanism moves by its input"))
+        machine = mechanisms.on_duty(thing, speed_rpm, torque)
+        asked = mechanisms.angles(machine, angle, step)
+        return mechanisms.told("forces", machine, file, asked, listed=False, json=json, csv=csv, plot=plot)
+    whole = on_duty(thing, speed_rpm, torque)
     drive = principal(QUESTIONS["forces"], whole)
     if movement:
         moves = _chosen(drive, movement)

@@ -10,16 +10,15 @@ from cardan.choices.bearing_layouts import KEPT
 from cardan.cli.shared.apply import check_copy
 from cardan.cli.shared.asked import keys_of
 from cardan.cli.shared.changed import is_json
-from cardan.cli.shared.failure import about
-from cardan.cli.shared.options import argument, flag, option
+from cardan.cli.shared.options import flag, option
 from cardan.cli.shared.output import check_common, write_text
 from cardan.cli.shared.progress import watching
-from cardan.cli.shared.source import STDIN, AsCsv, AsJson, Force, Plot, form_of, read_with_text, stdin_text
+from cardan.cli.shared.source import AsCsv, AsJson, EitherFile, Force, Plot, read_either, read_with_text
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Limits
 from cardan.errors import Problem, check, refuse
-from cardan.io import dumps, load_either, loads_either
+from cardan.io import dumps
 from cardan.io.amend import amend, insert
 from cardan.mechanism.mechanism import Mechanism
 from cardan.questions.mobility.answer import answer, turned
@@ -31,7 +30,7 @@ from cardan.units import mm
 
 
 def mobility(
-    file: Annotated[Path, argument("FILE", _("Drive or mechanism file, TOML or JSON; - reads standard input."))],
+    file: EitherFile,
     turn: Annotated[bool, flag("--turn", _("Follow it over a turn of the input."))] = False,
     layouts: Annotated[
         bool,
@@ -57,7 +56,7 @@ def mobility(
     if not layouts:
         given = {"--other-joints": other_joints, "--apply": apply is not None, "--out": out is not None}
         check(Problem(name, _("belongs to --layouts")) for name, used in given.items() if used)
-        thing = _read(file)
+        thing = read_either(file)
         return _told(thing, file, turn=turn, json=json, csv=csv, plot=plot)
     if turn:
         raise refuse("--turn", _("layouts are turned anyway; omit it"))
@@ -82,16 +81,6 @@ def _told(thing: Drive | Mechanism, file: Path, *, turn: bool, json: bool, csv: 
         found = question(thing)
         around = turned(thing, progress) if turn else None
     return tell(answer(thing, found, around), file, thing, json=json, csv=csv, plot=plot)
-
-
-def _read(path: Path) -> Drive | Mechanism:
-    """Return the drive or mechanism of a file, or of standard input when the path is ``-``."""
-    name = _("standard input") if path == STDIN else str(path)
-    with about(name):
-        if path != STDIN:
-            return load_either(path)
-        text = stdin_text()
-        return loads_either(text, form=form_of(path, text), name=name)
 
 
 def _written(drive: Drive, held: Drive, text: str, out: Path) -> str:

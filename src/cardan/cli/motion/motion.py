@@ -7,11 +7,13 @@ from typing import Annotated, Any
 
 import numpy as np
 
+from cardan.cli.shared import mechanisms
 from cardan.cli.shared.options import flag, option
 from cardan.cli.shared.output import check_common, check_speed
-from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
+from cardan.cli.shared.source import AsCsv, AsJson, EitherFile, Plot, SpeedRpm, read_either
 from cardan.cli.shared.tell import tell
 from cardan.errors import Problem, check
+from cardan.mechanism.mechanism import Mechanism
 from cardan.questions.motion.answer import answer, ask
 from cardan.texts import _
 from cardan.units import deg, rpm
@@ -21,7 +23,7 @@ MOST_POSITIONS = 1_000_000  # more positions than this would not fit a table any
 
 
 def motion(
-    file: DriveFile,
+    file: EitherFile,
     angle: Annotated[
         list[float] | None,
         option(
@@ -48,7 +50,11 @@ def motion(
     check_common(json=json, csv=csv, plot=plot)
     check_positions(angle, step)
     check_speed(speed_rpm)
-    drive = read(file)
+    drive = read_either(file)
+    if isinstance(drive, Mechanism):
+        machine = mechanisms.on_duty(drive, speed_rpm)
+        asked = mechanisms.angles(machine, angle, step)
+        return mechanisms.told("motion", machine, file, asked, listed=table, json=json, csv=csv, plot=plot)
     speed = drive.duty.speed if speed_rpm is None else speed_rpm * rpm
     listed = positions(angle, step or STEP) if table or angle or step is not None else None
     result = ask(drive, positions(angle, step or 1.0), speed=speed, listed=listed)

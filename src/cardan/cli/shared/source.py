@@ -11,7 +11,8 @@ from typing import Annotated, Any, TypeAlias
 
 from cardan.drive.drive import Drive
 from cardan.errors import refuse
-from cardan.io import load, loads
+from cardan.io import load, load_either, loads, loads_either
+from cardan.mechanism.mechanism import Mechanism
 from cardan.reading.limits import MAX_BYTES, check_size, limited
 from cardan.texts import _
 
@@ -21,6 +22,9 @@ from .options import argument, flag, option
 # Options that mean the same in every command.
 
 DriveFile: TypeAlias = Annotated[Path, argument("FILE", _("Drive file, TOML or JSON; - reads standard input."))]
+EitherFile: TypeAlias = Annotated[
+    Path, argument("FILE", _("Drive or mechanism file, TOML or JSON; - reads standard input."))
+]
 AsJson: TypeAlias = Annotated[bool, flag("--json", _("Print everything as JSON, errors (on stderr) too."))]
 AsCsv: TypeAlias = Annotated[bool, flag("--csv", _("Print the full table as CSV."))]
 Plot: TypeAlias = Annotated[
@@ -57,6 +61,21 @@ def read_with_text(path: Path, catalogues: Sequence[Path] = ()) -> tuple[Drive, 
     with about(name):
         text = stdin_text()
         return loads(text, form=form_of(path, text), name=name, catalogues=catalogues), text
+
+
+def read_either(path: Path) -> Drive | Mechanism:
+    """Return the drive or mechanism of a file, or of standard input when the path is ``-``."""
+    return either_with_text(path)[0]
+
+
+def either_with_text(path: Path) -> tuple[Drive | Mechanism, str]:
+    """Return the drive or mechanism of a file and the file's text; see `read_either`."""
+    name = _("standard input") if path == STDIN else str(path)
+    with about(name):
+        if path != STDIN:
+            return load_either(path), path.read_text("utf-8-sig")
+        text = stdin_text()
+        return loads_either(text, form=form_of(path, text), name=name), text
 
 
 def form_of(path: Path, text: str) -> str:

@@ -45,7 +45,7 @@ def excerpt(part: Excerpt) -> bytes:
     return _set(
         {
             "language": language(),
-            "words": _words(),
+            "words": _words(part.kind),
             "title": part.title.strip() or part.page.title,
             "note": part.note,
             "version": part.version,
@@ -76,7 +76,7 @@ def as_data(content: Content) -> dict[str, Any]:
     """Return what a report says as data for the template."""
     return {
         "language": language(),
-        "words": _words(),
+        "words": _words(content.kind),
         "title": content.title.strip() or _("Universal-joint drive"),
         "note": content.note,
         "version": content.version,
@@ -106,9 +106,10 @@ def pixels_of(logo: Logo) -> bytes:
     return found
 
 
-def _words() -> dict[str, str]:
+def _words(kind: str) -> dict[str, str]:
     """Return the words of the template itself."""
-    return {"kicker": _("Drive report"), "summary": _("Summary"), "contents": _("Contents"), "appendix": _("Appendix")}
+    first = kind or _("Drive report")
+    return {"kicker": first, "summary": _("Summary"), "contents": _("Contents"), "appendix": _("Appendix")}
 
 
 def _printable(data: Any) -> Any:

@@ -1,0 +1,202 @@
+"""What drives a mechanism and what its pairs carry, at rest and in motion: loads, weight and inertia."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.errors import refuse
+from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames
+from cardan.mechanism.kinetostatics import carried
+from cardan.mechanism.mechanism import Mechanism, Pair
+from cardan.texts import _
+
+from .motion import LinkMotion, MechanismMotion, mechanism_motion
+
+BALANCED = 1e-7
+"""What may be left unbalanced of the loads over the largest reaction; beyond, no reactions hold them there."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MechanismForces:
+    """What drives a mechanism and what its pairs carry; nan where nothing holds the loads, as at change points.
+
+    Attributes
+    ----------
+    motion : MechanismMotion
+    input_torque : array (p,) [N·m]
+        Torque that drives the input link about its axis.
+    still_torque : array (p,) [N·m]
+        The same without inertia.
+    reaction : array (p, m, 6) [N·m, N]
+        Wrench (couple; force) of the first link of each pair on the second one, about the point of the pair.
+    power : array (p,) [W]
+        Of all loads, weight and inertia, at the speed of the input, or 1 rad/s where it is not known.
+    unbalanced : float
+        What is left of power and balance of every link, over the largest of each.
+    """
+
+    motion: MechanismMotion
+    input_torque: Array
+    still_torque: Array
+    reaction: Array
+    power: Array
+    unbalanced: float
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """What was asked about."""
+        return self.motion.mechanism
+
+    @property
+    def angle(self) -> Array:
+        """Angles of the input link from where it is drawn, array (p,) [rad]."""
+        return self.motion.angle
+
+    @property
+    def force(self) -> Array:
+        """Amount of the force in each pair, array (p, m) [N]."""
+        return frames.norm(self.reaction[..., 3:])
+
+    @property
+    def couple(self) -> Array:
+        """Amount of the couple in each pair, array (p, m) [N·m]."""
+        return frames.norm(self.reaction[..., :3])
+
+    def rolling(self) -> tuple[tuple[int, Pair], ...]:
+        """Return the rolling contacts, each with its place among the pairs."""
+        return tuple((k, pair) for k, pair in enumerate(self.mechanism.joints) if pair.kind.rolls)
+
+
+def mechanism_forces(mechanism: Mechanism, angle: Array | None = None) -> MechanismForces:
+    """Return what drives a mechanism and what its pairs carry while its input link turns uniformly.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        With loads, a resistance of its output, or masses; inertia counts where it has a speed.
+    angle : array (p,) [rad], optional
+        Angles of the input link; each degree of its range by default.
+
+    Returns
+    -------
+    MechanismForces
+
+    Raises
+    ------
+    InputError
+        As of `mechanism_motion`; an output that does not turn, or slide, as what resists it says.
+
+    See Also
+    --------
+    mechanism_motion
+
+    Notes
+    -----
+    Every link is balanced by Newton and Euler: loads, weight, -m a of its centre of mass and -(I dω/dt + ω × I ω), and
+    the wrenches that its pairs hold. What is held too often shares so that the sum of squares is least.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> import numpy as np
+    >>> from cardan.mechanisms import example_mechanism
+    >>> cones = replace(example_mechanism("friction-cones"), input_range=(0.0, 0.1))
+    >>> found = mechanism_forces(cones, np.zeros(1))
+    >>> [round(float(one[0]), 6) for one in (found.input_torque, found.force[:, 2])]
+    [3.0, 50.0]
+    """
+    motion = mechanism_motion(mechanism, angle)
+    turned = motion.turned
+    speed = mechanism.speed or 0.0
+    rates = turned.rates
+    twist, rate = speed * rates.speed, speed * speed * rates.acceleration
+    still = _loads(motion)
+    moving = still + _inertia(motion, twist, rate)
+    rows = [
+        carried(turned.placed, input_link=turned.input_link, about=turned.about, load=one) for one in (still, moving)
+    ]
+    here = rows[1]
+    blank = np.where(turned.special | (here.unbalanced > BALANCED), np.nan, 1.0)
+    pace = abs(speed) or 1.0
+    power = pace * np.sum(rates.speed * moving, axis=(-2, -1))
+    driven = pace * here.input_torque
+    told = np.isfinite(blank)
+    largest = float(np.max(np.abs(driven[told]), initial=0.0))
+    gap = float(np.max(np.abs((driven + power)[told]), initial=0.0)) / (largest or 1.0)
+    return MechanismForces(
+        motion=motion,
+        input_torque=here.input_torque * blank,
+        still_torque=rows[0].input_torque * blank,
+        reaction=here.reaction * blank[:, None, None],
+        power=power,
+        unbalanced=max(gap, float(np.max(here.unbalanced[told], initial=0.0))),
+    )
+
+
+def _loads(motion: MechanismMotion) -> Array:
+    """Return loads and weight on every link about the origin, array (p, n, 6) [N·m, N]."""
+    mechanism, poses = motion.mechanism, motion.turned.displacement
+    found = np.zeros((*poses.shape[:2], 6))
+    index = mechanism.links.index
+    for one in mechanism.masses:
+        k = index(one.link)
+        _push(found[:, k], motion.links[k].point, one.mass * np.asarray(mechanism.gravity))
+    for load in mechanism.loads:
+        k = index(load.link)
+        turn = poses[:, k, :3, :3] if load.turns_with_link else np.eye(3)
+        force, torque = turn @ np.asarray(load.force), turn @ np.asarray(load.torque)
+        point = poses[:, k, :3, :3] @ np.asarray(load.point or (0.0, 0.0, 0.0)) + poses[:, k, :3, 3]
+        _push(found[:, k], point, force)
+        found[:, k, :3] += torque
+    output = motion.output
+    if output is not None:
+        k = index(output.link)
+        for name, ways, told in (
+            ("output_torque", ("turns", "screws"), output.ratio),
+            ("output_force", ("slides",), output.speed),
+        ):
+            amount = getattr(mechanism, name)
+            if amount is None:
+                continue
+            _check_way(name, output, ways)
+            against = -amount * np.sign(np.nan_to_num(told))[:, None] * output.axis
+            if name == "output_torque":
+                found[:, k, :3] += against
+            else:
+                _push(found[:, k], output.point, against)
+    return found
+
+
+def _check_way(name: str, output: LinkMotion, ways: tuple[str, ...]) -> None:
+    if output.way not in ways:
+        text = _("{link} does not turn about a fixed axis; say what resists it in loads")
+        if name == "output_force":
+            text = _("{link} does not slide along a line; say what resists it in loads")
+        raise refuse(name, text.format(link=repr(output.link)), "inconsistent")
+
+
+def _push(wrench: Array, point: Array, force: Array) -> None:
+    """Add a force (..., 3) at points (p, 3) to wrenches about the origin (p, 6)."""
+    force = np.broadcast_to(force, point.shape)
+    wrench[:, :3] += frames.cross(point, force)
+    wrench[:, 3:] += force
+
+
+def _inertia(motion: MechanismMotion, twist: Array, rate: Array) -> Array:
+    """Return what inertia does to every link about the origin, array (p, n, 6) [N·m, N]; Newton and Euler."""
+    mechanism, poses = motion.mechanism, motion.turned.displacement
+    found = np.zeros_like(twist)
+    for one in mechanism.masses:
+        k = mechanism.links.index(one.link)
+        spin, steep, point = twist[:, k, :3], rate[:, k, :3], motion.links[k].point
+        pace = twist[:, k, 3:] + frames.cross(spin, point)
+        swept = rate[:, k, 3:] + frames.cross(steep, point) + frames.cross(spin, pace)
+        _push(found[:, k], point, -one.mass * swept)
+        turn = poses[:, k, :3, :3]
+        tensor = turn @ one.tensor @ np.swapaxes(turn, -1, -2)
+        momentum = (tensor @ spin[..., None])[..., 0]
+        found[:, k, :3] -= (tensor @ steep[..., None])[..., 0] + frames.cross(spin, momentum)
+    return found

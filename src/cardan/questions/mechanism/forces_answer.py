@@ -1,0 +1,298 @@
+"""What there is to say of the forces in a mechanism: what drives it, what its pairs carry, what rolls or slips."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone, closely
+from cardan.answers.quantity import Quantity, Say, say
+from cardan.answers.question import Lacking
+from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
+from cardan.mechanism.mechanism import PAIRS, Mechanism
+from cardan.questions.mobility.mobility import Mobility, mobility
+from cardan.texts import _, plural
+
+from .figure import forces_figures
+from .forces import MechanismForces
+from .forces import mechanism_forces as ask
+
+__all__ = ["answer", "ask", "lacking"]
+
+BEYOND = 100.0
+"""A force that is so many times its median over the turn grows beyond bounds near by: a dead point."""
+
+SAFE = 2.0
+"""How many times the force that just carries rolling contacts are pressed at least; Litvin (7.2)."""
+
+ROUNDING = 1e-9
+"""Share of the largest force or couple below which another one is rounding."""
+
+
+def lacking(mechanism: Mechanism) -> Lacking:
+    """Return what the mechanism file lacks for forces: a link that drives, and something that loads it."""
+    some = ("output_torque", "output_force", "loads", "masses")
+    inert = mechanism.masses and (mechanism.speed or any(mechanism.gravity))
+    loaded = mechanism.loads or mechanism.output_torque or mechanism.output_force or inert
+    given = () if mechanism.input_link else (("input_link",),)
+    if loaded:
+        return given
+    return (*given, ("speed", "gravity") if mechanism.masses else some)
+
+
+def answer(mechanism: Mechanism, result: MechanismForces, listed: MechanismForces | None = None) -> Answer:
+    """Return what there is to say of the forces in a mechanism; listed: at what positions programs are told of them."""
+    held = mobility(mechanism)
+    slips = [one for one in _slips(result) if one[2] < 1.0]
+    return Answer(
+        name="forces",
+        title=_("Forces"),
+        sentence=_sentence(result),
+        tone="failed" if slips else "warning" if held.redundant else "plain",
+        figures=lambda: forces_figures(result),
+        tables=tuple(_tables(result, held)),
+        remarks=tuple(_remarks(result, held)),
+        keys=tuple(_keys(result)),
+        facts=_facts(result, held),
+        full=lambda: _trace(listed or result),
+    )
+
+
+def _sentence(result: MechanismForces) -> Say:
+    low, high = float(np.nanmin(result.input_torque)), float(np.nanmax(result.input_torque))
+    pair = result.mechanism.joints[int(foremost(np.nanmax(result.force, axis=0)))]
+    values: dict[str, Any] = {"input": result.mechanism.input_link, "pair": pair.id}
+    values |= {"low": Quantity(low, "torque"), "high": Quantity(high, "torque")}
+    values["force"] = Quantity(float(np.nanmax(result.force)), "force")
+    text = _("{input} needs {low} to {high}; {pair} carries most, up to {force}.")
+    if np.isclose(low, high, rtol=1e-6, atol=1e-9):
+        text = _("{input} needs {high} all the time; {pair} carries most, up to {force}.")
+    return say(text, **values)
+
+
+def _tables(result: MechanismForces, held: Mobility) -> Iterator[Table]:
+    angle, pairs = result.angle, result.mechanism.joints
+    rows = [
+        (_("input torque"), result.input_torque),
+        *(
+            []
+            if result.mechanism.speed is None or not result.mechanism.masses
+            else [(_("without inertia"), result.still_torque)]
+        ),
+    ]
+    yield Table(
+        name="input",
+        records=True,
+        columns=(
+            Column(key="what", heading=_("drive"), values=[name for name, _values in rows], left=True),
+            Column(
+                key="least", heading=_("least"), values=[float(np.nanmin(v)) for _name, v in rows], dimension="torque"
+            ),
+            Column(
+                key="largest",
+                heading=_("largest"),
+                values=[float(np.nanmax(v)) for _name, v in rows],
+                dimension="torque",
+            ),
+            Column(key="mean", heading=_("mean"), values=[_mean(angle, v) for _name, v in rows], dimension="torque"),
+        ),
+    )
+    forces = float(np.nanmax(result.force))
+    couples = max(float(np.nanmax(result.couple)), ROUNDING * forces * result.motion.turned.placed.size)
+    most = [int(foremost(np.nan_to_num(result.force[:, k]))) for k in range(len(pairs))]
+    tight = {one.id for one in held.joints if one.strained}
+    yield Table(
+        name="pairs",
+        records=True,
+        columns=(
+            Column(key="joint", heading=_("joint"), values=[pair.id for pair in pairs], left=True),
+            Column(key="kind", heading=_("kind"), values=[_(PAIRS[pair.type].name) for pair in pairs], left=True),
+            Column(key="force", heading=_("largest force"), values=np.nanmax(result.force, axis=0), dimension="force"),
+            Column(
+                key="force_at", heading=_("at"), values=[float(angle[k]) for k in most], dimension="angle", decimals=0
+            ),
+            Column(
+                key="axial_force",
+                heading=_("along its axis ±"),
+                values=[
+                    _told(_most(_along(result, k)), forces) if pair.axis is not None else None
+                    for k, pair in enumerate(pairs)
+                ],
+                dimension="force",
+            ),
+            Column(
+                key="couple",
+                heading=_("largest couple"),
+                values=[_told(float(one), couples) for one in np.nanmax(result.couple, axis=0)],
+                dimension="torque",
+            ),
+            *(
+                (
+                    Column(
+                        key="determinate",
+                        heading=_("determinate"),
+                        values=[_("shares") if pair.id in tight else _("yes") for pair in pairs],
+                    ),
+                )
+                if tight
+                else ()
+            ),
+        ),
+        note=_("Of the first link of each joint on the second, about its point; largest over the input angle."),
+    )
+    slips = list(_slips(result))
+    if slips:
+        tones: list[Tone] = [
+            "failed" if safe < 1.0 else "warning" if safe < SAFE else "good" for _k, _t, safe, _n in slips
+        ]
+        yield Table(
+            name="rolling",
+            title=_("Rolling contacts"),
+            records=True,
+            columns=(
+                Column(key="joint", heading=_("joint"), values=[pairs[k].id for k, _t, _s, _n in slips], left=True),
+                Column(
+                    key="traction",
+                    heading=_("traction, largest"),
+                    values=[t for _k, t, _s, _n in slips],
+                    dimension="force",
+                ),
+                Column(
+                    key="pressing_needed",
+                    heading=_("just carried by"),
+                    values=[n for _k, _t, _s, n in slips],
+                    dimension="force",
+                ),
+                Column(
+                    key="pressing_force",
+                    heading=_("pressed by"),
+                    values=[pairs[k].pressing_force for k, *_rest in slips],
+                    dimension="force",
+                ),
+                Column(
+                    key="safety",
+                    heading=_("safety against slip"),
+                    values=[Cell(value=s, tone=tone) for (_k, _t, s, _n), tone in zip(slips, tones, strict=True)],
+                    digits=3,
+                ),
+            ),
+            note=_("Pressed with two to three times the force that just carries (Litvin, 7.1 and 7.2)."),
+        )
+
+
+def _along(result: MechanismForces, k: int) -> Array:
+    """Return the force along the axis of a pair, array (p,) [N]."""
+    axis = result.motion.turned.placed.axis[:, k]
+    found: Array = np.sum(result.reaction[:, k, 3:] * axis, axis=-1)
+    return found
+
+
+def _told(value: float, size: float) -> float:
+    return 0.0 if value <= ROUNDING * size else value
+
+
+def _most(values: Array) -> float:
+    return float(np.nanmax(np.abs(values)))
+
+
+def _mean(angle: Array, values: Array) -> float | None:
+    if len(angle) < 2 or not np.all(np.isfinite(values)):
+        return None
+    return float(np.trapezoid(values, angle) / (angle[-1] - angle[0]))
+
+
+def _slips(result: MechanismForces) -> Iterator[tuple[int, float, float, float]]:
+    """Yield of each rolling contact that is pressed: its place, largest traction, safety, pressing force needed."""
+    for k, pair in result.rolling():
+        if pair.traction is not None and pair.pressing_force is not None:
+            traction = float(np.nanmax(result.force[:, k]))
+            needed = traction / pair.traction
+            yield k, traction, pair.pressing_force / needed if needed else float("inf"), needed
+
+
+def _remarks(result: MechanismForces, held: Mobility) -> Iterator[Remark]:
+    mechanism, angle = result.mechanism, result.angle
+    for k, traction, safe, needed in _slips(result):
+        if safe < 1.0:
+            pair = mechanism.joints[k]
+            force = result.force[:, k]
+            where = float(
+                angle[int(np.argmax(np.nan_to_num(force) * needed > traction * (pair.pressing_force or 0.0)))]
+            )
+            text = _(
+                "Failed: {link} slips at {pair} from {angle} on: it is to carry {force}, and {limit} is what it can."
+            )
+            said = say(
+                text,
+                link=pair.links[1],
+                pair=pair.id,
+                angle=Quantity(where, "angle", decimals=0),
+                force=Quantity(traction, "force"),
+                limit=Quantity((pair.traction or 0.0) * (pair.pressing_force or 0.0), "force"),
+            )
+            yield Remark(text=said, tone="failed", alarm=True)
+    steep = np.nanmax(result.force, axis=1)
+    if float(np.nanmax(steep)) > BEYOND * float(np.nanmedian(steep)) > 0.0:
+        text = _("Warning: near {angle} the forces grow beyond bounds: it stands close to a dead point.")
+        at = Quantity(float(angle[int(np.nanargmax(steep))]), "angle", decimals=0)
+        yield Remark(text=say(text, angle=at), tone="warning", alarm=True)
+    if held.redundant:
+        text = plural(
+            "Warning: {n} constraint is redundant; what joints share counts as shared by least squares, while "
+            "stiffness and part errors decide.",
+            "Warning: {n} constraints are redundant; what joints share counts as shared by least squares, while "
+            "stiffness and part errors decide.",
+            held.redundant,
+        )
+        yield Remark(text=say(text, n=held.redundant), tone="warning")
+    missing = np.isnan(result.input_torque)
+    if np.any(missing):
+        text = _("Warning: at {angle} nothing holds the loads: a dead point; nothing is told there.")
+        yield Remark(
+            text=say(text, angle=Quantity(float(angle[int(np.argmax(missing))]), "angle", decimals=0)), tone="warning"
+        )
+    if mechanism.masses and mechanism.speed is None:
+        yield Remark(text=_("--speed-rpm, or speed_rpm in the file, adds inertia."), tone="next")
+    if not mechanism.masses:
+        yield Remark(text=_("Without masses in the file neither weight nor inertia counts."))
+    text = _("Checked: power of input, loads and inertia, and the balance of every link, close {size}.")
+    yield Remark(text=say(text, size=closely(result.unbalanced)))
+    yield Remark(text=_("How it moves:"), command=("cardan", "motion", FILE), tone="next")
+
+
+def _keys(result: MechanismForces) -> Iterator[KeyFigure]:
+    torque = Quantity(_most(result.input_torque), "torque")
+    yield KeyFigure(name="input_torque", title=_("largest input torque"), value=torque)
+    k = int(foremost(np.nanmax(result.force, axis=0)))
+    force = Quantity(float(np.nanmax(result.force)), "force")
+    yield KeyFigure(
+        name="joint_force", title=_("largest force in a joint"), place=result.mechanism.joints[k].id, value=force
+    )
+
+
+def _facts(result: MechanismForces, held: Mobility) -> dict[str, Any]:
+    return {
+        "name": result.mechanism.name,
+        "speed": Quantity(result.mechanism.speed, "angular_speed"),
+        "redundant": held.redundant,
+        "residual": result.unbalanced,
+    }
+
+
+def _trace(found: MechanismForces) -> Table:
+    """Return input torque and reactions at every position."""
+    columns = [
+        Column(key="angle", values=found.angle, dimension="angle"),
+        Column(key="input_torque", values=found.input_torque, dimension="torque"),
+        Column(key="input_torque_without_inertia", values=found.still_torque, dimension="torque"),
+    ]
+    for k, pair in enumerate(found.mechanism.joints):
+        name = pair.id.replace(" ", "_")
+        for j, axis in enumerate("xyz"):
+            columns.append(Column(key=f"{name}_couple_{axis}", values=found.reaction[:, k, j], dimension="torque"))
+        for j, axis in enumerate("xyz"):
+            columns.append(Column(key=f"{name}_force_{axis}", values=found.reaction[:, k, 3 + j], dimension="force"))
+    return Table(name="forces", columns=columns)

@@ -1,0 +1,289 @@
+"""What there is to say of the motion of a mechanism: transfer functions of its links against the input."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, closely
+from cardan.answers.quantity import Joined, Quantity, Say, Text, say
+from cardan.answers.question import Lacking, absent
+from cardan.maths.arrays import Array
+from cardan.maths.ties import tidied
+from cardan.mechanism.mechanism import Mechanism
+from cardan.texts import _
+from cardan.units import deg
+
+from .figure import motion_figures
+from .motion import WAYS, LinkMotion, MechanismMotion
+from .motion import mechanism_motion as ask
+
+__all__ = ["answer", "ask", "lacking", "sentence"]
+
+EVEN = 1e-9
+"""Fluctuation of a ratio below which it is constant."""
+
+STEP = 30.0 * deg
+"""Step of the printed table."""
+
+
+def lacking(mechanism: Mechanism) -> Lacking:
+    """Return what the mechanism file lacks for the motion."""
+    return absent((bool(mechanism.input_link), "input_link"))
+
+
+def answer(mechanism: Mechanism, result: MechanismMotion, listed: MechanismMotion | None = None) -> Answer:
+    """Return what there is to say of the motion of a mechanism; listed: positions that people read one by one."""
+    return Answer(
+        name="motion",
+        title=_("Motion"),
+        sentence=sentence(result),
+        tone="plain",
+        figures=lambda: motion_figures(result),
+        tables=tuple(_tables(result, listed)),
+        remarks=tuple(_remarks(result)),
+        keys=tuple(_keys(result)),
+        facts=_facts(result),
+        full=lambda: _trace(result),
+    )
+
+
+def sentence(result: MechanismMotion) -> Say:
+    """Return in one sentence how the output follows the input."""
+    output, given = result.output, result.mechanism.input_link
+    if output is None:
+        text = _("{count} moving links follow {input}; name output_link, and it is told how that one moves.")
+        return say(text, count=len(result.links), input=given)
+    if output.way == "slides":
+        text = _("{output} slides over {travel}, at most {speed} for a radian of {input}.")
+        return say(
+            text,
+            output=output.link,
+            input=given,
+            travel=_length(_span(output.path)),
+            speed=_length(_most(output.speed)),
+        )
+    if output.turns:
+        low, high = _ends(output.ratio)
+        if high - low <= EVEN * max(abs(high), abs(low)):
+            text = _("{output} turns at a constant ratio of {ratio} to {input}.")
+            return say(text, output=output.link, input=given, ratio=Quantity(tidied(0.5 * (low + high))))
+        text = _("{output} turns at {low} to {high} of the speed of {input}; speed fluctuation δ = {share}.")
+        if fluctuation(output, result.angle) is None:
+            text = _("{output} rocks through {angle}; it turns at {low} to {high} of the speed of {input}.")
+        share = Quantity(fluctuation(output, result.angle) or 0.0, "share")
+        values: dict[str, Any] = {"angle": Quantity(_span(output.angle), "angle"), "share": share}
+        return say(text, output=output.link, input=given, low=Quantity(low), high=Quantity(high), **values)
+    text = _("{output} shifts without turning, at most {speed} for a radian of {input}.")
+    return say(text, output=output.link, input=given, speed=_length(_most(output.speed)))
+
+
+def fluctuation(link: LinkMotion, angle: Array) -> float | None:
+    """Return the speed fluctuation of a link, largest less least over the mean; None where it turns back."""
+    low, high = _ends(link.ratio)
+    if low * high <= 0.0:
+        return None
+    known = np.isfinite(link.ratio)
+    if np.count_nonzero(known) < 2:
+        return 0.0
+    mean = float(np.trapezoid(link.ratio[known], angle[known])) / float(np.ptp(angle[known]))
+    return (high - low) / abs(mean)
+
+
+def _ends(values: Array) -> tuple[float, float]:
+    return float(np.nanmin(values)), float(np.nanmax(values))
+
+
+def _span(values: Array) -> float:
+    low, high = _ends(values)
+    return high - low
+
+
+def _most(values: Array) -> float:
+    return float(np.nanmax(np.abs(values)))
+
+
+def _length(value: float) -> Quantity:
+    return Quantity(value, "length")
+
+
+def _tables(result: MechanismMotion, listed: MechanismMotion | None) -> Iterator[Table]:
+    pace = result.mechanism.speed
+    turning = [one for one in result.links if one.turns]
+    if turning:
+        rates = np.asarray([_ends(link.ratio) for link in turning])
+        steep = _tidy(np.asarray([_most(one.slope) for one in turning]), 1.0)
+        yield Table(
+            name="turning",
+            title=_("Links that turn"),
+            records=True,
+            columns=(
+                _link_column(turning),
+                Column(key="way", heading=_("motion"), values=[_(WAYS[one.way]) for one in turning], left=True),
+                Column(
+                    key="travel",
+                    heading=_("turned by"),
+                    values=[_span(one.angle) if one.axis.any() else None for one in turning],
+                    dimension="angle",
+                ),
+                Column(key="ratio_min", heading=_("min ratio"), values=_tidy(rates[:, 0], 1.0), decimals=4),
+                Column(key="ratio_max", heading=_("max ratio"), values=_tidy(rates[:, 1], 1.0), decimals=4),
+                Column(
+                    key="acceleration" if pace else "acceleration_per_speed_squared",
+                    heading=_("acceleration ±") if pace else _("acceleration ±ε/ω₁²"),
+                    values=steep * (pace or 1.0) ** 2,
+                    dimension="angular_acceleration" if pace else "",
+                ),
+            ),
+            note=_(
+                "Ratio: angular speed over that of the input, the first transfer function; of links that turn about no "
+                "lasting direction its amount. Acceleration at uniform input, the second one."
+            ),
+        )
+    moving = [one for one in result.links if one.moves]
+    if moving:
+        size = result.turned.placed.size
+        speeds = _tidy(np.asarray([_ends(one.speed) for one in moving]), size)
+        steep = _tidy(np.asarray([_most(one.curve) for one in moving]), size)
+        yield Table(
+            name="moving",
+            title=_("Points that move"),
+            records=True,
+            columns=(
+                _link_column(moving),
+                Column(key="way", heading=_("motion"), values=[_(WAYS[one.way]) for one in moving], left=True),
+                Column(
+                    key="travel",
+                    heading=_("travel"),
+                    values=[_span(one.path) if one.way in ("slides", "screws") else None for one in moving],
+                    dimension="length",
+                ),
+                *(
+                    Column(
+                        key=f"speed_{name}" if pace else f"speed_{name}_per_speed",
+                        heading=text,
+                        values=speeds[:, k] * (pace or 1.0),
+                        dimension="speed" if pace else "length",
+                    )
+                    for k, (name, text) in enumerate(
+                        (("min", _("least speed")), ("max", _("largest")))
+                        if pace
+                        else (("min", _("least speed v/ω₁")), ("max", _("largest")))
+                    )
+                ),
+                Column(
+                    key="acceleration" if pace else "acceleration_per_speed_squared",
+                    heading=_("acceleration ±") if pace else _("acceleration ±a/ω₁²"),
+                    values=steep * (pace or 1.0) ** 2,
+                    dimension="acceleration" if pace else "length",
+                ),
+            ),
+            note=_("Of the centre of mass where the file has one, else of the middle of the pairs of the link."),
+        )
+    if listed is not None:
+        yield _listed(listed)
+
+
+def _tidy(values: Array, size: float) -> Array:
+    """Return values, those that are nothing but rounding beside a size as 0."""
+    return np.where(np.abs(values) < EVEN * size, 0.0, values)
+
+
+def _link_column(links: list[LinkMotion]) -> Column:
+    return Column(key="link", heading=_("link"), values=[one.link for one in links], left=True)
+
+
+def _columns(link: LinkMotion, *, links: int = 0) -> Iterator[tuple[str, str, Array, str]]:
+    """Yield what is told of a link over the input angle: name, heading, values, dimension."""
+    if link.turns:
+        if link.axis.any():
+            yield "angle", _("angle"), link.angle, "angle"
+        yield "ratio", _("ratio"), link.ratio, ""
+        yield "acceleration_per_speed_squared", _("acceleration ε/ω₁²"), link.slope, ""
+    if link.moves:
+        if link.way in ("slides", "screws"):
+            yield "path", _("path"), link.path, "length"
+        yield "speed_per_speed", _("speed v/ω₁"), link.speed, "length"
+        yield "point_acceleration_per_speed_squared", _("acceleration a/ω₁²"), link.curve, "length"
+
+
+def _listed(found: MechanismMotion) -> Table:
+    """Return how the output, or every link, moves at the positions that people read one by one."""
+    output = found.output
+    links = [output] if output is not None else list(found.links)
+    columns = [
+        Column(
+            key=f"{one.link}_{key}",
+            heading=text if output else f"{one.link}: {text}",
+            values=_tidy(values, found.turned.placed.size if dim == "length" else 1.0),
+            dimension=dim,
+        )
+        for one in links
+        for key, text, values, dim in _columns(one)
+    ]
+    first = Column(key="angle", heading=_("input angle"), values=found.angle, dimension="angle", digits=7, trim=True)
+    return Table(title=_("Over the input angle"), columns=(first, *columns))
+
+
+def _trace(found: MechanismMotion) -> Table:
+    """Return how every link moves at every position."""
+    columns = [Column(key="angle", values=found.angle, dimension="angle")]
+    for one in found.links:
+        name = one.link.replace(" ", "_")
+        columns += [Column(key=f"{name}_{key}", values=v, dimension=dim) for key, _text, v, dim in _columns(one)]
+        columns += [
+            Column(key=f"{name}_{axis}", values=one.point[:, k], dimension="length") for k, axis in enumerate("xyz")
+        ]
+    return Table(name="motion", columns=columns)
+
+
+def _remarks(result: MechanismMotion) -> Iterator[Remark]:
+    turned = result.turned
+    if turned.loose:
+        text = _("Free to spin while the input rests, and told as at rest in that: {links}.")
+        yield Remark(text=say(text, links=", ".join(turned.loose)))
+    if np.any(turned.special):
+        places: list[Text] = [Quantity(float(one), "angle", decimals=0) for one in result.angle[turned.special][:8]]
+        text = _(
+            "Warning: in a change point at {angles}: it could go on in two ways, and its speeds are not told there."
+        )
+        yield Remark(text=say(text, angles=Joined(places)), tone="warning")
+    told = float(np.max(turned.rates.open[~turned.special], initial=0.0))
+    yield Remark(text=say(_("Loops closed at every position; rates checked in all pairs, {size}."), size=closely(told)))
+    if result.mechanism.speed is None:
+        yield Remark(text=_("--speed-rpm, or speed_rpm in the file, gives speeds and accelerations."), tone="next")
+    yield Remark(text=_("Whether it is overconstrained:"), command=("cardan", "mobility", FILE), tone="next")
+
+
+def _keys(result: MechanismMotion) -> Iterator[KeyFigure]:
+    output = result.output
+    if output is None:
+        return
+    if output.turns:
+        share = fluctuation(output, result.angle)
+        if share is not None:
+            title = _("speed fluctuation δ of the output")
+            yield KeyFigure(name="speed_fluctuation", title=title, value=Quantity(share, "share"))
+        for name, title, value in zip(
+            ("ratio_min", "ratio_max"),
+            (_("least speed ratio of the output"), _("largest speed ratio of the output")),
+            _ends(output.ratio),
+            strict=True,
+        ):
+            yield KeyFigure(name=name, title=title, value=Quantity(tidied(value), decimals=4), better="")
+    if output.way in ("slides", "screws"):
+        yield KeyFigure(name="travel", title=_("travel of the output"), value=_length(_span(output.path)), better="")
+
+
+def _facts(result: MechanismMotion) -> dict[str, Any]:
+    mechanism = result.mechanism
+    return {
+        "name": mechanism.name,
+        "input_link": mechanism.input_link,
+        "output_link": mechanism.output_link,
+        "speed": Quantity(mechanism.speed, "angular_speed"),
+        "input_range": Quantity([float(result.angle[0]), float(result.angle[-1])], "angle"),
+        "ways": {one.link: one.way for one in result.links},
+    }
