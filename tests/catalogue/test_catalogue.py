@@ -8,7 +8,18 @@ import numpy as np
 import pytest
 
 from cardan.catalogue import TABLES, Catalogue, catalogue, material, with_files
-from cardan.catalogue.rows import FLAGS, AnglePair, BalanceGrade, Fault, Grade, JointSize, LifeFactor, row_flat
+from cardan.catalogue.rows import (
+    FLAGS,
+    AnglePair,
+    BalanceGrade,
+    Fault,
+    Grade,
+    GuideValue,
+    JointSize,
+    LifeFactor,
+    row_flat,
+    row_tree,
+)
 from cardan.errors import InputError
 from cardan.texts import speaking
 
@@ -204,3 +215,23 @@ def test_rows_are_told_in_the_language_spoken_and_kept_as_their_file_has_them(mo
     assert (fault.id, fault.symptoms, grade.id, grade.parts) == (own.id, own.symptoms, "20", ("tube",))
     assert row_flat(grade)["parts"] == "TUBE"
     assert known.row(Fault, "F10") is own
+
+
+@pytest.mark.parametrize(("table", "count"), [("limits", 109), ("factors", 75)])
+def test_values_of_practice_say_what_they_are_and_how_sure(table: str, count: int) -> None:
+    rows = catalogue().table(table, GuideValue)
+    assert len(rows) == count
+    for row in rows.values():
+        told = set(row_tree(row)) - {"id", "source", "confidence", "note", "name", "uses"}
+        assert told or row.note, row.id
+        assert row.source
+
+
+def test_values_of_practice_are_those_of_their_sources() -> None:
+    limits, factors = (catalogue().table(name, GuideValue) for name in ("limits", "factors"))
+    assert limits["bolt_XS150"].torque == (105.0,)
+    assert limits["series_gwb_587"].torque == (43e3, 57e3)
+    assert limits["play_end_play"].length[0] == pytest.approx(0.0024 * 0.0254, rel=2e-3)
+    assert factors["friction_spline_steel_greased"].value == (0.11,)
+    assert factors["lv-200"].turning_stiffness[0] == pytest.approx(82 * 180 / np.pi, rel=2e-3)
+    assert {row.confidence for row in factors.values()} == {"confirmed", "recalled"}

@@ -36,7 +36,10 @@ SIGN = "of a shape that is alike both ways the first peak counts; rounding had d
 
 SEVERAL = "with open backlash stable motions are found where none was; told is that of the largest alternating torque"
 
+GUIDES = "limits and factors of practice stand beside the other tables"
+
 NUMBERS: tuple[tuple[str, str, str], ...] = (
+    (r"catalogue$", r"tables\.rows", GUIDES),
     (r"torsion response examples/pto-flywheel\.toml --speeds", r".*", SEVERAL),
     (
         r"select examples/(pto-hitch|rolling-mill-(lower|upper)-spindle|truck-rear-axle)\.toml --torque-Nm",

@@ -285,6 +285,41 @@ class LifeFactor(Row):
     factor: float = plain(doc="factor, misprints put right", above=0.0)
 
 
+@dataclass(frozen=True, kw_only=True, slots=True)
+class GuideValue(Row):
+    """A limit or factor of practice that no check uses by itself; two numbers are from and to, else as `note` says."""
+
+    name: str = plain(doc="what it is")
+    uses: tuple[str, ...] = plain((), doc="what it is for")
+    lubricant: str = plain("", doc="lubricant")
+    formula: str = plain("", doc="formula, in the units it names")
+    value: tuple[float, ...] = plain((), doc="factor, ratio, coefficient or share", low=0.0)
+    avoid: tuple[float, ...] = plain((), doc="range to keep out of, of the same", low=0.0)
+    bending: tuple[float, ...] = plain((), doc="factor in bending", low=0.0)
+    torsion: tuple[float, ...] = plain((), doc="factor in torsion", low=0.0)
+    axial: tuple[float, ...] = plain((), doc="factor under axial load", low=0.0)
+    slope: float | None = plain(None, doc="slope of the S-N curve", above=0.0)
+    cycles: tuple[float, ...] = plain((), doc="cycles", low=0.0)
+    teeth: int | None = plain(None, doc="teeth of the spline", low=1)
+    years: tuple[float, ...] = plain((), doc="years", low=0.0)
+    angular_acceleration: tuple[float, ...] = quantity("angular_acceleration", (), doc="angular acceleration", low=0.0)
+    speed_angle: tuple[float, ...] = quantity("speed_angle", (), doc="product of speed and joint angle", low=0.0)
+    joint_angle: tuple[float, ...] = quantity("angle", (), doc="joint angle", low=0.0)
+    speed: tuple[float, ...] = quantity("angular_speed", (), doc="speed", low=0.0)
+    torque: tuple[float, ...] = quantity("torque", (), doc="torque", low=0.0)
+    power: tuple[float, ...] = quantity("power", (), doc="power", low=0.0)
+    time: tuple[float, ...] = quantity("time", (), doc="time", low=0.0)
+    distance: tuple[float, ...] = quantity("length", (), doc="distance run", low=0.0)
+    diameter: tuple[float, ...] = quantity("length", (), doc="diameter", low=0.0)
+    length: tuple[float, ...] = quantity("length", (), doc="length", low=0.0)
+    flange: tuple[float, ...] = quantity("length", (), doc="flange diameter", low=0.0)
+    stress: tuple[float, ...] = quantity("stress", (), doc="range of stress at 2 million cycles", low=0.0)
+    pressure: float | None = quantity("stress", None, doc="largest pressure", above=0.0)
+    inertia: tuple[float, ...] = quantity("inertia", (), doc="moment of inertia", low=0.0)
+    stiffness: tuple[float, ...] = quantity("stiffness", (), doc="stiffness across", low=0.0)
+    turning_stiffness: tuple[float, ...] = quantity("turning_stiffness", (), doc="torsional stiffness", low=0.0)
+
+
 FLAGS = ("resonance_at_half_critical", "at_critical", "transient_at_critical", "wheel_order")
 """Circumstances in which a vibration appears and by which faults are told apart."""
 
@@ -317,6 +352,8 @@ TABLES: dict[str, type[Row]] = {
     "lubrication": Lubrication,
     "life_factors": LifeFactor,
     "speed_angle_factors": LifeFactor,
+    "limits": GuideValue,
+    "factors": GuideValue,
     "faults": Fault,
 }
 """Table of a catalogue file -> what its rows are."""
