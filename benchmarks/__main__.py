@@ -14,6 +14,7 @@ NAMES = (
     "without_positions",
     "single_drive",
     "forces",
+    "joint_kinds",
     "critical_speeds",
     "synthesis",
     "checks",

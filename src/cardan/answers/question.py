@@ -10,6 +10,7 @@ The module that a question names holds, by these names:
     What there is to say of it, an `Answer`.
 
 and, where there is need, ``otherwise(drive)``, why nothing can be told although nothing is missing,
+``brief(drive, result)``, its answer with key figures, sentence and tone alone where the rest takes long,
 ``over_movement(drive)``, its key figures over the instants of a movement as arrays, and ``COLUMNS``, what a sweep may
 ask of it: each a `cardan.answers.sweepable.SweepQuestion`.
 """
@@ -129,6 +130,11 @@ class Question:
     def answer(self, drive: Drive, result: Any) -> Answer:
         """Return what there is to say of its result."""
         found: Answer = self.home.answer(drive, result)
+        return found
+
+    def brief(self, drive: Drive, result: Any) -> Answer:
+        """Return its key figures, sentence and tone, as other conditions need them; the rest may be missing."""
+        found: Answer = getattr(self.home, "brief", self.home.answer)(drive, result)
         return found
 
 

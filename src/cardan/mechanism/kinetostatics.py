@@ -6,7 +6,7 @@ One position or many at once: the leading axes (...) of all arrays are the posit
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -231,12 +231,20 @@ def rates(placed: Placed, *, input_link: int, about: Array) -> Rates:
 
 
 def carried(placed: Placed, *, input_link: int, about: Array, load: Array, fed: bool = True) -> Carried:
-    """Return how the links move and what the pairs carry, Coulomb's friction acting on itself.
+    """Return how the links move and what the pairs carry, see `each_carried`."""
+    return each_carried(placed, [(placed.friction, fed)], input_link=input_link, about=about, load=load)[0]
 
+
+def each_carried(
+    placed: Placed, asked: Sequence[tuple[tuple[float, ...], bool]], *, input_link: int, about: Array, load: Array
+) -> list[Carried]:
+    """Return how the links move and what the pairs carry, Coulomb's friction acting on itself, in several ways.
+
+    asked: coefficient of friction of each pair, and whether the speeds have the sense of ``about``; False where the
+    load drives.
     input_link: link that turns with a twist ``about`` (..., 6), whose turning part is along its axis; a torque about
     this axis drives it.
     load (..., n, 6): wrenches (couple; force) about the origin on each link [N·m, N].
-    fed: whether the speeds have the sense of ``about``; False where the load drives.
 
     Power of what holds is nought on all motions it leaves: with the rows w·(t_b - t_a) of `Constraints.matrix` the
     speeds are its null vector, and the reactions λ meet wᵀλ + τ + load = 0 for every link. What is held too often
@@ -263,13 +271,15 @@ def carried(placed: Placed, *, input_link: int, about: Array, load: Array, fed: 
         found = inverse @ right
         return found[..., 0], np.max(np.abs(columns @ found - right)[..., 0], axis=-1)
 
-    amounts, rest = solved(np.zeros_like(known))
-    reaction = _reactions(placed, blocks, amounts, couples)
-    rubbed, loss = np.zeros_like(known), np.zeros((*shape, len(placed.ends)))
-    if any(placed.friction):
-        for _round in range(ROUNDS):
+    first = solved(np.zeros_like(known))
+    smooth = _reactions(placed, blocks, first[0], couples)
+
+    def rubbing(friction: tuple[float, ...], fed: bool) -> Carried:
+        (amounts, rest), reaction = first, smooth
+        rubbed, loss = np.zeros_like(known), np.zeros((*shape, len(placed.ends)))
+        for _round in range(ROUNDS if any(friction) else 0):
             before = rubbed
-            wrench, loss = _friction(placed, rate, reaction, 1.0 if fed else -1.0)
+            wrench, loss = _friction(replace(placed, friction=friction), rate, reaction, 1.0 if fed else -1.0)
             rubbed = np.zeros_like(known)
             for k, (a, b) in enumerate(placed.ends):
                 for link, sign in ((a, -1.0), (b, 1.0)):
@@ -279,16 +289,18 @@ def carried(placed: Placed, *, input_link: int, about: Array, load: Array, fed: 
             reaction = _reactions(placed, blocks, amounts, couples)
             if np.max(np.abs(rubbed - before)) <= RESTS * np.max(np.abs(amounts)):
                 break
-    largest = np.max(np.abs(amounts), axis=-1)
-    return Carried(
-        speed=speed if fed else -speed,
-        rate=rate if fed else -rate,
-        reaction=reaction,
-        input_torque=amounts[..., -1] * size,
-        loss=loss,
-        open=open_,
-        unbalanced=rest / np.where(largest > 0.0, largest, 1.0),
-    )
+        largest = np.max(np.abs(amounts), axis=-1)
+        return Carried(
+            speed=speed if fed else -speed,
+            rate=rate if fed else -rate,
+            reaction=reaction,
+            input_torque=amounts[..., -1] * size,
+            loss=loss,
+            open=open_,
+            unbalanced=rest / np.where(largest > 0.0, largest, 1.0),
+        )
+
+    return [rubbing(friction, fed) for friction, fed in asked]
 
 
 def influence(placed: Placed, found: Carried, output_torque: float) -> Array:

@@ -156,7 +156,7 @@ def _figures(question: Question, drive: Drive, time: float) -> dict[str, float]:
         return {}
     if result is None:
         return {}
-    keys = [one for one in question.answer(here, result).keys if one.better]
+    keys = [one for one in question.brief(here, result).keys if one.better]
     return {
         one.name: float(one.value.value) * (1.0 if one.better == "less" else -1.0)
         if one.utilisation is None
@@ -208,7 +208,7 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
             continue
         try:
             result = question.ask(way.drive)
-            found = None if result is None else question.answer(way.drive, result)
+            found = None if result is None else question.brief(way.drive, result)
         except InputError as error:
             problem = error.problems[0]
             text = _("Warning: not calculated in this condition, {condition}: {field}: {message}")

@@ -26,7 +26,7 @@ from .figure import closure_figures, mobility_figures, turn_figures
 from .finite_mobility import FiniteMobility, MobilityTurn, finite_mobility, mobility_over_turn
 from .mobility import JointHold, Mobility, mobility
 
-__all__ = ["COLUMNS", "Turned", "answer", "ask", "lacking", "otherwise", "turned"]
+__all__ = ["COLUMNS", "Turned", "answer", "ask", "brief", "lacking", "otherwise", "turned"]
 
 SHOWN = 3
 """Remedies that people are told of."""
@@ -87,10 +87,20 @@ def answer(thing: Drive | Mechanism, result: Mobility, around: Turned | None = N
 
     around: over a turn of the input.
     """
+    return _answer(thing, result, working(result.mechanism, most=SHOWN), around)
+
+
+def brief(thing: Drive | Mechanism, result: Mobility) -> Answer:
+    """Return the same without the remedies, which take a search."""
+    return _answer(thing, result, ())
+
+
+def _answer(
+    thing: Drive | Mechanism, result: Mobility, remedies: Sequence[Repair], around: Turned | None = None
+) -> Answer:
     mechanism = result.mechanism
     given = mechanism.input_link
     counted = partition(joins(mechanism), frame=mechanism.frame, input_link=given) if given else None
-    remedies = working(mechanism, most=SHOWN)
     return Answer(
         name="mobility",
         title=_("Mobility"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -15,7 +15,7 @@ from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames
 from cardan.mechanism.constraints import FRAME
-from cardan.mechanism.kinetostatics import Carried, Placed, carried
+from cardan.mechanism.kinetostatics import Carried, Placed, each_carried
 from cardan.mechanism.mechanism import PAIRS
 
 BEFORE, ASIDE, NORMAL = np.eye(3)
@@ -97,6 +97,13 @@ def joint_carried(
     friction: coefficient of its pairs that rub; fed: whether the driving shaft drives, else the driven one.
     loads: of the pairs whose loads it tells, see `Joint.loaded`.
     """
+    return each_carried_in(joint, joint_angle, angle, [(friction, fed)], loads=loads)[0]
+
+
+def each_carried_in(
+    joint: Joint, joint_angle: float, angle: ArrayLike, asked: Sequence[tuple[float, bool]], *, loads: bool = False
+) -> list[JointCarried]:
+    """Return the same for several coefficients of friction, and whether the driving shaft drives."""
     stance = stance_of(joint, joint_angle, np.atleast_1d(np.asarray(angle, dtype=float)))
     own = tuple(joint.loaded(stance) if loads else joint.mechanism(stance))
     pairs = (*own, *joint.carried(stance))
@@ -122,7 +129,6 @@ def joint_carried(
         point=rows("point"),
         axis=frames.unit(rows("axis")),
         second=rows("second"),
-        friction=tuple(friction * one.rubs for one in pairs),
         lever=tuple(one.lever for one in pairs),
         spread=tuple(one.spread for one in pairs),
     )
@@ -130,8 +136,11 @@ def joint_carried(
     load = np.zeros((wide[0], len(moving), 6))
     load[:, 1, :3] = -axis
     about = np.concatenate((BEFORE, np.zeros(3)))
-    found = carried(placed, input_link=0, about=about, load=load, fed=fed)
-    return JointCarried(pairs=pairs, inner=len(own), placed=placed, found=found, axis=axis)
+    ways = [(tuple(mu * one.rubs for one in pairs), fed) for mu, fed in asked]
+    return [
+        JointCarried(pairs=pairs, inner=len(own), placed=placed, found=found, axis=axis)
+        for found in each_carried(placed, ways, input_link=0, about=about, load=load)
+    ]
 
 
 def link_of(pair: InnerPair, end: int) -> str:
@@ -246,7 +255,7 @@ def _turned(joint: Joint, joint_angle: float, places: int, *, bare: bool = False
     angle = np.arange(count) * (2.0 * np.pi / places)
     mu = joint.friction or 0.0
     asked = [(mu, True), (mu, False), *([(0.0, True)] if bare else [])]
-    return [joint_carried(joint, joint_angle, angle, friction=own, fed=fed) for own, fed in asked]
+    return each_carried_in(joint, joint_angle, angle, asked)
 
 
 def _all_round(joint: Joint, rows: Array, places: int) -> Array:
