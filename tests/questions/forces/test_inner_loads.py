@@ -7,8 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cardan import check, forces
-from cardan.drive.joints import Rzeppa, Tripod, Weiss
+from cardan import Drive, check, forces
+from cardan.drive.duty import Duty
+from cardan.drive.joints import Clemens, PinCoupling, Rzeppa, Tracta, Tripod, Weiss
+from cardan.drive.joints.clemens import Profile
 from cardan.formulas.hertz import point_contact
 from cardan.io.drive_file import loads
 from cardan.questions.forces import answer as forces_answer
@@ -192,3 +194,73 @@ def test_what_the_pressure_lacks_is_named():
     assert rows[1].missing == ("joints[1].ball_diameter",)
     uneven = loads(HALF_SHAFT.replace("driven_offset_mm = 5\n", "driven_offset_mm = 5.1\n"))
     assert "do not fit" in check(uneven, only=["inner_pressure"])[1].unfit
+
+
+TONGUE = Tracta(
+    driving_distance=0.03,
+    driven_distance=0.03,
+    swivel_diameter=0.05,
+    swivel_length=0.04,
+    swivel_width=0.01,
+    tongue_length=0.05,
+    tongue_width=0.02,
+    tongue_height=0.015,
+)
+
+
+def drive_of(joint):
+    return Drive(joints=(replace(joint, joint_angle=BEND),), duty=Duty(torque=100.0, speed=50.0))
+
+
+def test_swivels_and_tongue_press_on_their_areas():
+    """Straight, swivel and tongue pass on the torque as a couple: on both faces the torque over their distance.
+
+    Bent, both forks stand at half the joint angle to the middle: a swivel turns in its fork as a cross in its yoke.
+    """
+    straight = drive_of(TONGUE)
+    straight = replace(straight, joints=(replace(TONGUE, joint_angle=0.0),))
+    swivel, tongue, _other = inner_loads(straight, forces(straight))
+    assert swivel.pressure == pytest.approx(100.0 / 0.04 / (0.05 * 0.01))
+    assert tongue.pressure == pytest.approx(100.0 / 0.05 / (0.02 * 0.015))
+    assert swivel.heating == pytest.approx(0.0, abs=1e-6)
+    drive = drive_of(TONGUE)
+    found = forces(drive)
+    swivel = inner_loads(drive, found)[0]
+    theta = np.linspace(0.0, 2.0 * np.pi, 73)
+    half, inside = 0.5 * BEND, joint_carried(TONGUE, BEND, theta, loads=True)
+    reaction = inside.found.reaction[:, 0]
+    face = 100.0 * (0.5 * np.linalg.norm(reaction[:, 3:], axis=-1) + np.linalg.norm(reaction[:, :3], axis=-1) / 0.04)
+    rate = 50.0 * np.tan(half) * np.cos(theta) / (1.0 + (np.tan(half) * np.sin(theta)) ** 2)
+    assert swivel.high == pytest.approx(np.max(face), rel=1e-6)
+    most = np.max(face * 0.025 * np.abs(rate)) / (0.05 * 0.01)
+    assert swivel.heating == pytest.approx(most, rel=1e-3)  # straight between places 5° apart
+
+
+def test_crossed_pins_press_by_hertz():
+    joint = PinCoupling(driving_distance=0.05, driven_distance=0.05, pin_diameter=0.012)
+    drive = drive_of(joint)
+    pins = inner_loads(drive, forces(drive))
+    assert pins[0].pressure == pytest.approx(pins[1].pressure)
+    assert pins[0].heating is None
+    # in the plane of the shafts, the pin on the inner side of the bend: at 45° to both, 90° + α to each other
+    (one, _two) = unit_loads(joint, BEND)
+    angle = np.cos(np.pi / 2 - BEND)
+    own = point_contact(one.high[0], 2.0 * (1.0 + angle) / 0.012, 2.0 * (1.0 - angle) / 0.012).pressure
+    assert np.isclose(float(point_contact(one.high[0], one.contact.across[0], one.contact.along[0]).pressure), own)
+    assert pins[0].pressure >= own * 100.0 ** (1.0 / 3.0) * (1.0 - 1e-9)
+
+
+def test_hinges_of_a_clemens_coupling_press_on_their_pins():
+    joint = Clemens(
+        driving=Profile(axial=0.05, radial=0.02, radius=0.06),
+        hinge_diameter=0.01,
+        hinge_length=0.03,
+        hinge_width=0.008,
+        tip_diameter=0.012,
+    )
+    drive = drive_of(joint)
+    hinge, _other, tip = inner_loads(drive, forces(drive))
+    assert hinge.pressure == pytest.approx(hinge.high / (0.01 * 0.008))
+    assert tip.pressure == pytest.approx(tip.high / (np.pi * 0.006**2))
+    assert 0.0 < hinge.heating < hinge.pressure * 0.005 * 50.0
+    assert inner_loads(drive, forces(drive, Duty(torque=100.0)))[0].heating is None

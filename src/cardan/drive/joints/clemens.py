@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -55,6 +55,7 @@ class Clemens(Joint):
     hinge_length: float | None = quantity(
         "length", None, doc="distance of the middles of both bearings of such a pin", above=0.0
     )
+    hinge_width: float | None = quantity("length", None, doc="width of each bearing of such a pin", above=0.0)
     tip_diameter: float | None = quantity("length", None, doc="diameter of the ball in which two arms meet", above=0.0)
 
     def own_problems(self) -> Iterator[Problem]:
@@ -96,11 +97,16 @@ class Clemens(Joint):
             (mark("driven hinge of joint {number}"), (arms[1], DRIVEN), last, frames.cross(stance.after + 0.0 * v, v)),
         ):
             lever, spread = 0.5 * (self.hinge_diameter or 0.0), self.hinge_length or math.inf
-            yield InnerPair(
-                name=name, type="R", links=links, point=hinge, axis=axis, rubs=True, lever=lever, spread=spread
-            )
+            own: dict[str, Any] = {
+                "rubs": True,
+                "lever": lever,
+                "spread": spread,
+                "area": 2.0 * lever * (self.hinge_width or 0.0),
+            }
+            yield InnerPair(name=name, type="R", links=links, point=hinge, axis=axis, **own)
         tip, ball = mark("contact of joint {number}"), 0.5 * (self.tip_diameter or 0.0)
-        yield InnerPair(name=tip, type="S", links=arms, point=at, axis=u, rubs=True, lever=ball)
+        area = math.pi * ball * ball
+        yield InnerPair(name=tip, type="S", links=arms, point=at, axis=u, rubs=True, lever=ball, area=area)
 
     def loaded(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the same, where it is told how they touch."""

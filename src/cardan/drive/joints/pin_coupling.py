@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from cardan.maths.kernel.meshes import joined, placed, revolved
 from cardan.texts import _, mark
 from cardan.units import deg, quantity
 
-from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
+from .common.inner import DRIVEN, DRIVING, Contact, InnerPair, Stance
 from .common.laws import contact_push
 from .common.site import Site, about
 from .joint import CROSS_ONLY, REFUSALS, Inside, Joint, both_or_none
@@ -50,6 +50,8 @@ class PinCoupling(Joint):
     driven_distance: float | None = quantity(
         "length", None, doc="from the joint centre to the start of the driven pin on its shaft's axis", above=0.0
     )
+
+    pin_diameter: float | None = quantity("length", None, doc="diameter of both pins where they touch", above=0.0)
 
     def own_problems(self) -> Iterator[Problem]:
         """Yield a distance that stands alone, and distances that unlike pins need."""
@@ -116,8 +118,10 @@ class PinCoupling(Joint):
         at = stance.centre + self.driving_distance * back + np.asarray(found.first)[..., None] * first
         point = mark("contact of joint {number}")
         pins = mark("driving pin of joint {number}"), mark("driven pin of joint {number}")
-        yield InnerPair(name=pins[0], type="P", links=(DRIVING, point), point=at, axis=first, rubs=True)
-        yield InnerPair(name=pins[1], type="SG", links=(DRIVEN, point), point=at, axis=last, rubs=True)
+        touching = None if self.pin_diameter is None else crossed_pins(self.pin_diameter, first, last)
+        for name, kind, side, way in ((pins[0], "P", DRIVING, first), (pins[1], "SG", DRIVEN, last)):
+            own: dict[str, Any] = {"rubs": True, "contact": touching}
+            yield InnerPair(name=name, type=kind, links=(side, point), point=at, axis=way, **own)
 
     def loaded(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the same, where it is told how they touch."""
@@ -169,6 +173,15 @@ class PinCoupling(Joint):
 # right angles to that plane. Both turns count from p toward n, so that equal angles are even running. A pin starts on
 # its axis at the distance a from O and leans by its slant θ toward O. Pins alike touch in the plane that halves the
 # angle of the shafts, and the coupling runs evenly at any joint angle, whatever the shape of the pins.
+
+
+def crossed_pins(diameter: float, first: Array, second: Array) -> Contact:
+    """Return the contact of two cylinders alike whose axes have directions first and second (..., 3).
+
+    diameter [m]: d. Under the angle γ of their axes 2 (1 ± |cos γ|)/d: parallel they touch along a line.
+    """
+    along = np.abs(np.sum(first * second, axis=-1))
+    return Contact(across=2.0 * (1.0 + along) / diameter, along=2.0 * (1.0 - along) / diameter)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from cardan.drive.shapes import ACROSS
 from cardan.errors import Problem
@@ -54,10 +54,19 @@ class Tracta(Joint):
         "length", None, doc="distance of the places at which the tongue bears in its slot, along it", above=0.0
     )
 
+    swivel_width: float | None = quantity(
+        "length", None, doc="width of each face of a half that bears in its fork, along its axis", above=0.0
+    )
+    tongue_width: float | None = quantity(
+        "length", None, doc="width of each of the places at which the tongue bears in its slot, along it", above=0.0
+    )
+    tongue_height: float | None = quantity("length", None, doc="height of these places, across the tongue", above=0.0)
+
     def own_problems(self) -> Iterator[Problem]:
         """Yield sizes that stand alone."""
         yield from both_or_none(self, "driving_distance", "driven_distance")
         yield from both_or_none(self, "swivel_diameter", "swivel_length", "tongue_length")
+        yield from both_or_none(self, "tongue_width", "tongue_height")
 
     def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the map of the joint, the identity where both distances are equal."""
@@ -76,23 +85,20 @@ class Tracta(Joint):
         last = stance.centre + (self.driven_distance or usual) * stance.after
         u, v = stance.driving, stance.driven
         face = frames.unit(frames.cross(u, last - first + 0.0 * u))
-        lever, spread = 0.5 * (self.swivel_diameter or 0.0), self.swivel_length or math.inf
-        tongue = self.tongue_length or math.inf
+        swivel = 0.5 * (self.swivel_diameter or 0.0), self.swivel_length or math.inf
+        tongue = 0.5 * (self.tongue_length or 0.0), self.tongue_length or math.inf
+        areas = (
+            (self.swivel_diameter or 0.0) * (self.swivel_width or 0.0),
+            (self.tongue_width or 0.0) * (self.tongue_height or 0.0),
+        )
         for name, kind, links, at, axis, sizes in (
-            (mark("driving swivel of joint {number}"), "R", (DRIVING, one), first, u, (lever, spread)),
-            (
-                mark("tongue of joint {number}"),
-                "E",
-                (one, two),
-                stance.centre,
-                face,
-                (0.5 * (self.tongue_length or 0.0), tongue),
-            ),
-            (mark("driven swivel of joint {number}"), "R", (two, DRIVEN), last, v, (lever, spread)),
+            (mark("driving swivel of joint {number}"), "R", (DRIVING, one), first, u, swivel),
+            (mark("tongue of joint {number}"), "E", (one, two), stance.centre, face, tongue),
+            (mark("driven swivel of joint {number}"), "R", (two, DRIVEN), last, v, swivel),
         ):
-            yield InnerPair(
-                name=name, type=kind, links=links, point=at, axis=axis, rubs=True, lever=sizes[0], spread=sizes[1]
-            )
+            lever, spread, area = *sizes, areas[kind == "E"]
+            own: dict[str, Any] = {"rubs": True, "lever": lever, "spread": spread, "area": area}
+            yield InnerPair(name=name, type=kind, links=links, point=at, axis=axis, **own)
 
     def loaded(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the same, where the distances are given."""

@@ -157,10 +157,17 @@ def inner_table(drive: Drive, loads: Sequence[InnerLoad]) -> Table:
                 dimension="stress",
                 depth="brief" if pressed else "data",
             ),
+            Column(
+                key="pressure_velocity",
+                heading=_("pressure × speed"),
+                values=[one.heating for one in loads],
+                dimension="pressure_velocity",
+                depth="brief" if any(one.heating is not None for one in loads) else "data",
+            ),
         ),
         note=_(
-            "Largest over a turn of any of the parts alike, and the least force of any; rigid, without "
-            "clearance. Pressure by Hertz."
+            "Largest over a turn of any of the parts alike, and the least force of any; rigid, without clearance. "
+            "Pressure by Hertz where parts touch in a point, else force over the area of a bearing."
         ),
     )
 

@@ -49,6 +49,8 @@ class UnitLoad:
     low: Array
     couple: Array  # largest couple, over the torque
     contact: Contact | None  # what touches in each of them
+    area: float  # [m²]: of one bearing, which carries ``high``; 0 where it is not given
+    slide: Array  # [m]: how fast they slide on it, over the speed of the driving shaft
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -61,7 +63,10 @@ class InnerLoad:
     high: float  # high, low [N]: largest force over a turn of any of them, and least
     low: float
     couple: float  # [N·m]: largest couple
-    pressure: float | None  # [Pa]: largest pressure where they touch; None where their sizes are not given
+    # [Pa]: largest pressure, by Hertz where they touch in a point, else over the area of a bearing; None where their
+    # sizes are not given
+    pressure: float | None = None
+    heating: float | None = None  # [Pa·m/s]: largest product of pressure and speed of sliding in a bearing
 
 
 def inner_loads(drive: Drive, found: Forces) -> tuple[InnerLoad, ...]:
@@ -70,7 +75,7 @@ def inner_loads(drive: Drive, found: Forces) -> tuple[InnerLoad, ...]:
     found: forces of the drive as drawn. Rigid parts without play, with friction where the joint tells it; what balls
     and cage share beyond the balances they share so that the sum of squares is least, as equal springs do.
     """
-    loads = []
+    loads, still = [], "duty.speed" in found.assumed
     angles = given_chain(drive).joint_angle
     turned = np.asarray(motion(drive, found.angle).yoke_rotation)
     for i, joint in enumerate(drive.joints):
@@ -80,7 +85,7 @@ def inner_loads(drive: Drive, found: Forces) -> tuple[InnerLoad, ...]:
                 np.abs(torque) * np.where(torque * found.speed[i + 1] < 0.0, *(over(row, turned[i]) for row in rows))
                 for rows in ((other.high, one.high), (other.low, one.low), (other.couple, one.couple))
             )
-            least = float(np.min(low))
+            least, slide = float(np.min(low)), np.abs(found.speed[i]) * over(one.slide, turned[i])
             loads.append(
                 InnerLoad(
                     joint=i + 1,
@@ -89,13 +94,12 @@ def inner_loads(drive: Drive, found: Forces) -> tuple[InnerLoad, ...]:
                     high=float(np.max(high)),
                     low=least if least > ROUNDING * np.max(high) else 0.0,
                     couple=float(np.max(couple)),
-                    pressure=pressure(one.contact, float(np.max(high))),
+                    pressure=_pressure(one, high, torque),
+                    heating=None if still or not one.area else float(np.max(high * slide)) / one.area,
                 )
             )
         loads += [
-            InnerLoad(
-                joint=i + 1, name=one.name, count=1, high=one.force, low=one.force, couple=one.couple, pressure=None
-            )
+            InnerLoad(joint=i + 1, name=one.name, count=1, high=one.force, low=one.force, couple=one.couple)
             for one in joint.strained(float(angles[i]))
         ]
     return tuple(loads)
@@ -137,9 +141,18 @@ def unit_thrust(joint: Joint, joint_angle: float) -> Array:
     return found
 
 
-def pressure(contact: Contact | None, force: float) -> float | None:
-    """Return the largest pressure of a contact under a force [N], by Hertz [Pa]; None without a contact."""
-    return None if contact is None else float(point_contact(force, contact.across, contact.along).pressure)
+def _pressure(one: UnitLoad, force: Array, torque: Array) -> float | None:
+    """Return the largest pressure of parts under forces [N] that a torque [N·m] makes [Pa]; None without their sizes.
+
+    Where the contact changes as the joint turns, under the largest torque at every place.
+    """
+    high = float(np.max(force))
+    if one.area:
+        return high / one.area
+    if one.contact is None:
+        return None
+    load = high if np.ndim(one.contact.across) == 0 else one.high * float(np.max(np.abs(torque)))
+    return float(np.max(point_contact(load, one.contact.across, one.contact.along).pressure))
 
 
 @lru_cache(maxsize=512)
@@ -173,6 +186,8 @@ def _loads(found: JointCarried, repeats: int) -> Iterator[UnitLoad]:
         couple = frames.norm(reaction[:, which, :3])
         couple = np.where(couple > ROUNDING, couple, 0.0)
         force = frames.norm(reaction[:, which, 3:])
+        rate = found.found.rate[:, which]
+        slide = first.lever * frames.norm(rate[..., :3]) + frames.norm(rate[..., 3:])
         if np.isfinite(first.spread):  # two bearings share force and couple
             force, couple = 0.5 * force + couple / first.spread, 0.0 * couple
         yield UnitLoad(
@@ -182,4 +197,6 @@ def _loads(found: JointCarried, repeats: int) -> Iterator[UnitLoad]:
             low=np.tile(np.min(force, axis=-1), repeats),
             couple=np.tile(np.max(couple, axis=-1), repeats),
             contact=first.contact,
+            area=first.area,
+            slide=np.tile(np.max(slide, axis=-1), repeats),
         )

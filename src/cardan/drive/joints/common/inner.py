@@ -60,10 +60,13 @@ ARM = 0.1  # distance of a point of contact from the axis over the length of the
 
 @dataclass(frozen=True, kw_only=True)
 class Contact:
-    """What touches in a pair as Hertz has it: sums of the curvatures of both bodies in their principal planes [1/m]."""
+    """What touches in a pair as Hertz has it: sums of the curvatures of both bodies in their principal planes [1/m].
 
-    across: float  # across the way on which it runs; hollow bodies count as negative
-    along: float
+    Arrays (...) where they change as the joint turns.
+    """
+
+    across: float | Array  # across the way on which it runs; hollow bodies count as negative
+    along: float | Array
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -84,6 +87,7 @@ class InnerPair:
     lever: float = 0.0  # [m]: at which what turns in it rubs
     spread: float = math.inf  # [m]: between its two bearings, where it has two
     contact: Contact | None = None  # what touches in it, where its sizes are given
+    area: float = 0.0  # [m²]: of one of its bearings, seen along the load; 0 where it is not given
     rolls: float = 0.0  # [m]: radius at which what slides in it rolls on its bearing
     told: bool = True  # whether what it carries is told, of pairs by which a joint is `Joint.loaded`
 
