@@ -29,7 +29,7 @@ from .audit import answers_agree
 from .check import Check
 from .design import Design, design
 from .moving import stood, stopped, worst_of_poses
-from .practice import layout, length, lubrication, part_accuracy, runout, spline_overlap
+from .practice import layout, length, lubrication, part_accuracy, plunge, runout, spline_overlap
 from .speeds import balance, critical_speed, gap_closure, half_critical, max_speed, rim_speed, whirl_amplitude
 from .strength import (
     bearing_life,
@@ -80,6 +80,7 @@ CHECKS: dict[str, Check] = {
         spline_strength,
         spline_pressure,
         spline_overlap,
+        plunge,
         critical_speed,
         half_critical,
         whirl_amplitude,

@@ -24,7 +24,7 @@ TONES: dict[State, Tone] = {
     "not_run": "plain",
 }
 
-CONDITIONS = frozenset(("acceleration", "speed_fluctuation", "joint_angle", "spline_overlap"))
+CONDITIONS = frozenset(("acceleration", "speed_fluctuation", "joint_angle", "plunge", "spline_overlap"))
 """Checks whose note says at which speed, in which pose or when the value is reached: it belongs to what is judged."""
 
 MOST = 1000.0

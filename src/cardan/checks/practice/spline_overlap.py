@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -25,7 +25,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
     splined = [k for k, shaft in enumerate(design.drive.shafts) if shaft.spline is not None]
     if not splined:
         return
-    slides = _slid(design)
+    slides = slid(design, splined)
     own = design.value("limits.spline_overlap")
     for k in splined:
         path = f"shafts[{k}].spline"
@@ -56,10 +56,10 @@ def _judge(design: Design) -> Iterator[Verdict]:
             )
 
 
-def _slid(design: Design) -> dict[int, tuple[Array, Array, Array]]:
-    """Return how far each splined shaft gets longer and shorter than drawn [m], and how much longer it is standing.
+def slid(design: Design, shafts: Sequence[int]) -> dict[int, tuple[Array, Array, Array]]:
+    """Return how far each of some shafts gets longer and shorter than drawn [m], and how much longer it is standing.
 
-    None where no shaft slides.
+    shafts: counted from 0. None where none slides.
 
     Engaged length and gap hold in the drive as drawn; a pose that says them anew means its own place.
     """
@@ -68,10 +68,11 @@ def _slid(design: Design) -> dict[int, tuple[Array, Array, Array]]:
         return {}
     reach = extreme_lengths(design.points, moves) if moves else None
     ways = {}
-    for k, shaft in enumerate(design.drive.shafts):
+    for k in shafts:
+        shaft = design.drive.shafts[k]
         origin = design if drawn is None or shaft.spline != drawn.drive.shafts[k].spline else drawn
         standing, zero = design.length(k), origin.length(k)
-        if shaft.spline is None or standing is None or zero is None:
+        if standing is None or zero is None:
             continue
         low = high = np.asarray(standing, dtype=float)
         if reach is not None:

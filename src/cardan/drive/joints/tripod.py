@@ -58,6 +58,13 @@ class Tripod(Joint):
         "length", None, doc="distance of the joint at the far end of its shaft, which pivots there", above=0.0
     )
 
+    plunge_out: float | None = quantity(
+        "length", None, doc="how far it may be pulled out from where it is drawn", low=0.0
+    )
+    plunge_in: float | None = quantity(
+        "length", None, doc="how far it may be pushed in from where it is drawn", low=0.0
+    )
+
     def own_problems(self) -> Iterator[Problem]:
         """Yield a track narrower than its roller."""
         if self.track_section is not None and self.track_section <= (self.roller_crown or 0.0):
