@@ -3,6 +3,7 @@
 import json
 import struct
 
+from cardan.mechanisms import load_mechanism
 from tests.cli.conftest import EXAMPLES
 
 TRUCK = EXAMPLES / "truck-supports.toml"
@@ -26,3 +27,13 @@ def test_bodies_have_no_form(cardan):
     done = cardan("convert", TRUCK, "truck.glb", "--form", "angles")
     assert done.code == 2
     assert "--form" in done.err
+
+
+def test_a_mechanism_is_converted_too(cardan, tmp_path):
+    path = EXAMPLES / "mechanisms" / "slot-cam.toml"
+    done = cardan("convert", path, tmp_path / "cam.glb", "--json")
+    assert (done.code, done.content["bodies"]) == (0, 4)
+    assert (tmp_path / "cam.glb").read_bytes()[:4] == b"glTF"
+    assert cardan("convert", path, tmp_path / "cam.json").code == 0
+    assert load_mechanism(tmp_path / "cam.json") == load_mechanism(path)
+    assert "none of these forms" in cardan("convert", path, "-", "--form", "points").err
