@@ -6,7 +6,7 @@ imported when it is asked, see `cardan.answers.question`.
 
 from __future__ import annotations
 
-from cardan.answers.question import Question
+from cardan.answers.question import ASIDE, NOWHERE, Place, Question
 from cardan.texts import mark
 
 MOTION, PHASING, FORCES, LOSSES = mark("Motion"), mark("Phasing"), mark("Forces"), mark("Power loss")
@@ -38,8 +38,8 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Motion"),
             group=MOTION,
             help=mark("How every shaft turns: angle, speed ratio, acceleration."),
-            apart=True,
             mechanism="cardan.questions.mechanism.motion_answer",
+            place=Place(order=-1),
             examples=(
                 "cardan motion truck.toml --speed-rpm 3000",
                 "cardan motion truck.toml --csv > turn.csv",
@@ -53,7 +53,7 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Classical approximations"),
             group=MOTION,
             help=mark("How near the series of the handbooks and the rule of practice come to the exact motion."),
-            apart=True,
+            place=ASIDE,
             command="calc book_comparison",
             without={"pose": DRAWN, "movement": DRAWN, "case": GEOMETRY, "error": MINUTES},
         ),
@@ -63,7 +63,6 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Articulation"),
             group=MOTION,
             help=mark("What happens while the drive moves: worst positions, spline travel."),
-            apart=True,
             quick=False,
             gathered=("movement",),
             without={"error": MINUTES},
@@ -78,7 +77,7 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Phasing of the yokes"),
             group=PHASING,
             help=mark("Which yoke angles make the output uniform, or how uniform it can be."),
-            apart=True,
+            place=Place(order=-1),
             gathered=("pose",),
             without={"movement": TURNS, "case": YOKES},
             examples=(
@@ -201,7 +200,7 @@ QUESTIONS: dict[str, Question] = {
             group=TORSION,
             help=mark("Where the modes stand in the chart of Mathieu's equation, and the book's method for sizing."),
             quick=False,
-            report=False,
+            place=NOWHERE,
             command="torsion mathieu",
             without={"error": MINUTES},
             examples=("cardan torsion mathieu truck.toml --plot chart.svg",),
@@ -228,7 +227,7 @@ QUESTIONS: dict[str, Question] = {
             group=TORSION,
             help=mark("Which absorber, damper or pendulum reduces torsional vibration, where, and how it is set."),
             quick=False,
-            report=False,
+            place=NOWHERE,
             takes=("progress",),
             command="torsion absorber",
             without={"pose": DESIGNED, "movement": DESIGNED, "case": DESIGNED, "error": MINUTES},
@@ -245,7 +244,7 @@ QUESTIONS: dict[str, Question] = {
             group=TORSION,
             help=mark("Which yoke angles, stiffnesses, inertias or joint positions make torsional vibration least."),
             quick=False,
-            report=False,
+            place=NOWHERE,
             takes=("known", "progress"),
             command="torsion optimise",
             gathered=("pose", "movement", "error"),  # by the limits of the file
@@ -281,7 +280,7 @@ QUESTIONS: dict[str, Question] = {
             quick=False,
             takes=("progress",),
             without={"pose": WHIRLS, "movement": WHIRLS, "error": MINUTES},
-            within="line",
+            place=Place(beside="line"),
             examples=(
                 "cardan rotor truck.toml",
                 "cardan rotor truck.toml --shaft 3 --plot orbits.svg",
@@ -349,7 +348,7 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Checks"),
             group=CHECKS,
             help=mark("Whether the drive keeps its limits, and which changes help where it does not."),
-            apart=True,
+            place=Place(order=1),
             takes=("known",),
             gathers="worst",
             quick=False,
@@ -367,8 +366,8 @@ QUESTIONS: dict[str, Question] = {
             group=SUPPORTS,
             help=mark("Whether a drive or mechanism turns, its redundant constraints, and what to release."),
             without={"case": GEOMETRY, "error": MINUTES},
-            calm=True,
             mechanism="cardan.questions.mobility.answer",
+            place=Place(calm=True),
             examples=(
                 "cardan mobility pump.toml",
                 "cardan mobility slider.toml --turn --plot slider.svg",
@@ -381,7 +380,7 @@ QUESTIONS: dict[str, Question] = {
             group=SUPPORTS,
             help=mark("Which bearings, splines and joints make a drive statically determinate, best first."),
             quick=False,
-            report=False,
+            place=NOWHERE,
             takes=("other_joints",),
             command="mobility --layouts",
             without={"pose": HELD, "movement": HELD, "case": HELD, "error": MINUTES},
@@ -398,7 +397,7 @@ QUESTIONS: dict[str, Question] = {
             help=mark("What misalignment loads: support forces of parts that do not fit, and what to release."),
             gathered=("error",),
             without={"case": GEOMETRY},
-            calm=True,
+            place=Place(calm=True),
             examples=(
                 "cardan assembly pump.toml",
                 "cardan assembly pump.toml --csv > turn.csv",
@@ -412,7 +411,7 @@ QUESTIONS: dict[str, Question] = {
             help=mark("Which types and sizes of joints do a job, and why not the others."),
             takes=("known", "joint"),
             command="select",
-            report=False,
+            place=NOWHERE,
             gathered=("pose", "movement", "case"),
             without={"error": CHOSEN},
             examples=(

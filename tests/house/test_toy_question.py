@@ -1,7 +1,10 @@
 """A question that someone adds is one module and one entry: it stands on every surface without another edit."""
 
+from dataclasses import replace
+
 import pytest
 
+from cardan.answers.question import Place
 from cardan.app.parts.blocks import block_html
 from cardan.batch.answering.asking import evaluator
 from cardan.io import loads
@@ -11,7 +14,8 @@ from cardan.report.content import content
 from cardan.report.render.html import text
 from cardan.sweeps import sweep
 from tests.cli.conftest import cardan, drive_file  # noqa: F401 - fixtures
-from tests.fixtures.toy_question import QUESTION
+from tests.fixtures import toy_question
+from tests.fixtures.toy_question import QUESTION, answer
 
 FILE = """format = 1
 name = "with a toy"
@@ -53,6 +57,49 @@ def test_it_stands_in_the_report():
     page = text(made)
     assert "Toy question" in page
     assert "length of the toy" in page
+
+
+@pytest.mark.parametrize(
+    ("place", "stands"),
+    [
+        (Place(), ("main", "main")),
+        (Place(part="aside"), ("", "aside")),
+        (Place(part="nowhere"), ("", "")),
+        (Place(beside="motion"), ("", "aside")),
+        (Place(beside="torsion"), ("main", "main")),  # whose page this drive lacks
+        (Place(calm=True), ("", "aside")),
+    ],
+)
+def test_its_place_says_where_its_page_stands_and_when(monkeypatch, place, stands):
+    monkeypatch.setitem(QUESTIONS, "toy", replace(QUESTION, place=place))
+    monkeypatch.setattr(toy_question, "answer", lambda *given: replace(answer(*given), tone="good"))
+    for full, where in zip((False, True), stands, strict=True):
+        made = content(loads(FILE), full=full)
+        pages = {"main": made.pages, "aside": made.appendix}
+        assert [name for name, some in pages.items() if "toy" in [page.name for page in some]] == [where][: bool(where)]
+
+
+@pytest.mark.parametrize(("tone", "where"), [("good", False), ("warning", True)])
+def test_what_is_calm_is_read_where_it_is_not_good(monkeypatch, tone, where):
+    monkeypatch.setitem(QUESTIONS, "toy", replace(QUESTION, place=Place(calm=True)))
+    monkeypatch.setattr(toy_question, "answer", lambda *given: replace(answer(*given), tone=tone))
+    assert ("toy" in [page.name for page in content(loads(FILE)).pages]) == where
+
+
+@pytest.mark.parametrize(("order", "place"), [(-2, 1), (2, -1)])
+def test_its_order_says_before_and_behind_which_pages_it_stands(monkeypatch, order, place):
+    monkeypatch.setitem(QUESTIONS, "toy", replace(QUESTION, place=Place(order=order)))
+    assert content(loads(FILE)).pages[place].name == "toy"  # behind the page of the drive itself
+
+
+def test_what_stands_aside_on_its_page_is_told_with_all_of_it(monkeypatch):
+    def aside(*given):
+        made = answer(*given)
+        return replace(made, tables=[replace(one, aside=True) for one in made.tables])
+
+    monkeypatch.setattr(toy_question, "answer", aside)
+    assert ["Toys" in text(content(loads(FILE), full=full)) for full in (False, True)] == [False, True]
+    assert answered("toy", subject(loads(FILE))).blocks  # asked by itself it is told whole
 
 
 def test_it_has_a_tab_of_the_app():

@@ -17,9 +17,10 @@ from cardan.io.edit import edit
 from cardan.questions.gathering import principal
 from cardan.register import QUESTIONS, groups
 from cardan.report.answers import answered, subject, told
-from cardan.report.content import loaded, moved
+from cardan.report.content import moved, pages_of, placed
 from cardan.report.subject import Subject
 from cardan.report.verdict_list import Applicable, lights, sentence, settings, synchronous, with_remedies
+from cardan.report.verdicts import Judged
 from cardan.units import deg
 
 SAME = {"forces", "losses", "accuracy", "life", "strength", "mobility", "assembly", "bending"}
@@ -45,7 +46,7 @@ def wrong_with(drive, path):
 def test_an_answer_is_the_page_of_the_report(name):
     drive = example(name)
     on = subject(drive)
-    pages = {page.name: page for page in loaded(on, judged=False)}
+    pages = {page.name: page for page in pages_of(on, placed(on)[0], Judged())}
     for one in SAME:
         page = answered(one, on)
         if one in pages:
@@ -98,7 +99,7 @@ def test_the_page_of_the_motion_asks_nothing_about_the_yokes(monkeypatch):
 
     monkeypatch.setattr(QUESTIONS["phasing"].home, "ask", never)
     monkeypatch.setattr(QUESTIONS["articulation"].home, "ask", never)
-    assert moved(example("truck-power-unit")).blocks
+    assert moved(subject(example("truck-power-unit"))).blocks
     assert answered("motion", Subject(drive=example("truck-power-unit"))).blocks
 
 

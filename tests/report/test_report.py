@@ -137,7 +137,7 @@ def test_a_drive_even_but_for_rounded_coordinates_is_not_called_uneven():
     assert not on.phasing.feasible
     (drawn,) = (one for one in yokes.answer(on.drive, on.phasing).figures() if one.name == "polygon")
     polygon = Picture(figure=drawn).figure.sentence
-    said = [uniformity(on).text, phased(on).answer, proof(on), polygon, moved(on.drive).answer]
+    said = [uniformity(on).text, phased(on).answer, proof(on), polygon, moved(on).answer]
     assert all("but for the rounding" in text.lower() for text in said)
     rows = {row[0].text: row for row in key_rows(on.drive)}
     assert rows["angle error of the output, ±"][1].text == "9.283·10⁻⁶"
@@ -149,7 +149,7 @@ def test_joints_that_turn_evenly_by_themselves_are_said_to():
 
     for name in ("pto-hitch",):
         on = asked(example(name), None, None)
-        told = (proof(on), phased(on).answer, moved(on.drive).answer)
+        told = (proof(on), phased(on).answer, moved(on).answer)
         assert all("joint turns uniformly by itself" in text for text in told)
         assert ["as drawn" in text.lower() for text in told] == 3 * [bool(on.drive.movements)]
 
@@ -312,15 +312,14 @@ def test_what_few_ask_for_stands_in_the_appendix_and_only_where_asked():
     assert [one.name for one in short.pages] == [one.name for one in full.pages]
     assert not short.appendix
     assert [one.title for one in full.appendix] == [
-        "Checks not run",
-        "Phase polygon",
         "Classical approximations",
+        "Checks not run",
         "Method and evidence",
     ]
     told = "".join(parsed(page(drive, source_text=text)).words)
     assert not re.search("Appendix|classical|Poincaré|Möbius map|format = 1", told)
     words = "".join(parsed(of_example("two-piece-rear-drive")).words)
-    assert words.index("Checks") < words.index("Poincaré") < words.index("format = 1")
+    assert words.index("Poincaré") < words.index("Appendix") < words.index("format = 1")
 
 
 @pytest.mark.parametrize("name", ["two-piece-rear-drive", "truck-duty-cycle", "pto-hitch", "single-20deg"])

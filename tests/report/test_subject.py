@@ -25,7 +25,7 @@ def test_a_small_bend_that_the_file_gives_by_itself_is_no_rounding(joint_angles)
     assert not on.rounded
     assert not on.curable
     said = [uniformity(on).text]
-    for page in (phased(on), moved(on.drive)):
+    for page in (phased(on), moved(on)):
         said += [page.answer, *(one.text for one in page.blocks if isinstance(one, Words))]
         said += [one.figure.sentence for one in page.blocks if isinstance(one, Picture)]
     assert not any("rounding" in text for text in said)

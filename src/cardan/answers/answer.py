@@ -2,7 +2,7 @@
 
 A renderer writes it: the terminal, JSON, CSV, HTML, PDF, a workbook, the app. How deep a part goes is a mark on it,
 not another text: what is ``"brief"`` stands everywhere, what is ``"full"`` in the report and in files, what is
-``"data"`` in files alone.
+``"data"`` in files alone. What is ``aside`` a client does not ask for: a report tells it with ``--full`` alone.
 """
 
 from __future__ import annotations
@@ -96,6 +96,7 @@ class Table:
     columns: Sequence[Column]  # all of one length
     note: Text = ""  # what stands below it
     depth: Depth = "brief"  # how deep it goes
+    aside: bool = False  # whether a report tells it with ``--full`` alone
     fixed: int = 1  # so many first columns are repeated where the table is parted
     tones: Sequence[Tone] = ()  # how good each row is; its first cell has that colour
     records: bool = False  # in JSON a list of rows; otherwise one of columns
@@ -116,6 +117,7 @@ class Remark:
     command: tuple[str, ...] = ()  # what to type next, with `FILE` for the file asked about
     code: str = ""  # what it is about, in one word for programs
     depth: Depth = "brief"  # how deep it goes
+    aside: bool = False  # whether a report tells it with ``--full`` alone
     alarm: bool = False  # whether the reader of the first page must not overlook it
     once: bool = False  # whether it is of the drive, whatever is asked: a report says it on the first page that has it
 

@@ -45,6 +45,22 @@ Lacking: TypeAlias = tuple[tuple[str, ...], ...]
 
 
 @dataclass(frozen=True, kw_only=True)
+class Place:
+    """Where the page of a question stands in the report: in its main part, aside with ``--full`` alone, or nowhere.
+
+    Of a page in the main part the figures, tables and remarks that are marked ``aside`` are told with ``--full`` alone.
+    """
+
+    part: Literal["main", "aside", "nowhere"] = "main"
+    calm: bool = False  # whether it stands aside while all is good: few ask for it then
+    beside: str = ""  # question that tells the same of more: where that has a page, this one stands aside
+    order: int = 0  # before the others where it is less, behind them where it is more; alike as in the register
+
+
+MAIN, ASIDE, NOWHERE = Place(), Place(part="aside"), Place(part="nowhere")
+
+
+@dataclass(frozen=True, kw_only=True)
 class Question:
     """An entry of the register: light, so that help costs nothing; its module is imported when it is asked."""
 
@@ -59,13 +75,7 @@ class Question:
     # what its answer does not depend on: why, in a sentence marked for translation
     without: Mapping[Aspect, str] = field(default_factory=dict, compare=False)
     quick: bool = True  # whether its answer is there at once; the others are worth a process of their own
-    report: bool = True  # whether the report has a page of it
-    # whether that page has a place of its own there; the others follow in the order of the register
-    apart: bool = False
-    # question that tells the same of more: where that has a page in the report, this one stands in the appendix
-    within: str = ""
-    # whether few ask for it while all is good: its page stands in the appendix of a report then
-    calm: bool = False
+    place: Place = MAIN  # where the report has its page
     # what ``ask`` takes beside the drive, of ``known`` (a catalogue), ``progress`` and what a user may choose
     takes: tuple[str, ...] = ()
     mechanism: str = ""  # where it is answered of a mechanism file, as ``module``; empty where it is of drives alone

@@ -255,6 +255,8 @@ class Figure:
         List the labelled series above the panels.
     width : float
         Width of the print [inch].
+    aside : bool
+        Whether a report shows it with ``--full`` alone.
     """
 
     name: str
@@ -264,6 +266,7 @@ class Figure:
     rows: tuple[Row, ...]
     legend: bool = True
     width: float = 7.4
+    aside: bool = False
 
     @property
     def panels(self) -> tuple[Panel, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
+from collections.abc import Iterator, Mapping, MutableMapping, Sequence
 from typing import Any, TypeAlias
 
 from cardan.answers.answer import Answer, Tone
@@ -74,7 +74,8 @@ def found_page(
     progress: Progress | None = None,
     choices: Choices | None = None,
     kept: MutableMapping[str, Answer] | None = None,
-    shorter: Callable[[Answer], Answer] | None = None,
+    *,
+    whole: bool = True,
 ) -> Page | None:
     """Return the page of a question about a drive that has what it needs; None where nothing can be told."""
     if kept is not None and question.name in kept:
@@ -89,7 +90,7 @@ def found_page(
     found = gather(question, on.drive, question.answer(drive, result))
     if kept is not None:
         kept[question.name] = found
-    return page(found if shorter is None else shorter(found), reader())
+    return page(found, reader(), whole=whole)
 
 
 # What a part of the report says where the drive file does not answer it: what is missing, or why it is refused.

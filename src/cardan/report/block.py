@@ -125,30 +125,35 @@ SAME = 1e-6  # numbers that differ by less of them are one and the same
 MOST = 1000.0  # a limit that is exceeded more often is told as exceeded beyond that
 
 
-def page(answer: Answer, reader: Reader, depth: Depth = "full") -> Page:
-    """Return an answer as a page: its figures, its tables, what to mind."""
+def page(answer: Answer, reader: Reader, depth: Depth = "full", *, whole: bool = True) -> Page:
+    """Return an answer as a page: its figures, its tables, what to mind; whole with what stands aside."""
     return Page(
         name=answer.name,
         title=answer.title,
         answer=capital(told(answer.sentence, reader)),
-        blocks=list(_blocks(answer, reader, depth)),
+        blocks=list(_blocks(answer, reader, depth, whole)),
         tone=answer.tone,
         keys=answer.keys,
         alarms=[Words(text=told(one.text, reader), tone=one.tone) for one in answer.remarks if one.alarm],
     )
 
 
-def _blocks(answer: Answer, reader: Reader, depth: Depth) -> Iterator[Block]:
+def _blocks(answer: Answer, reader: Reader, depth: Depth, whole: bool) -> Iterator[Block]:
     shown = SHOWN[depth]
-    remarks = [one for one in answer.remarks if one.depth in shown and one.tone != "next"]
+    remarks = [one for one in _of(answer.remarks, whole) if one.depth in shown and one.tone != "next"]
     yield from (Words(text=told(one.text, reader), tone=one.tone) for one in remarks if one.tone == "failed")
-    yield from (Picture(figure=one) for one in answer.figures())
-    yield from (printed(one, reader, depth) for one in answer.tables if one.depth in shown)
+    yield from (Picture(figure=one) for one in _of(answer.figures(), whole))
+    yield from (printed(one, reader, depth) for one in _of(answer.tables, whole) if one.depth in shown)
     yield from (Words(text=told(one.text, reader), once=one.once) for one in remarks if one.tone in ("plain", "good"))
     minded = [told(one.text, reader) for one in remarks if one.tone == "warning"]
     if minded:
         yield Points(title=_("To mind"), items=list(dict.fromkeys(minded)))
     yield from (one for one in answer.listings if one.depth in shown)
+
+
+def _of(parts: Iterable[Any], whole: bool) -> list[Any]:
+    """Return parts of an answer, without those that stand aside where it is not told whole."""
+    return [one for one in parts if whole or not one.aside]
 
 
 def key_figures(told: Iterable[Sequence[KeyFigure]]) -> list[KeyFigure]:

@@ -106,7 +106,7 @@ def _told(progress: Progress | None, k: int, count: int, share: float) -> object
 
 def _keys(one: Variant, progress: Callable[[float], object]) -> list[KeyFigure]:
     """Return the key figures of a drive."""
-    told, names = [], [name for name, question in QUESTIONS.items() if question.report]
+    told, names = [], [name for name, question in QUESTIONS.items() if question.place.part != "nowhere"]
     for k, name in enumerate(names):
         told.append(answered(name, one.subject).keys)
         if progress((k + 1) / (len(names) + 1)) == "stop":

@@ -7,13 +7,10 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from cardan.answers.answer import Answer
-from cardan.answers.quantity import Joined
 from cardan.answers.question import Question
 from cardan.answers.reader import reader, reading
 from cardan.book import answer as classical
 from cardan.catalogue import Catalogue
-from cardan.checks.verdict_table import BY, MISSING
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.errors import InputError
@@ -36,7 +33,7 @@ from .answers import (
     refused,
     warnings_by_laws,
 )
-from .block import Block, Page, Picture, Points, Table, Words, key_figures, key_table, page, untold
+from .block import Block, Page, Points, Table, Words, key_figures, key_table, page, untold
 from .description import description
 from .method import method
 from .subject import Subject, asked
@@ -106,133 +103,108 @@ def content(
     with reading(who):
         on = replace(asked(drive, duty, progress), known=known)
         limits = judged(on) if on.complete else Judged()
-        said = _said(on, limits)
-        front = [one for one in said.pages if not _calm(one)]
-        if full:
-            aside = [one for one in said.pages if _calm(one)]
-            said = replace(said, appendix=(*aside, *_appendix(on, limits, source_text)))
-        said = replace(said, pages=tuple(_told_once(front)))
+        said = _said(on, limits, source_text, full=full)
     return replace(said, head=Head(rows=tuple(rows(drive.report)), units=who.line(), logo=logo))
 
 
-def _said(on: Subject, limits: Judged) -> Content:
-    """Return what a report says, without its head and its appendix."""
-    pages: list[Page] = [description(on), moved(on.drive), phased(on), *_articulated(on)]
-    pages += loaded(on, judged=limits.page is not None)
-    if limits.page is not None:
-        pages.append(limits.page)
-    keys = key_figures([*(one.keys for one in pages), limits.keys])
+def _said(on: Subject, limits: Judged, source_text: str | None, *, full: bool) -> Content:
+    """Return what a report says, without its head."""
+    main, aside = placed(on)
+    told = [description(on), *pages_of(on, main, limits, whole=full)]
+    calm = [one for one in told if one.tone == "good" and one.name in QUESTIONS and QUESTIONS[one.name].place.calm]
+    keys = key_figures([*(one.keys for one in told), limits.keys])
+    behind = (*calm, *pages_of(on, aside, limits), *_appendix(on, limits, source_text)) if full else ()
     return Content(
         title=on.drive.name or _("Universal-joint drive"),
         note=on.drive.note,
         version=VERSION,
         date=today(),
         head=Head(),
-        judgement=(judgement_by_laws if on.by_laws else judgement)(on, pages),
-        warnings=tuple((warnings_by_laws if on.by_laws else warnings)(on, pages)),
+        judgement=(judgement_by_laws if on.by_laws else judgement)(on, told),
+        warnings=tuple((warnings_by_laws if on.by_laws else warnings)(on, told)),
         lights=limits.lights,
         remedies=limits.changes,
         sketch=space_figure(on.drive, on.seen, name="sketch"),
         figures=key_table(untold(keys, limits.urgent)),
         changes=changes_by_laws(on) if on.by_laws else changes(on),
-        pages=tuple(pages),
+        pages=tuple(_told_once([one for one in told if one not in calm])),
+        appendix=behind,
     )
 
 
-def moved(drive: Drive) -> Page:
-    """Return the page of the motion: joints have their angles on the page before, shafts theirs in a table."""
-    said = gather(QUESTIONS["motion"], drive, motion.answer(drive, motion.ask(drive)))
-    drawn = [one for one in said.figures() if one.name != "speed_fluctuation"]
-    tables = [one for one in said.tables if one.name != "joints"]
-    return page(replace(said, tables=tables, figures=lambda: drawn), reader())
+def placed(on: Subject) -> tuple[list[Question], list[Question]]:
+    """Return the questions for which the drive file says enough: those of the main part, and those that stand aside."""
+    found = {name: one for name, one in QUESTIONS.items() if not one.lacking(principal(one, on.drive))}
+    order = sorted(found.values(), key=lambda one: one.place.order)
+    aside = [one for one in order if one.place.part == "aside" or one.place.beside in found]
+    return [one for one in order if one.place.part == "main" and one not in aside], aside
 
 
-def phased(on: Subject) -> Page:
-    """Return the page of the yokes, without their polygon; where joints turn by own laws mostly why there is none."""
+def pages_of(on: Subject, questions: Sequence[Question], limits: Judged, *, whole: bool = True) -> Iterator[Page]:
+    """Yield the pages of questions; once the reader stopped the work those alone whose answer is there already."""
+    for question in questions:
+        if question.name == "check":
+            made = limits.page
+        elif question.name in OWN:
+            made = OWN[question.name](on, whole)
+        else:
+            made = found_page(question, on, whole=whole) if on.complete else None
+        if made is not None:
+            yield made
+
+
+# Questions that the first page has asked already, or of which the report tells less.
+
+
+def moved(on: Subject, whole: bool = True) -> Page:
+    """Return the page of the motion of the drive as drawn."""
+    said = gather(QUESTIONS["motion"], on.drive, motion.answer(on.drive, motion.ask(on.drive)))
+    return page(said, reader(), whole=whole)
+
+
+def phased(on: Subject, whole: bool = True) -> Page:
+    """Return the page of the yokes; where joints turn by own laws mostly why there is none."""
     try:
-        said = yokes.answer(on.drive, on.phasing)
+        said = gather(QUESTIONS["phasing"], on.drive, yokes.answer(on.drive, on.phasing))
     except InputError as error:
         if not on.by_laws:
             raise
         return replace(refused("phasing", _("Phasing of the yokes"), error), alarms=())
-    said = gather(QUESTIONS["phasing"], on.drive, said)
-    drawn = [one for one in said.figures() if one.name != yokes.POLYGON]
-    remarks = [one for one in said.remarks if one.code != yokes.POLYGON]
-    return page(replace(said, remarks=remarks, figures=lambda: drawn), reader())
+    return page(said, reader(), whole=whole)
+
+
+def articulated(on: Subject, whole: bool = True) -> Page | None:
+    """Return the page of the movement, if any; what it warns of stands on the first page."""
+    if on.by_laws or on.moved is None:
+        return None
+    if isinstance(on.moved, InputError):
+        return refused("articulation", _("Articulation"), on.moved)
+    said = gather(QUESTIONS["articulation"], on.drive, articulation.answer(on.drive, on.moved))
+    calm = [one for one in said.remarks if one.tone not in ("failed", "warning")]
+    return page(replace(said, remarks=calm), reader(), whole=whole)
+
+
+def compared(on: Subject, whole: bool = True) -> Page | None:
+    """Return the page of the classical approximations, where they say something else than the exact motion."""
+    seen = classical.ask(on.drive)
+    if seen is None or not classical.differ(seen):
+        return None
+    return page(gather(QUESTIONS["classical"], on.drive, classical.answer(on.drive, seen)), reader(), whole=whole)
+
+
+OWN: dict[str, Callable[[Subject, bool], Page | None]] = {
+    "motion": moved,
+    "phasing": phased,
+    "articulation": articulated,
+    "classical": compared,
+}
 
 
 def _appendix(on: Subject, limits: Judged, source_text: str | None) -> Iterator[Page]:
-    """Yield what few ask for: parts alone, checks not run, polygon of yokes, classical formulas, method, file."""
-    for question in _asked(on):
-        said = found_page(question, on) if _within(question, on) else None
-        if said is not None:
-            yield said
+    """Yield what stands behind the questions of an appendix: checks not run, method and evidence, the drive file."""
     if limits.missing is not None:
         yield limits.missing
-    if not on.by_laws:
-        drawn = [
-            Picture(figure=one) for one in yokes.answer(on.drive, on.phasing).figures() if one.name == yokes.POLYGON
-        ]
-        proof = Joined(yokes.proof(on.drive, on.phasing), between=" ")
-        yield Page(name=yokes.POLYGON, title=_("Phase polygon"), answer=proof, blocks=drawn)
-    seen = classical.ask(on.drive)
-    if seen is not None and classical.differ(seen):
-        yield page(gather(QUESTIONS["classical"], on.drive, classical.answer(on.drive, seen)), reader())
     yield (method_by_laws if on.by_laws else method)(on, source_text)
-
-
-def _articulated(on: Subject) -> Iterator[Page]:
-    """Yield the page of the movement, if any; what it warns of stands on the first page."""
-    if on.by_laws:
-        return
-    if on.moving is not None:
-        said = gather(QUESTIONS["articulation"], on.drive, articulation.answer(on.drive, on.moving))
-        calm = [one for one in said.remarks if one.tone not in ("failed", "warning")]
-        yield page(replace(said, remarks=calm), reader())
-    if on.unmoved is not None:
-        yield refused("articulation", _("Articulation"), on.unmoved)
-
-
-# The parts of the report about a drive under load and as made: each only where the drive file says enough.
-
-
-def loaded(on: Subject, *, judged: bool) -> Iterator[Page]:
-    """Yield the parts that the drive file asks for; none once the reader stopped the work.
-
-    judged: a page of checks follows, which tells all verdicts.
-    """
-    shorter = _without_verdicts if judged else None
-    for question in _asked(on) if on.complete else ():
-        if not _within(question, on):
-            page = found_page(question, on, shorter=shorter)
-            if page is not None:
-                yield page
-
-
-def _asked(on: Subject) -> Iterator[Question]:
-    """Yield the questions with a page of the report for which the drive file says enough."""
-    for question in QUESTIONS.values():
-        if question.report and not question.apart and not question.lacking(principal(question, on.drive)):
-            yield question
-
-
-def _calm(page: Page) -> bool:
-    """Tell whether few ask for a page, for all is good."""
-    return page.tone == "good" and page.name in QUESTIONS and QUESTIONS[page.name].calm
-
-
-def _within(question: Question, on: Subject) -> bool:
-    """Tell whether the page of another question tells the same of more."""
-    return bool(question.within) and not QUESTIONS[question.within].lacking(principal(question, on.drive))
-
-
-def _without_verdicts(said: Answer) -> Answer:
-    """Return an answer without its verdicts, in tables and figures: the page of checks tells them."""
-    judged = [one for one in said.tables if any(column.key == BY for column in one.columns)]
-    if not judged:
-        return said
-    tables = [one for one in said.tables if one not in judged and one.name != MISSING]
-    return replace(said, tables=tables, figures=lambda: [one for one in said.figures() if one.name != said.name])
 
 
 def _told_once(pages: Sequence[Page]) -> Iterator[Page]:

@@ -155,11 +155,6 @@ class Subject:
         return tuple(found)
 
     @property
-    def unmoved(self) -> InputError | None:
-        """Why its movement was not calculated."""
-        return self.moved if isinstance(self.moved, InputError) else None
-
-    @property
     def even(self) -> bool:
         """Whether the drive is synchronous as built."""
         return self.fluctuation < SYNCHRONOUS

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
-from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, Tone, heads
+from cardan.answers.answer import FILE, Answer, Column, Depth, KeyFigure, Remark, Table, Tone, heads
 from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
@@ -133,13 +133,14 @@ def with_events(drive: Drive, found: Strength) -> Strength:
 def _tables(drive: Drive, result: Strength) -> Iterator[Table]:
     if result.judged:
         order = sorted(result.judged, key=lambda one: (one.advice, float(one.torque_factor)))
-        yield verdict_table(order, _("Limits of the parts"), torque=result.torque)
+        yield replace(verdict_table(order, _("Limits of the parts"), torque=result.torque), aside=True)
     yield _shafts(drive, result)
     yield _joints(drive, result)
     yield from _events(result)
     missing = [one for one in result.verdicts if not one.run]
     if missing:
-        yield missing_table(missing, "full" if result.judged else "brief")
+        depth: Depth = "full" if result.judged else "brief"
+        yield replace(missing_table(missing, depth), aside=bool(result.judged))
     yield verdict_records(result.verdicts, "limits", torque=result.torque)
 
 

@@ -63,6 +63,7 @@ def uses_figure(found: Strength) -> Figure:
         sentence="",
         source=Joined(source, between="; "),
         rows=(Row(panels=(bars_of(rows),), height=0.24 * max(len(order), 1) + 0.4),),
+        aside=bool(found.judged),
     )
 
 

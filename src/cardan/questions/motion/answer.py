@@ -135,6 +135,7 @@ def _joints(drive: Drive) -> Table:
     return Table(
         name="joints",
         records=True,
+        aside=True,  # the page of the drive as understood tells them too
         columns=(
             *heads(_("joint"), [joint.name for joint in drive.joints]),
             *(kinds if mixed(drive.joints) else ()),

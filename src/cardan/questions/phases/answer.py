@@ -299,7 +299,7 @@ def _remarks(drive: Drive, found: Phasing, fixed: Mapping[int, float], nearest: 
     if not found.complete:
         text = _("Warning: the search was stopped; these are the best settings so far.")
         yield Remark(text=text, tone="warning")
-    yield from (Remark(text=one, code=POLYGON, depth="full") for one in proof(drive, found))
+    yield from (Remark(text=one, code=POLYGON, depth="full", aside=True) for one in proof(drive, found))
     if not found.feasible and not wants_fluctuation(drive):
         yield from _limits(drive, found)
     if meaning := letters(found, nearest=nearest):

@@ -86,6 +86,7 @@ def polygon_figure(found: Phasing) -> Figure:
             "product; rings of equal δ"
         ),
         rows=(Row(panels=panels, height=2.15),),
+        aside=True,
     )
 
 

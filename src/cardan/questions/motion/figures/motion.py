@@ -182,6 +182,7 @@ def speed_fluctuation_figure(found: EquivalentJoint) -> Figure:
         ),
         rows=(Row(panels=(Panel(series=(bars,), x=across, y=_from_zero(upright)),), height=1.5),),
         legend=False,
+        aside=True,
     )
 
 
