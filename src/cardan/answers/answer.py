@@ -254,6 +254,7 @@ def checks(rows: Sequence[Checked], depth: Depth = "full") -> Table:
             Column(key="allowed", values=[one.allowed for one in rows], depth="data"),
         ),
         depth=depth,
+        aside=all(one.passed for one in rows),
     )
 
 

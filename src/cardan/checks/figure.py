@@ -66,4 +66,5 @@ def _figure(run: Sequence[Verdict], name: str) -> Figure:
             "grey keeps one that nothing confirms, amber comes near, red fails"
         ),
         rows=(Row(panels=(panel,), height=0.25 * len(shown) + 0.3),),
+        aside=True,  # the table tells the same
     )

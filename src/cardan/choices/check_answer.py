@@ -394,7 +394,7 @@ def _remarks(result: Checked, *, sources: bool, missing: bool) -> Iterator[Remar
     agreement = result.agreement
     if agreement is not None and agreement.passed:
         text = _("Answers that speak of the same quantity agree: {count}.")
-        yield Remark(text=say(text, count=agreement.note), code=AUDIT.name)
+        yield Remark(text=say(text, count=agreement.note), code=AUDIT.name, aside=True)
     kept = sum(one.met for one in result.advice)
     if kept and not sources:
         text = plural("One rule of thumb is kept.", "{count} rules of thumb are kept.", kept)

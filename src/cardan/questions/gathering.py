@@ -260,7 +260,8 @@ def _worst(keys: Sequence[KeyFigure], count: int) -> Iterator[Remark]:
     ]
     if said:
         text = _("The worst of {count} conditions: {figures}.")
-        yield Remark(text=say(text, count=Quantity(float(count), trim=True), figures=Joined(said, between="; ")))
+        figures = Joined(said, between="; ")
+        yield Remark(text=say(text, count=Quantity(float(count), trim=True), figures=figures), aside=True)
 
 
 def _as_made(drive: Drive) -> tuple[tuple[KeyFigure, ...], Remark]:

@@ -297,7 +297,7 @@ def _joints(drive: Drive, result: Strength) -> Table:
 
 def _remarks(result: Strength) -> Iterator[Remark]:
     yield from _failed(result)
-    yield from unconfirmed_remark(result.binding)
+    yield from (replace(one, aside=True) for one in unconfirmed_remark(result.binding))  # the checks tell it too
     out = result.left_out
     yield from _vibrating(result, runs_up=out is not None and out.runs_up)
     if out is not None:
@@ -361,7 +361,7 @@ def _failed(result: Strength) -> Iterator[Remark]:
         if len(failed) > 1:
             text = _("{count} limits failed; worst: {title}, at {used} of its limit.")
         said = say(text, title=worst.title, used=share(float(worst.utilisation)), count=len(failed))
-        yield Remark(text=said, tone="failed", alarm=True)
+        yield Remark(text=said, tone="failed", aside=True)  # in a report the page of the checks tells it
         if first.check in SIZED:
             command = ("cardan", "strength", FILE, "--size", f"{SIZED[first.check]}:{first.number}")
             yield Remark(text=_("What it would take:"), command=command, tone="next")

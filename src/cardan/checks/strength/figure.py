@@ -133,6 +133,7 @@ def fatigue_figure(found: Strength) -> Figure:
     worst = foremost_of(places, lambda one: one[3], least=True)
     return Figure(
         name="fatigue",
+        aside=True,  # the table tells the safety of each shaft
         title=_("Where the shafts stand under the line of fatigue"),
         sentence=say(
             _("Shaft {number} has a safety of {safety} against fatigue; {asked} is asked for."),

@@ -197,6 +197,7 @@ def _shafts(drive: Drive, result: CriticalSpeeds) -> Table:
     alone = [float(result.alone[shaft.number - 1]) for shaft in known]
     return Table(
         title=_("Each shaft by itself"),
+        aside=True,
         columns=(
             Column(
                 key="",
@@ -317,7 +318,7 @@ def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
     if bad:
         text = _("Check failed: finite elements and transfer matrices differ by {rest}; modes missed: {count}.")
     rest = Quantity(float(result.residual), "share", 2)
-    yield Remark(text=say(text, rest=rest, count=int(result.missed)), tone="failed" if bad else "plain")
+    yield Remark(text=say(text, rest=rest, count=int(result.missed)), tone="failed" if bad else "plain", aside=not bad)
 
 
 def _next() -> Remark:

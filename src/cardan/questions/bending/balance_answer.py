@@ -190,7 +190,7 @@ def _remarks(result: Balance) -> Iterator[Remark]:
         yield Remark(text=text.format(keys=", ".join(map(spelled, missing))), tone="warning")
     if not any(one.corrections for one in result.shafts):
         text = _("Measured unbalances go into the file as shafts[…].unbalance: place, amount and angle.")
-        yield Remark(text=text)
+        yield Remark(text=text, aside=True)
     yield Remark(text=_("Unbalance from clearances cannot be balanced out: mark parts before they come apart."))
 
 

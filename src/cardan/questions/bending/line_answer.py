@@ -221,6 +221,7 @@ def _orders(result: LineWhirl) -> Table:
     return Table(
         name="orders",
         title=_("Orders of the input's turns"),
+        aside=True,
         columns=(
             Column(key="order", heading=_("order"), values=[order_name(n) for n in shown], left=True),
             Column(
@@ -303,7 +304,8 @@ def _remarks(drive: Drive, result: LineWhirl) -> Iterator[Remark]:
         text = _("Check failed: modes and static shapes miss {rest} of the motion of all finite elements.")
         yield Remark(text=say(text, rest=Quantity(result.residual, digits=2)), tone="failed", alarm=True)
     else:
-        yield Remark(text=_("Checked: modes and static shapes agree with all finite elements at the peak."))
+        text = _("Checked: modes and static shapes agree with all finite elements at the peak.")
+        yield Remark(text=text, aside=True)
     command = ("cardan", "rotor", FILE, "--line", "--plot", "line.svg")
     yield Remark(text=_("The line over the speed:"), command=command, tone="next")
 

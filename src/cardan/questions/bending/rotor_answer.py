@@ -307,7 +307,7 @@ def _in_line(result: RotorResponse) -> Iterator[Remark]:
 def _checked(residual: float, what: str) -> Remark:
     """Return the remark on a balance that closes, or does not."""
     if residual <= BALANCE:
-        return Remark(text=_("Checked: {what} to rounding.").format(what=what))
+        return Remark(text=_("Checked: {what} to rounding.").format(what=what), aside=True)
     text = _("Check failed: {what} to {rest} only.")
     return Remark(text=say(text, what=what, rest=Quantity(residual, digits=2)), tone="failed", alarm=True)
 

@@ -289,7 +289,7 @@ def _remarks(drive: Drive, result: Carried, machines: tuple[int, ...]) -> Iterat
     groups = reaction_groups(drive) if found.reaction is not None else ()
     if len(groups) > 1:
         order = _(", then ").join(_(" and ").join(map(str, group)) for group in groups)
-        yield Remark(text=say(_("By hand the reactions follow from shaft {order}."), order=order))
+        yield Remark(text=say(_("By hand the reactions follow from shaft {order}."), order=order), aside=True)
     yield from _closing(drive, found)
     yield from _thrust(found)
     yield from _pushed(result.thrusts)
@@ -361,7 +361,8 @@ def balanced(found: Forces) -> Remark:
     text = _("Power balance checked: input less output, losses and inertia closes {closely}.")
     if found.force_left is not None:
         text = _("Balances checked: power, and the external forces and moments on the whole drive, close {closely}.")
-    return Remark(text=say(text, closely=closely(left)), tone="plain" if left <= ROUNDING else "failed")
+    good = left <= ROUNDING
+    return Remark(text=say(text, closely=closely(left)), tone="plain" if good else "failed", aside=good)
 
 
 def _without(drive: Drive, found: Forces) -> Iterator[Remark]:

@@ -257,7 +257,7 @@ def _checked(result: AssemblyForces) -> Iterator[Remark]:
         return
     good = result.residual <= ROUNDING
     text = _("Balances checked: forces and moments on every shaft and on the whole drive close {closely}.")
-    yield Remark(text=say(text, closely=closely(result.residual)), tone="plain" if good else "failed")
+    yield Remark(text=say(text, closely=closely(result.residual)), tone="plain" if good else "failed", aside=good)
     turn, most = np.asarray(result.angle), result.torque_peak.value
     whole = turn.size > 2 and abs(float(turn[-1] - turn[0]) - 2.0 * np.pi) < 1e-9
     work = abs(float(np.mean(np.asarray(result.torque)[:-1])))

@@ -154,6 +154,7 @@ def parts_figure(found: Life) -> Figure:
     )
     return Figure(
         name="life-parts",
+        aside=True,  # the table of the parts tells the same
         title=_("What each part of the duty cycle does"),
         sentence=say(
             _("{part} in {time} of the time does {damage} of the damage to joint {number}."),

@@ -241,13 +241,13 @@ def _remarks(drive: Drive, result: Losses, over: LossMap | None) -> Iterator[Rem
             "the rule for small joint angles."
         )
         rules = {"first": result.first_order, "small": result.small_angle}
-        yield Remark(text=say(text, **{name: Quantity(value, "share", 5) for name, value in rules.items()}))
+        yield Remark(text=say(text, **{name: Quantity(value, "share", 5) for name, value in rules.items()}), aside=True)
     taken = float(np.sum(result.resisting))
     if taken:
         yield Remark(text=say(_("Resisting torques of the shafts take another {power}."), power=power(taken)))
     held = result.residual <= ALLOWED
     text = _("Power balance checked: input less output, losses, resisting torques and inertia closes {closely}.")
-    yield Remark(text=say(text, closely=closely(result.residual)), tone="plain" if held else "failed")
+    yield Remark(text=say(text, closely=closely(result.residual)), tone="plain" if held else "failed", aside=held)
     if over is None:
         command = ("cardan", "losses", FILE, "--map")
         yield Remark(text=_("The same over speed and torque:"), command=command, tone="next")

@@ -145,6 +145,7 @@ def loss_figure(found: Losses, drive: Drive | None = None) -> Figure:
             "Perfil'ev (1978), eq. 136–139"
         ),
         rows=tuple(rows),
+        aside=True,  # the table tells the same
     )
 
 

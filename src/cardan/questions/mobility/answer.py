@@ -210,7 +210,8 @@ def _remarks(
     yield from _turned(around)
     yield from _remedies(thing, result, remedies)
     if result.agrees:
-        yield Remark(text=_("Checked: mobility and redundant constraints counted around the loops are the same."))
+        text = _("Checked: mobility and redundant constraints counted around the loops are the same.")
+        yield Remark(text=text, aside=True)
     else:  # pragma: no cover - never met
         text = _("Failed: the count around the loops disagrees; do not trust these numbers.")
         yield Remark(text=text, tone="failed")

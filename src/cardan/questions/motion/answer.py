@@ -346,11 +346,11 @@ def _remarks(drive: Drive, result: Turning) -> Iterator[Remark]:
             for order, wave in _orders(each)
             if wave > FLOOR * deg
         ]
-        yield Remark(text=say(_("Orders of the angle error: {orders}."), orders=Joined(parts)))
+        yield Remark(text=say(_("Orders of the angle error: {orders}."), orders=Joined(parts)), aside=True)
     if isinstance(each, EquivalentJoint) and not is_rounding(drive, result.fluctuation):
         text = _("At the start the driving yoke of the equivalent joint stands {angle} from the plane of that joint.")
         angle = Quantity(float(equivalent_joint(drive).phase), "angle", decimals=2)
-        yield Remark(text=say(text, angle=angle), depth="full")
+        yield Remark(text=say(text, angle=angle), depth="full", aside=True)
     yield from (Remark(text=text) for text in beside_turning(drive))
     yield from carried_on(drive)
     yield from steep_joints(drive)

@@ -191,6 +191,7 @@ def settings_figure(found: Phasing) -> Figure:
         )
     return Figure(
         name="settings",
+        aside=True,  # the table of settings tells the same
         title=_("What each setting of the yokes leaves"),
         sentence=say(
             text,
@@ -279,6 +280,7 @@ def sensitivity_figure(found: Phasing) -> Figure:
     worst = int(foremost(cost))
     return Figure(
         name="sensitivity",
+        aside=True,  # the table of what a degree costs tells the same
         title=_("How exactly the yokes must stand"),
         sentence=say(
             _("Shaft {number} asks for most care: one degree off adds {cost}."),

@@ -369,6 +369,7 @@ class _Loads:
             base,
             name="loads",
             title=_("Forces of the supports on the shafts, side and plan view"),
+            aside=True,
             sentence=self._sentence(),
             source=self._source(),
             rows=self._rows([row.panels[0] for row in base.rows]),
@@ -384,6 +385,7 @@ class _Loads:
             sentence="",
             source=self._source(),
             rows=self._rows([base.rows[0].panels[0]]),
+            aside=True,
         )
 
     def _sentence(self) -> Say:

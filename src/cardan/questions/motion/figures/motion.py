@@ -70,6 +70,7 @@ def motion_figure(found: Motion) -> Figure:
             "to Kozhevnikov & Perfil'ev (1978), eq. 32, 33, 38"
         ),
         rows=tuple(Row(panels=(panel,), height=1.5) for panel in panels[: 1 if even else None]),
+        aside=even,
     )
 
 
@@ -248,6 +249,7 @@ def orders_figure(found: EquivalentJoint) -> Figure:
         ),
         rows=(Row(panels=(Panel(series=tuple(series), x=across, y=upright),), height=1.6),),
         legend=False,
+        aside=True,
     )
 
 

@@ -335,7 +335,7 @@ def _remarks(drive: Drive, found: TorsionModes, exact: Exact | None) -> Iterator
     yield from yokes_estimated(drive)
     yield from _enough(drive, found, exact)
     text = _("Checked: the torques of every mode balance {closely}.")
-    yield Remark(text=text.format(closely=closely(found.residual)), depth="full")
+    yield Remark(text=text.format(closely=closely(found.residual)), depth="full", aside=True)
     yield Remark(
         text=_("Alternating torques at a speed:"), command=("cardan", "torsion", "response", FILE), tone="next"
     )

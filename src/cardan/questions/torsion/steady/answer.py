@@ -341,7 +341,7 @@ def _checked(found: TorsionResponse) -> Iterator[Remark]:
     if poor:
         text = _("Warning: torques of the solution balance only {closely}, power {power}.")
     said = text.format(closely=closely(left[0]), power=closely(left[1]))
-    yield Remark(text=said, tone="warning" if poor else "plain")
+    yield Remark(text=said, tone="warning" if poor else "plain", aside=not poor)
 
 
 def _engine(engine: Engine, found: TorsionResponse) -> Remark:

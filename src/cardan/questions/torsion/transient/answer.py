@@ -215,7 +215,7 @@ def _checked(found: Transient) -> Remark:
         text = _("Warning: the account of energy closes only {closely} ({steps} steps, {method}).")
     steps, method = Quantity(float(motion.steps), digits=9, trim=True), known.get(motion.method, motion.method)
     said = say(text, closely=closely(left), steps=steps, method=method)
-    return Remark(text=said, tone="warning" if poor else "plain")
+    return Remark(text=said, tone="warning" if poor else "plain", aside=not poor)
 
 
 def everything(found: Transient) -> Table:
