@@ -14,9 +14,16 @@ TITLES = {"supports": "Supports", "stations": "Masses that turn with the shafts"
 
 
 def rows(drive, who=USUAL):
-    """All tables by title: words -> cells."""
-    shown = [printed(one, who, "full") for one in inputs(drive)]
-    return {one.title: {row[0].text: [cell.text for cell in row[1:]] for row in one.rows} for one in shown}
+    """All tables by title: words -> cells; what stands indented below a part of it, behind that."""
+    found = {}
+    for one in [printed(one, who, "full") for one in inputs(drive)]:
+        part, told = "", found.setdefault(one.title, {})
+        for first, *others in ([cell.text for cell in row] for row in one.rows):
+            if not any(others):
+                part = first
+            else:
+                told[f"{part}: {first.strip()}" if first.startswith("\u2003") else first] = others
+    return found
 
 
 @pytest.mark.parametrize("name", example_names())

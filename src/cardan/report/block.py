@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from cardan.answers import answer
@@ -31,7 +31,18 @@ def shown(text: Text) -> str:
 
 def table(given: answer.Table, depth: Depth = "full") -> Table:
     """Return a table as who reads here sees it."""
-    return printed(given, reader(), depth)
+    return printed(_filled(given), reader(), depth)
+
+
+def _filled(given: answer.Table) -> answer.Table:
+    """Return a table without the columns that hold nothing."""
+    columns = [one for one in given.columns if not len(one.values) or not all(map(_nothing, one.listed))]
+    return replace(given, columns=columns)
+
+
+def _nothing(value: answer.Value) -> bool:
+    own = answer.bare(value)
+    return own is None or (isinstance(own, float) and math.isnan(own))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -143,7 +154,7 @@ def _blocks(answer: Answer, reader: Reader, depth: Depth, whole: bool) -> Iterat
     remarks = [one for one in _of(answer.remarks, whole) if one.depth in shown and one.tone != "next"]
     yield from (Words(text=told(one.text, reader), tone=one.tone) for one in remarks if one.tone == "failed")
     yield from (Picture(figure=one) for one in _of(answer.figures(), whole))
-    yield from (printed(one, reader, depth) for one in _of(answer.tables, whole) if one.depth in shown)
+    yield from (printed(_filled(one), reader, depth) for one in _of(answer.tables, whole) if one.depth in shown)
     yield from (Words(text=told(one.text, reader), once=one.once) for one in remarks if one.tone in ("plain", "good"))
     minded = [told(one.text, reader) for one in remarks if one.tone == "warning"]
     if minded:

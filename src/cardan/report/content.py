@@ -35,10 +35,11 @@ from .answers import (
 )
 from .block import Block, Page, Points, Table, Words, key_figures, key_table, page, untold
 from .description import description
+from .look import Line, Look, pieces
 from .method import method
 from .subject import Subject, asked
 from .summary import changes, judgement, warnings
-from .title_block import Head, Noting, logo_of, rows
+from .title_block import Head, Noting, given, logo_of, rows
 from .verdicts import Judged, judged
 
 
@@ -66,6 +67,12 @@ class Content:
     pages: tuple[Page, ...]  # what follows the summary, in order
     kind: str = ""  # what it is a report of, where that is no drive
     appendix: tuple[Page, ...] = ()  # what few ask for, at the end; empty where it was not asked for
+    look: Look = field(default_factory=Look)  # colours, type, paper, words at head and foot
+
+    def words_for(self, line: Line) -> list[list[tuple[str, str]]]:
+        """Return the words at the head or the foot of every page in pieces, see `pieces`: left, middle and right."""
+        said = {"date": self.date, **self.head.given, "title": self.title, "version": self.version}
+        return [list(pieces(part, said)) for part in (line.left, line.middle, line.right)]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -89,6 +96,7 @@ def content(
     progress: Callable[[float], object] | None = None,
     known: Catalogue | None = None,
     folder: str | Path | Enclosed = ".",
+    look: Look | None = None,
 ) -> Content:
     """Return what the report of a drive says.
 
@@ -98,13 +106,16 @@ def content(
     progress: called with the share done; answering "stop" leaves out what is still to be calculated.
     known: norms, types and sizes that it is judged by; the shipped ones when not given.
     folder: where the logo is looked for.
+    look: colours, type, paper, words at head and foot, as of `cardan.report.look.look_of`.
     """
-    logo, who = logo_of(drive.report, folder), Noting(units=reader().units, decimal=reader().decimal)
+    look = look or Look()
+    logo, who = logo_of(drive.report, folder) or look.picture, Noting(units=reader().units, decimal=reader().decimal)
     with reading(who):
         on = replace(asked(drive, duty, progress), known=known)
-        limits = judged(on) if on.complete else Judged()
+        limits = judged(on, whole=full) if on.complete else Judged()
         said = _said(on, limits, source_text, full=full)
-    return replace(said, head=Head(rows=tuple(rows(drive.report)), units=who.line(), logo=logo))
+    head = Head(rows=tuple(rows(drive.report)), units=who.line(), logo=logo, given=given(drive.report))
+    return replace(said, head=head, look=look)
 
 
 def _said(on: Subject, limits: Judged, source_text: str | None, *, full: bool) -> Content:

@@ -48,7 +48,7 @@ class _Given:
     """What the drives says of one part."""
 
     head: str
-    values: dict[str, Value] = field(default_factory=dict)  # words -> what is given
+    values: dict[tuple[str, str], Value] = field(default_factory=dict)  # part of it, words -> what is given
 
 
 def inputs(drive: Drive, known: Catalogue | None = None) -> Iterator[answer.Table]:
@@ -95,7 +95,7 @@ def _parts(drive: Drive, name: str) -> Sequence[Any]:
     return found if isinstance(found, tuple) else (found,)
 
 
-def _of(thing: Any, filled_in: Any, path: str, left_out: Sequence[str]) -> dict[str, Value]:
+def _of(thing: Any, filled_in: Any, path: str, left_out: Sequence[str]) -> dict[tuple[str, str], Value]:
     """Return what a file gives at a path, and of what the catalogue fills in what matters most."""
     own = {below for below, _words, _value in _leaves(thing, path, left_out)}
     main = [name for name in FILLED if not path.startswith("joints") or "strength" not in name]
@@ -115,6 +115,9 @@ def _numbered(parts: Sequence[Any], text: str) -> list[str]:
 def _table(title: str, given: Sequence[_Given]) -> answer.Table:
     """Return a table of what parts give: parts of which all is alike share a column."""
     keys = list(dict.fromkeys(key for one in given for key in one.values))
+    parts: dict[str, list[str]] = {}
+    for part, words in keys:
+        parts.setdefault(part, []).append(words)
     alike: list[tuple[list[str], _Given]] = []
     for one in given:
         same = next((heads for heads, other in alike if other.values == one.values), None)
@@ -122,40 +125,59 @@ def _table(title: str, given: Sequence[_Given]) -> answer.Table:
             alike.append(([one.head], one))
         else:
             same.append(one.head)
-    columns = [Column(key="what", heading=_("what"), values=keys, left=True)]
+    rows: list[tuple[str, tuple[str, str] | None]] = []  # what stands first, and what of the parts stands beside it
+    for part, own in parts.items():
+        if part and len(own) > 1:
+            rows += [(part, None), *((f"\u2003{words}", (part, words)) for words in own)]
+        else:
+            rows += [(f"{part}: {words}" if part else words, (part, words)) for words in own]
+    columns = [Column(key="what", heading=_("what"), values=[words for words, _key in rows], left=True)]
     for heads, one in alike:
-        values = [one.values.get(key) for key in keys]
-        columns.append(Column(key="", heading=", ".join(heads) or _("value"), values=values, left=True))
+        values = ["" if key is None else one.values.get(key) for _words, key in rows]
+        columns.append(
+            Column(
+                key="",
+                heading=_("all") if len(heads) > 1 == len(alike) else ", ".join(heads) or _("value"),
+                values=values,
+                left=True,
+            )
+        )
     return answer.Table(title=title, columns=columns)
 
 
-def _leaves(thing: Any, path: str, left_out: Sequence[str] = (), before: str = "") -> Iterator[tuple[str, str, Value]]:
-    """Yield paths of what is given at and below a path, in words, and its value; defaults are not given."""
+def _leaves(
+    thing: Any, path: str, left_out: Sequence[str] = (), part: str = ""
+) -> Iterator[tuple[str, tuple[str, str], Value]]:
+    """Yield paths of what is given at and below a path, its part and itself in words, and its value.
+
+    Defaults are not given.
+    """
     own = fields_of(type(thing))
-    usual = fields_of(Hooke) if path.startswith("joints[") and not before else own
+    usual = fields_of(Hooke) if path.startswith("joints[") and not part else own
     for name, one in own.items():
         value = getattr(thing, name)
         if name in left_out or name not in usual or value is None or value == one.default:
             continue
         below = f"{path}.{name}"
-        said = before + in_words(below, inside=path)
+        said = in_words(below, inside=path)
         if is_dataclass(value):
-            yield from _leaves(value, below, before=f"{said}: ")
+            yield from _leaves(value, below, part=f"{part}: {said}" if part else said)
         elif isinstance(value, tuple) and value and is_dataclass(value[0]):
             for k, each in enumerate(value):
                 leaves = _leaves(each, f"{below}[{k}]")
-                parts = [say("{key} {value}", key=key, value=inner) for _path, key, inner in leaves]
-                yield below, f"{said}, {k + 1}", Joined(parts)
+                parts = [(": ".join(filter(None, key)), inner) for _path, key, inner in leaves]
+                told = Joined([say("{key} {value}", key=key, value=inner) for key, inner in parts])
+                yield below, (part, f"{said}, {k + 1}"), told
         else:
-            yield below, said, _value(value, one.key.dimension or "")
+            yield below, (part, said), _value(value, one.key.dimension or "", one.key.choices)
 
 
-def _value(value: Any, dimension: str) -> Text:
-    """Return a value of the file for people."""
+def _value(value: Any, dimension: str, choices: Sequence[str]) -> Text:
+    """Return a value of the file for people; choices: the words of which it is one."""
     if isinstance(value, tuple):
-        return Joined([_value(one, dimension) for one in value])
+        return Joined([_value(one, dimension, choices) for one in value])
     if isinstance(value, bool):
         return _("yes") if value else _("no")
     if isinstance(value, str):
-        return value
+        return value.replace("_", " ") if value in choices else value
     return Quantity(value, dimension, trim=True, unit="h" if dimension == "time" and value >= HOURS else "")

@@ -12,6 +12,7 @@ from cardan.drive.duty import Duty
 from cardan.files import Enclosed, write_bytes
 
 from .content import content
+from .look import look_of
 from .render.html import text
 from .render.renderer import renderer_for
 
@@ -29,6 +30,7 @@ def report(
     units: Mapping[str, str] | None = None,
     decimal: str = "",
     folder: str | Path | Enclosed = ".",
+    template: str | Path | None = None,
 ) -> Path:
     """Write the report of a drive as one file that needs nothing else.
 
@@ -58,6 +60,8 @@ def report(
         spreadsheet is set.
     folder : str, Path or Enclosed
         Where the logo that the drive names is looked for.
+    template : path, optional
+        File with a firm's own look: colours, type, paper, logo, words at the head and foot of every page.
 
     Returns
     -------
@@ -68,7 +72,7 @@ def report(
     ------
     InputError
         The path does not end like a report or cannot be written, its form has no figures to point at, there is no such
-        unit, or the logo is no picture.
+        unit, the logo is no picture, or something in the template is not known.
     MissingExtraError
         What writes that form is not installed.
 
@@ -86,8 +90,11 @@ def report(
     place = Path(path)
     written = renderer_for(place, interactive=interactive)
     who = Reader(units=units or {}, decimal=decimal)  # refuses what is no unit before any work is done
+    look = None if template is None else look_of(template)
     with reading(who):
-        said = content(drive, duty, source_text=source_text, full=full, progress=progress, known=known, folder=folder)
+        said = content(
+            drive, duty, source_text=source_text, full=full, progress=progress, known=known, folder=folder, look=look
+        )
         write_bytes(place, written(said))
     if progress is not None:
         progress(1.0)

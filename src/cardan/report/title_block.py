@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
@@ -14,6 +14,7 @@ from cardan.drive.settings import TitleBlock
 from cardan.errors import InputError, refuse
 from cardan.files import Enclosed, folder_of, refusal
 from cardan.later import later
+from cardan.reading.fields import fields_of
 from cardan.texts import _
 from cardan.units import DIMENSIONS
 
@@ -45,6 +46,7 @@ class Head:
     rows: tuple[tuple[str, str], ...] = ()  # what is told of client, drawing and author: its name, and what is given
     units: str = ""  # the units that the report uses, in a line
     logo: Logo | None = None
+    given: Mapping[str, str] = field(default_factory=dict)  # the same rows by their keys
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,6 +71,12 @@ class Noting(Reader):
         return _("Units: {units}").format(units=", ".join(used)) if used else ""
 
 
+def given(block: TitleBlock) -> dict[str, str]:
+    """Return what a title block gives in words, by its keys."""
+    words = {key: getattr(block, key).strip() for key in fields_of(TitleBlock) if key != "logo"}
+    return {key: said for key, said in words.items() if said}
+
+
 def rows(block: TitleBlock) -> Iterator[tuple[str, str]]:
     """Yield what a title block gives: its name, and the words."""
     names = {
@@ -80,44 +88,48 @@ def rows(block: TitleBlock) -> Iterator[tuple[str, str]]:
         "checked_by": _("Checked by"),
         "date": _("Date"),
     }
-    yield from ((name, getattr(block, key).strip()) for key, name in names.items() if getattr(block, key).strip())
+    yield from ((names[key], said) for key, said in given(block).items())
 
 
 def logo_of(head: TitleBlock, folder: str | Path | Enclosed = ".") -> Logo | None:
     """Return the logo of a report, None where it names none; folder: where the file is looked for."""
     name = head.logo
-    if not name:
-        return None
+    return picture_of(folder_of(folder) / name, FIELD, name) if name else None
+
+
+def picture_of(file: Path, field: str, name: str = "") -> Logo:
+    """Return the logo in a file; field: what names it, name: as what."""
+    name = name or file.name
     try:
-        with (folder_of(folder) / name).open("rb") as stream:
+        with file.open("rb") as stream:
             content = stream.read(LOGO_BYTES + 1)
     except (OSError, ValueError) as error:
         why = refusal(error) if isinstance(error, OSError) else str(error)
-        raise refuse(FIELD, _("{name} cannot be read: {why}").format(name=name, why=why)) from None
+        raise refuse(field, _("{name} cannot be read: {why}").format(name=name, why=why)) from None
     if len(content) > LOGO_BYTES:
         text = _("{name} is larger than {limit} MB").format(name=name, limit=LOGO_BYTES // 10**6)
-        raise refuse(FIELD, text, "out_of_range")
+        raise refuse(field, text, "out_of_range")
     if content.startswith(b"\x89PNG\r\n\x1a\n"):
-        return Logo(content=_small(name, content), form="png")
+        return Logo(content=_small(field, name, content), form="png")
     if _is_svg(content):
         return Logo(content=content, form="svg")
-    raise _unfit(name)
+    raise _unfit(field, name)
 
 
-def _unfit(name: str) -> InputError:
-    return refuse(FIELD, _("{name} is not a picture in PNG or SVG").format(name=name))
+def _unfit(field: str, name: str) -> InputError:
+    return refuse(field, _("{name} is not a picture in PNG or SVG").format(name=name))
 
 
-def _small(name: str, content: bytes) -> bytes:
+def _small(field: str, name: str, content: bytes) -> bytes:
     """Return a PNG no larger than a head needs, read whole and written anew."""
     across, down = (int.from_bytes(content[start : start + 4], "big") for start in (16, 20))
     if across * down > LOGO_PIXELS:
         text = _("{name} has more than {limit} million pixels").format(name=name, limit=LOGO_PIXELS // 10**6)
-        raise refuse(FIELD, text, "out_of_range")
+        raise refuse(field, text, "out_of_range")
     try:
         picture = pillow().open(io.BytesIO(content), formats=("PNG",)).convert("RGBA")
     except (OSError, SyntaxError, ValueError):
-        raise _unfit(name) from None
+        raise _unfit(field, name) from None
     picture.thumbnail(LOGO_SIZE)
     stream = io.BytesIO()
     picture.save(stream, "png")

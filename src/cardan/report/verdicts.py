@@ -35,8 +35,8 @@ class Judged:
     missing: Page | None = None  # the checks not run and the keys they need, for the appendix; None where all were
 
 
-def judged(on: Subject) -> Judged:
-    """Return the verdicts on a drive."""
+def judged(on: Subject, *, whole: bool = True) -> Judged:
+    """Return the verdicts on a drive, their page whole with what stands aside."""
     try:
         result = ask(on.drive, known=on.known)
     except InputError as error:
@@ -58,7 +58,7 @@ def judged(on: Subject) -> Judged:
     ).format(count=count)
     sources: list[Text] = []
     tables = [_cited(one, sources) for one in said.tables if one.name != MISSING]
-    shorter = page(replace(said, tables=tables), reader())
+    shorter = page(replace(said, tables=tables), reader(), whole=whole)
     after: list[Block] = [Words(text=text)] if lacking else []
     if sources:
         numbered = [say("[{k}] {source}", k=str(k), source=one) for k, one in enumerate(sources, start=1)]

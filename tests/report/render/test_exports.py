@@ -21,7 +21,7 @@ from cardan.report.render import renderer
 from cardan.report.render.exports import MEDIA, export, exported, kinds
 from cardan.units import deg
 
-SAID = content(Drive.from_angles([20 * deg, 15 * deg], name="two / joints"))
+SAID = content(Drive.from_angles([20 * deg, 15 * deg], name="two / joints"), full=True)
 PAGE = next(page for page in SAID.pages if page.name == "motion")
 FIGURES = [block.figure for page in SAID.pages for block in page.blocks if isinstance(block, Picture)]
 TABLES = [block for block in PAGE.blocks if isinstance(block, Table)]

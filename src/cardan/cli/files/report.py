@@ -71,6 +71,10 @@ def report(
     logo: Annotated[
         Path | None, option("--logo", "PATH", _("PNG or SVG file with the logo in the head of the report."))
     ] = None,
+    template: Annotated[
+        Path | None,
+        option("--template", "PATH", _("File with a firm's own look: colours, type, paper, logo, head and foot.")),
+    ] = None,
     speed_rpm: SpeedRpm = None,
     json: AsJson = False,
 ) -> int:
@@ -92,6 +96,7 @@ def report(
     head: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
     if others:
         only = {"--full": full, "--interactive": interactive, "--speed-rpm": speed_rpm is not None}
+        only |= {"--template": template is not None}
         only |= {f"--{key.replace('_', '-')}": True for key in head}
         alone = _("is for the report of one drive; several are set side by side as their files say")
         check(Problem(option, alone) for option, used in only.items() if used)
@@ -123,6 +128,7 @@ def report(
             units=who.units,
             decimal=who.decimal,
             folder=folder,
+            template=template,
         )
     return _told(place, sentence(drive, each_shaft(drive)), file, drive, open_=open_, json=json)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -24,11 +24,11 @@ CODE = "Consolas"  # font of text as it stands in a file
 class Looks:
     """Formats by their properties, those of XlsxWriter.
 
-    book: where they are made.
+    book: where they are made; colours: those of roles that are not the usual ones.
     """
 
-    def __init__(self, book: Any) -> None:
-        self._book = book
+    def __init__(self, book: Any, colours: Mapping[str, str] | None = None) -> None:
+        self._book, self._colours = book, colours or {}
         self._made: dict[tuple[tuple[str, object], ...], Any] = {}
 
     def __call__(self, *, color: str = "", tone: Tone = "plain", **properties: Any) -> Any:
@@ -39,7 +39,7 @@ class Looks:
         """
         wanted = {"valign": "top", **properties}
         if color:
-            wanted["font_color"] = colour(color)
+            wanted["font_color"] = self._colours.get(color) or colour(color)
         if tone != "plain":
             wanted |= {"bg_color": mixed(colour(tone), "#ffffff", PALE), "font_color": colour(tone)}
         key = tuple(sorted(wanted.items()))

@@ -6,16 +6,24 @@ The template never takes text for code: names and notes reach it as the strings 
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
-from cardan.figures.figure import Figure
+import numpy as np
+
+from cardan.errors import Problem, check
+from cardan.figures.figure import Bars, Figure, Panel, Row
+from cardan.figures.page import LETTER
 from cardan.figures.render_svg import inline_svg
 from cardan.later import later
+from cardan.reading.fields import fields_of
 from cardan.report.block import SIGNS, Block, Cell, Listing, Page, Points, Table, Tone, Words
 from cardan.report.content import Content, Excerpt
+from cardan.report.look import PAPER, Colours, Look
 from cardan.report.title_block import Head, Logo
 from cardan.texts import _, language, mark
 
@@ -25,6 +33,9 @@ matplotlib = later("matplotlib")
 TEMPLATE = Path(__file__).parent / "templates" / "report.typ"
 
 FONTS = "'DejaVu Sans'"  # font of the words in figures: matplotlib brings it wherever cardan is installed
+NARROW = 4.6  # width [inch] of a figure that is drawn for half of the paper
+LOWER = 0.62  # height of curves on paper over that on a screen
+USUAL = Look()
 STANDARD: Final = "ua-1"  # the PDF can be read aloud: tagged, with words for every picture
 
 
@@ -37,7 +48,7 @@ UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufeff\ufffe\
 
 def written(content: Content) -> bytes:
     """Return a report as a PDF file."""
-    return _set(as_data(content))
+    return _set(as_data(content), content.look)
 
 
 def excerpt(part: Excerpt) -> bytes:
@@ -52,21 +63,28 @@ def excerpt(part: Excerpt) -> bytes:
             "date": part.date,
             "judgement": None,
             "pages": [_page(part.page)],
+            "look": _look(USUAL),
         }
     )
 
 
-def _set(data: dict[str, Any]) -> bytes:
+def compiler(data: dict[str, Any], look: Look = USUAL) -> Any:
+    """Return what sets a report, as PDF or in pictures of its pages; data: as of `as_data`."""
+    return typst().Compiler(
+        TEMPLATE,
+        root=TEMPLATE.parent,
+        font_paths=[Path(matplotlib().get_data_path()) / "fonts" / "ttf", *([look.fonts] if look.fonts else [])],
+        sys_inputs={"report": json.dumps(_printable(data), ensure_ascii=False)},
+    )
+
+
+def _set(data: dict[str, Any], look: Look = USUAL) -> bytes:
     """Return what the template makes of its data."""
-    found, _warnings = (
-        typst()
-        .Compiler(
-            TEMPLATE,
-            root=TEMPLATE.parent,
-            font_paths=[Path(matplotlib().get_data_path()) / "fonts" / "ttf"],
-            sys_inputs={"report": json.dumps(_printable(data), ensure_ascii=False)},
-        )
-        .compile_with_warnings(format="pdf", pdf_standards=[STANDARD])
+    found, warned = compiler(data, look).compile_with_warnings(format="pdf", pdf_standards=[STANDARD])
+    check(
+        Problem(f"template: type.{key}", _("no font {name} is installed or in type.folder").format(name=repr(name)))
+        for key, name in (("font", look.type.font), ("headings", look.type.headings))
+        if name and any(name.lower() in str(one).lower() for one in warned)
     )
     assert isinstance(found, bytes)  # a single file, and no place was given to write it to
     return found
@@ -88,6 +106,23 @@ def as_data(content: Content) -> dict[str, Any]:
         "tables": [_block(one) for one in (content.lights, content.remedies, content.figures, content.changes) if one],
         "pages": [_page(page) for page in content.pages],
         "appendix": [_page(page) for page in content.appendix],
+        "look": _look(content.look, content),
+    }
+
+
+def _look(look: Look, content: Content | None = None) -> dict[str, Any]:
+    """Return a look, and the words at head and foot of the pages of a report, as data for the template."""
+    width, height = PAPER[look.paper]
+    lines = {} if content is None else {"head": content.words_for(look.head), "foot": content.words_for(look.foot)}
+    return {
+        "paper": look.paper,
+        "width": width,
+        "height": height,
+        "colours": {name: getattr(look.colours, name) for name in fields_of(Colours)},
+        "font": look.type.font,
+        "headings": look.type.headings or look.type.font,
+        "size": look.type.size_pt,
+        **lines,
     }
 
 
@@ -118,7 +153,7 @@ def _printable(data: Any) -> Any:
         return UNPRINTABLE.sub("\ufffd", data)
     if isinstance(data, dict):
         return {name: _printable(value) for name, value in data.items()}
-    return [_printable(value) for value in data] if isinstance(data, list) else data
+    return [_printable(value) for value in data] if isinstance(data, list | tuple) else data
 
 
 def _page(page: Page) -> dict[str, Any]:
@@ -150,4 +185,53 @@ def _toned(tone: Tone) -> dict[str, str]:
 
 def _picture(figure: Figure) -> dict[str, Any]:
     said = {"title": figure.title, "sentence": figure.sentence, "source": figure.source}
-    return {"kind": "picture", "drawing": inline_svg(figure, fonts=FONTS), **said}
+    slim = all(
+        panel.view is None and (not panel.equal or len(row.panels) > 1) for row in figure.rows for panel in row.panels
+    )
+    narrow = inline_svg(_of_width(figure, NARROW), fonts=FONTS) if slim else ""
+    return {"kind": "picture", "drawing": inline_svg(_wide(figure), fonts=FONTS), "narrow": narrow, **said}
+
+
+def _wide(figure: Figure) -> Figure:
+    """Return a figure for the whole width: two or three panels of curves stand side by side."""
+    panels = [row.panels[0] for row in figure.rows]
+    if 1 < len(panels) <= 3 and all(len(row.panels) == 1 and _curves(row) for row in figure.rows):
+        row = replace(figure.rows[0], panels=tuple(panels), height=max(row.height for row in figure.rows))
+        return replace(figure, rows=(row,))
+    return _of_width(figure, figure.width)
+
+
+def _of_width(figure: Figure, width: float) -> Figure:
+    """Return a figure of a width: curves lower than on a screen, what has one scale to both sides as high as wide."""
+    rows = (
+        replace(row, height=row.height * (LOWER if _curves(row) else _scale(row, width / figure.width)))
+        for row in figure.rows
+    )
+    return replace(figure, width=width, rows=tuple(_roomy(row, width) for row in rows))
+
+
+def _roomy(row: Row, width: float) -> Row:
+    """Return a row for a width: fewer ticks where their words would touch, and room for the words behind lying bars."""
+    return replace(row, panels=tuple(_with_room(one, width / len(row.panels)) for one in row.panels))
+
+
+def _with_room(panel: Panel, width: float) -> Panel:
+    frame = width - 0.4 - LETTER * max(map(len, panel.y.texts), default=0)
+    x = panel.x
+    lying = [one for one in panel.series if isinstance(one, Bars) and one.lying and one.texts]
+    for one in lying if not x.log else ():
+        words = min(0.5, (LETTER * max(map(len, one.texts)) + 0.1) / frame)
+        x = replace(x, high=max(x.high, float(np.max(one.ends, initial=0.0)) / (1.0 - words)))
+    step = math.ceil(len(x.ticks) * (LETTER * max(map(len, x.texts), default=0) + 0.06) / frame) if x.numeric else 1
+    return replace(panel, x=replace(x, ticks=x.ticks[::step], texts=x.texts[::step]) if step > 1 else x)
+
+
+def _curves(row: Row) -> bool:
+    """Tell whether a row holds nothing but curves that may be as high as one likes."""
+    lying = (isinstance(one, Bars) and one.lying for panel in row.panels for one in panel.series)
+    return not any(lying) and not any(panel.equal or panel.view for panel in row.panels)
+
+
+def _scale(row: Row, share: float) -> float:
+    """Return how much of its height a row keeps that gets a share of its width."""
+    return share if all(panel.equal for panel in row.panels) else 1.0

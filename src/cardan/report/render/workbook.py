@@ -11,6 +11,7 @@ from typing import Any
 from cardan.io.book import MOST_LETTERS, opened, put, sheet_name, unstretched, words
 from cardan.report.block import Listing, Page, Picture, Table
 from cardan.report.content import Content, Excerpt
+from cardan.report.look import HEAD, Line, Look
 from cardan.texts import _
 
 from .chart_data import CODE, ChartData, Looks
@@ -27,7 +28,7 @@ def written(content: Content) -> bytes:
     stream = io.BytesIO()
     book = opened(stream, title=content.title, made=datetime.date.fromisoformat(content.date))
     foot = f"cardan {content.version} · {content.date}"
-    sheets = Sheets(book, content.title, foot)
+    sheets = Sheets(book, content.title, foot, content)
     summary = sheets.new(_("Summary"))
     names = [sheets.page(page) for page in (*content.pages, *content.appendix)]
     _summary(Paper(book, summary, sheets.looks, _tables_of(content)), content, names)
@@ -53,9 +54,13 @@ class Sheets:
     title: above every printed page; foot: below it.
     """
 
-    def __init__(self, book: Any, title: str, foot: str) -> None:
-        self.looks = Looks(book)
+    def __init__(self, book: Any, title: str, foot: str, content: Content | None = None) -> None:
+        look = Look() if content is None else content.look
+        self.looks = Looks(book, look.colours.changed())
         self._book, self._title, self._foot = book, title, foot
+        self._letter = look.paper == "us-letter"
+        self._own_head = "" if content is None or look.head == HEAD else _line(content.words_for(look.head))
+        self._own_foot = "" if content is None or look.foot == Line() else _line(content.words_for(look.foot))
         self._taken: set[str] = set()
         self._pages: list[tuple[Page, Any]] = []
 
@@ -63,12 +68,12 @@ class Sheets:
         """Return an empty sheet, ready to be printed."""
         sheet = self._book.add_worksheet(sheet_name(title, self._taken, ending=ending))
         sheet.set_landscape()
-        sheet.set_paper(9)
+        sheet.set_paper(1 if self._letter else 9)
         sheet.fit_to_pages(1, 0)
         sheet.ignore_errors({"number_stored_as_text": "A1:XFD1048576"})  # numbers of shafts, lines of a file
         sheet.set_margins(left=0.5, right=0.5, top=0.75, bottom=0.75)
-        sheet.set_header(f"&L {_printed(self._title)}&R {_printed(title)}{_printed(ending)}")
-        sheet.set_footer(f"&L {_printed(self._foot)}&R&P / &N")
+        sheet.set_header(self._own_head or f"&L {_printed(self._title)}&R {_printed(title)}{_printed(ending)}")
+        sheet.set_footer(self._own_foot or f"&L {_printed(self._foot)}&R&P / &N")
         if colour:
             sheet.set_tab_color(colour)
         return sheet
@@ -148,6 +153,13 @@ def _listed(sheet: Any, listing: Listing, looks: Looks) -> None:
         for start in range(0, len(line) or 1, MOST_LETTERS):
             put(sheet, row, 0, line[start : start + MOST_LETTERS], look)
             row += 1
+
+
+def _line(parts: Sequence[Sequence[tuple[str, str]]]) -> str:
+    """Return words at head or foot of a printed sheet: left, middle and right, with the numbers of pages."""
+    codes = {"page": "&P", "pages": "&N"}
+    said = ("".join(codes.get(kind) or _printed(words) for kind, words in pieces) for pieces in parts)
+    return "".join(f"&{side} {one}" for side, one in zip("LCR", said, strict=True) if one)
 
 
 def _printed(text: str) -> str:
