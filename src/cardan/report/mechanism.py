@@ -22,7 +22,8 @@ from cardan.version import VERSION
 from .answers import refused
 from .block import Block, Cell, Column, Listing, Page, Table, Tone, Words, key_figures, key_table, page
 from .content import Content, today
-from .title_block import Head, Noting, logo_of, rows
+from .look import Look
+from .title_block import Head, Noting, given, logo_of, rows
 
 
 def content(
@@ -32,24 +33,27 @@ def content(
     source_text: str | None = None,
     full: bool = False,
     folder: str | Path | Enclosed = ".",
+    look: Look | None = None,
 ) -> Content:
     """Return what the report of a mechanism says.
 
     head: client, drawing, author, logo; source_text: text of its file, shown in the appendix; full: with the appendix.
-    folder: where the logo is looked for.
+    folder: where the logo is looked for; look: colours, type, paper, words at head and foot.
     """
-    logo, who = logo_of(head, folder), Noting(units=reader().units, decimal=reader().decimal)
+    look = look or Look()
+    logo, who = logo_of(head, folder) or look.picture, Noting(units=reader().units, decimal=reader().decimal)
     with reading(who):
-        said = _said(mechanism)
+        said = _said(mechanism, whole=full)
         if full and source_text is not None:
             answer = _("Calculated by cardan {version}.").format(version=VERSION)
             listing: list[Block] = [Listing(title=_("Input file"), text=source_text)]
             last = Page(name="method", title=_("Method and evidence"), answer=answer, blocks=listing)
             said = replace(said, appendix=(last,))
-    return replace(said, head=Head(rows=tuple(rows(head)), units=who.line(), logo=logo))
+    block = Head(rows=tuple(rows(head)), units=who.line(), logo=logo, given=given(head))
+    return replace(said, head=block, look=look)
 
 
-def _said(mechanism: Mechanism) -> Content:
+def _said(mechanism: Mechanism, *, whole: bool) -> Content:
     motion: MechanismMotion | None = None
     pages = [_described(mechanism)]
     for question in QUESTIONS.values():
@@ -66,7 +70,7 @@ def _said(mechanism: Mechanism) -> Content:
         if isinstance(found, MechanismMotion):
             motion = found
         if found is not None:
-            pages.append(page(asked.answer(mechanism, found), reader()))
+            pages.append(page(asked.answer(mechanism, found), reader(), whole=whole))
     told = next((one for one in pages[1:] if not one.alarms), pages[-1])
     alarms = [alarm for one in pages for alarm in one.alarms]
     tones = {one.tone for one in alarms} | {one.tone for one in pages}

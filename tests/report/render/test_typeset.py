@@ -166,7 +166,7 @@ def test_running_heads_and_heads_of_tables_stand_on_every_page():
     for k, page in enumerate(pdf.pages[1:], start=2):
         seen = close(page.extract_text())
         assert seen.startswith(close(said.title) + f"{k}/{len(pdf.pages)}")
-    rows = [[Cell(text=f"row {k} here"), Cell(text=str(k))] for k in range(110)]
+    rows = [[Cell(text=f"row {k} here"), Cell(text=str(k))] for k in range(170)]
     table = Table(
         title="Long", columns=[Column(heading="what", left=True), Column(heading="much", unit="N·m")], rows=rows
     )

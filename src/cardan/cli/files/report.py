@@ -30,6 +30,7 @@ from cardan.reading.fields import fields_of
 from cardan.report.block import capital
 from cardan.report.compare import Variant, compared
 from cardan.report.content import Excerpt
+from cardan.report.look import look_of
 from cardan.report.mechanism import content as of_mechanism
 from cardan.report.render.renderer import form_of, renderer_for
 from cardan.report.report import report as write
@@ -105,9 +106,9 @@ def report(
     folder = Path() if file == STDIN else file.parent
     if isinstance(drive, Mechanism):
         machine = mechanisms.on_duty(drive, speed_rpm)
-        block = TitleBlock(**head)
+        block, look = TitleBlock(**head), None if template is None else look_of(template)
         with about(str(file)), watching(_("writing the report")):
-            said = of_mechanism(machine, block, source_text=text, full=full, folder=folder)
+            said = of_mechanism(machine, block, source_text=text, full=full, folder=folder, look=look)
             write_bytes(place, renderer_for(place, interactive=interactive)(said))
         return _told(place, said.judgement.text, file, machine, open_=open_, json=json)
     if speed_rpm is not None:
