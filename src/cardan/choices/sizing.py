@@ -122,6 +122,10 @@ def _tube(drive: Drive, number: int, hold: Hold, series: str, rows: Catalogue, *
     shaft = drive.shafts[k]
     if shaft.segments:
         return _stepped(drive, number, hold, series, rows, solid=solid)
+    if shaft.profile is not None:
+        raise refuse(
+            f"{path}.profile", _("profile tubes come in the sizes of their maker; round tubes alone are sized")
+        )
     before = {f"{path}.outer_mm": _mm(shaft.outer), f"{path}.wall_mm": _mm(shaft.wall)}
     layered = shaft.layup is not None
     thin = "layup.ply_thickness" if shaft.layup is not None else "wall"

@@ -137,6 +137,10 @@ def trade_off(
     if own.outer is None or length is None:
         field = "outer" if own.outer is None else "length"
         raise refuse(f"{path}.{field}", _("missing; other tubes are compared with it"), "missing")
+    if own.profile is not None:
+        raise refuse(
+            f"{path}.profile", _("profile tubes come in the sizes of their maker; round tubes alone are sized")
+        )
     plies = 1 if own.layup is None else len(own.layup.angles)
     present = _wall(whole, k)
     start = replace(own, wall=None if own.layup is not None else present, inner=None)

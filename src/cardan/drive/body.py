@@ -13,6 +13,7 @@ from cardan.texts import _
 from cardan.units import mm
 
 from .material import Material
+from .profile_tube import ProfileSection, one_section
 from .shaft import Shaft
 
 FITS = 1e-3  # stretches may miss the length of their shaft by this share; they are stretched to fit
@@ -30,6 +31,10 @@ class Piece(NamedTuple):
     inner: float
     """[m]"""
     material: Material
+    profile: ProfileSection | None = None
+    """Of a tube that is not round; outer and inner diameter are then those of a round one that bows and weighs alike"""
+    around: float | None = None
+    """Its own outer diameter [m]."""
 
     @property
     def area(self) -> float:
@@ -40,6 +45,21 @@ class Piece(NamedTuple):
     def second_moment(self) -> float:
         """I [m⁴]."""
         return np.pi * (self.outer**4 - self.inner**4) / 64.0
+
+    @property
+    def polar_moment(self) -> float:
+        """Of the section about the axis [m⁴]."""
+        return 2.0 * self.second_moment if self.profile is None else float(self.profile.polar)
+
+    @property
+    def torsion_constant(self) -> float:
+        """I_t [m⁴]."""
+        return 2.0 * self.second_moment if self.profile is None else float(self.profile.torsion)
+
+    @property
+    def inertia(self) -> float:
+        """About the axis [kg m²]."""
+        return self.material.density * self.polar_moment * self.length
 
     @property
     def mass(self) -> float:
@@ -83,6 +103,10 @@ def pieces(shaft: Shaft, length: float | None) -> tuple[Piece, ...]:
     if length is None:
         return ()
     if shaft.outer is not None:
+        if shaft.profile is not None and shaft.wall is not None:
+            tube = one_section(shaft.outer, shaft.profile.inscribed, shaft.wall, shaft.profile.count)
+            outer, inner = (float(one) for one in tube.round)
+            return (Piece(0.0, length, outer, inner, body_material(shaft), tube, shaft.outer),)
         return (Piece(0.0, length, shaft.outer, inner_diameter(shaft), body_material(shaft)),)
     found: list[Piece] = []
     fit = length / sum(one.length for one in shaft.segments) if shaft.segments else 1.0
@@ -151,7 +175,7 @@ def _bare(shaft: Shaft, length: float | None) -> Weight:
         mass = sum(one.mass for one in body)
         middle = sum(one.mass * (one.start + 0.5 * one.length) for one in body) / mass
         square = [one.outer**2 + one.inner**2 for one in body]
-        inertia = sum(one.mass * size / 8.0 for one, size in zip(body, square, strict=True))
+        inertia = sum(one.inertia for one in body)
         across = sum(
             one.mass * (size / 16.0 + one.length**2 / 12.0 + (one.start + 0.5 * one.length - middle) ** 2)
             for one, size in zip(body, square, strict=True)

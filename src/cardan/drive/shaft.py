@@ -11,6 +11,7 @@ from cardan.units import plain, quantity
 
 from .crack import ShaftCrack
 from .material import Material
+from .profile_tube import Profile
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -173,6 +174,9 @@ class Shaft:
     outer: float | None = quantity("length", None, doc="outer diameter", above=0.0)
     inner: float | None = quantity("length", None, doc="inner diameter of a tube", low=0.0)
     wall: float | None = quantity("length", None, doc="thickness of the wall of a tube", above=0.0)
+    profile: Profile | None = plain(
+        None, doc="contour of a tube that is not round, as of a power take-off shaft; `outer` is then over its lobes"
+    )
     material: Material | None = plain(None, doc="material; steel when not given")
     segments: tuple[Segment, ...] = plain(
         (), doc="stretches of a stepped body from start to end, in place of `outer`; they add up to the shaft's length"

@@ -21,6 +21,7 @@ from cardan.drive.machine import LAWS, Engine, EngineHarmonic, Event, RunUp
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
 from cardan.drive.pose import Pose
+from cardan.drive.profile_tube import Profile
 from cardan.drive.settings import Settings, TitleBlock
 from cardan.drive.shaft import Bond, Layup, Notch, Ply, PointMass, Segment, Shaft, Spline, Unbalance
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
@@ -187,6 +188,7 @@ def sections() -> tuple[tuple[str, type], ...]:
         ("`segments` of a shaft", Segment),
         ("`masses` of a shaft", PointMass),
         ("`spline` of a shaft", Spline),
+        ("`profile` of a shaft", Profile),
         ("`notch` of a shaft", Notch),
         ("`layup` of a shaft", Layup),
         ("`ply` of a layup", Ply),

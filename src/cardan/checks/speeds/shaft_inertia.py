@@ -18,10 +18,7 @@ def shaft_inertia(design: Design, k: int) -> Array | None:
     given = design.value(f"shafts[{k}].inertia")
     body = list(sections(design, k))
     if given is None and body and all(one.length is not None for one in body):
-        given = sum(
-            np.pi / 32.0 * np.asarray(modulus(design, one, "density")) * (one.outer**4 - one.inner**4) * one.length
-            for one in body
-        )
+        given = sum(np.asarray(modulus(design, one, "density")) * one.polar * one.length for one in body)
     if given is None and not parts:
         return None
     found: Array = np.asarray(0.0 if given is None else given, dtype=float) + parts

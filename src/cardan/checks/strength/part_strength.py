@@ -69,11 +69,11 @@ def shaft_strength(design: Design, k: int) -> ShaftStrength:
     )
     if not found or shaft.layup is not None:
         return plain
-    worst = foremost_of(range(len(found)), lambda s: 1.0 / float(torsion_modulus(found[s].outer, found[s].inner)))
+    worst = foremost_of(range(len(found)), lambda s: 1.0 / float(torsion_modulus(*found[s].stressed)))
     case = foremost_of(design.loaded, lambda one: one.severity * float(one.mises_moment[k]))
     size = shock * case.severity
     moments = size * float(case.shaft_torque[k]), size * float(case.end_bending[k])
-    stress = shaft_stress(*moments, found[worst].outer, found[worst].inner)
+    stress = shaft_stress(*moments, *found[worst].stressed)
     plain = replace(plain, stress=stress, stretch=worst + 1)
     if design.missing(*(one.of_material(name) for one in found for name in STRENGTHS)):
         return plain

@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import numpy as np
+
 from cardan.checks.design import Design
 from cardan.drive.body import body_material
 from cardan.drive.material import Material
+from cardan.drive.profile_tube import ProfileSection, profile_section, stressed_bore
+from cardan.formulas.shaft_strength import polar_moment
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
@@ -24,11 +28,30 @@ class Section:
     length: Array | float | None  # (...) [m]: of the stretch; None where the drive does not say it
     design_variables: tuple[str, ...]  # paths that change its sizes
     number: int = 0  # of the stretch, from 1; 0 where the shaft is one
+    # of a tube with a profile: its section, and the round tube that bears as much; outer and inner are then of a
+    # round one that bows and weighs alike
+    profile: ProfileSection | None = None
+    bearing: tuple[Array, Array] | None = None
 
     @property
     def words(self) -> str:
         """What to add to the name of its shaft; nothing where the shaft is one stretch."""
         return _(", stretch {number}").format(number=self.number) if self.number else ""
+
+    @property
+    def polar(self) -> Array:
+        """Polar moment of the section, array (...) [m⁴]."""
+        return polar_moment(self.outer, self.inner) if self.profile is None else self.profile.polar
+
+    @property
+    def torsion(self) -> Array:
+        """Constant of torsion, array (...) [m⁴]."""
+        return polar_moment(self.outer, self.inner) if self.profile is None else self.profile.torsion
+
+    @property
+    def stressed(self) -> tuple[Array | float, Array | float]:
+        """Outer and inner diameter of the round tube whose stresses are those of the section, arrays (...) [m]."""
+        return (self.outer, self.inner) if self.bearing is None else self.bearing
 
     def of_material(self, name: str) -> str:
         """Return the path of a figure of its material."""
@@ -50,6 +73,20 @@ def sections(design: Design, k: int) -> Iterator[Section]:
     if outer is None:
         return
     inner, wall = design.value(f"{path}.inner"), design.value(f"{path}.wall")
+    if shaft.profile is not None:
+        inscribed = design.value(f"{path}.profile.inscribed")
+        tube = profile_section(outer, inscribed, wall, shaft.profile.count)
+        alike = tube.round
+        yield Section(
+            path=path,
+            outer=alike[0],
+            inner=alike[1],
+            length=whole,
+            design_variables=design.design_variables(f"{path}.outer", f"{path}.wall", f"{path}.profile.inscribed"),
+            profile=tube,
+            bearing=(np.asarray(outer, dtype=float) + 0.0 * tube.modulus, stressed_bore(outer, tube.modulus)),
+        )
+        return
     if shaft.layup is not None:
         thin = design.value(f"{path}.layup.ply_thickness")
         inside = outer - 2.0 * len(shaft.layup.angles) * thin

@@ -54,7 +54,7 @@ def composite_buckling(design: Design, k: int) -> Array | None:
 def _of_metal(design: Design, k: int) -> Iterator[Verdict]:
     """Yield the verdicts of the tubes of a shaft of one material; a solid one has no wall."""
     for section in sections(design, k):
-        if not np.any(np.asarray(section.inner) > 0.0):
+        if section.profile is not None or not np.any(np.asarray(section.inner) > 0.0):
             continue
         title = _("torsional buckling, shaft {number}") + section.words
         if design.unloaded:

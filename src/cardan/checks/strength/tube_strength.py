@@ -31,7 +31,7 @@ def _of_section(design: Design, k: int, section: Section) -> Verdict:
     lacking = design.unloaded if own is not None else (*design.missing(strength), *design.unloaded)
     if lacking:
         return Verdict(title=title, missing=lacking)
-    resisting = torsion_modulus(section.outer, section.inner)
+    resisting = torsion_modulus(*section.stressed)
     if own is not None:
         moment, note = design.most(lambda case: case.end_moment[..., k])
         return Verdict(

@@ -10,7 +10,7 @@ from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.load_case import Case
 from cardan.checks.verdict import Verdict
-from cardan.formulas.shaft_strength import RATED_TWIST, polar_moment
+from cardan.formulas.shaft_strength import RATED_TWIST
 from cardan.maths.arrays import Array
 from cardan.texts import _, mark
 
@@ -24,9 +24,7 @@ def compliance(design: Design, k: int) -> tuple[Array | float | None, tuple[str,
         return 1.0 / np.asarray(given), (f"shafts[{k}].stiffness",)
     if not found or any(one.length is None for one in found):
         return None, ()
-    soft = sum(
-        one.length / (modulus(design, one, "shear_modulus") * polar_moment(one.outer, one.inner)) for one in found
-    )
+    soft = sum(one.length / (modulus(design, one, "shear_modulus") * one.torsion) for one in found)
     return soft, tuple(path for one in found for path in one.design_variables)
 
 

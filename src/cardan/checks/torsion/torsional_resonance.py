@@ -112,7 +112,7 @@ def _bears(design: Design, k: int, section: Section, case: Case) -> Array:
     now = fatigue(design, k, section, case)
     swing = 0.5 * (case.torque_range[1] - case.torque_range[0])[..., k]
     notch = 1.0 if shaft.notch is None else design.value(f"shafts[{k}].notch.torsion")
-    modulus = torsion_modulus(section.outer, section.inner)
+    modulus = torsion_modulus(*section.stressed)
     twisted = math.sqrt(3.0) * np.asarray(notch) * swing / modulus
     bent = np.sqrt(np.maximum(now.alternating**2 - twisted**2, 0.0))
     ultimate = design.value(section.of_material("ultimate_strength"))

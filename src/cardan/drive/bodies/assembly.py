@@ -393,7 +393,9 @@ def _stretches(shaft: Shaft, low: float, high: float, length: float | None, radi
     found = []
     for one in pieces(shaft, whole):
         start, stop = origin + one.start, origin + one.start + one.length
-        found.append(Stretch(start=start, stop=stop, outer=0.5 * one.outer, inner=0.5 * one.inner))
+        outer = one.around or one.outer
+        inner = one.inner if one.around is None else outer - 2.0 * (shaft.wall or 0.0)
+        found.append(Stretch(start=start, stop=stop, outer=0.5 * outer, inner=0.5 * inner))
     if not found:
         return [Stretch(start=low, stop=high, outer=radius, inner=0.9 * radius if length is not None else 0.0)]
     found[0] = replace(found[0], start=min(found[0].start, low))

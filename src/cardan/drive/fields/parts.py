@@ -9,6 +9,7 @@ from dataclasses import fields
 from cardan.drive.body import body_problems
 from cardan.drive.described import Described
 from cardan.drive.joints import Joint
+from cardan.drive.profile_tube import LOBES
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 from cardan.errors import Problem
@@ -104,8 +105,31 @@ def _body(shaft: Shaft, path: str) -> Iterator[Problem]:
         yield Problem(f"{path}.inner", _("is not less than the outer diameter"))
     elif shaft.wall is not None and 2.0 * shaft.wall > shaft.outer:
         yield Problem(f"{path}.wall", _("is more than half the outer diameter"))
+    yield from _profile(shaft, f"{path}.profile")
     if shaft.centre_of_mass is not None and shaft.mass is None and not shaft.has_body:
         yield Problem(f"{path}.centre_of_mass", _("the shaft has no mass: give its mass or its body"))
+
+
+def _profile(shaft: Shaft, path: str) -> Iterator[Problem]:
+    """Yield what contradicts itself in the contour of a tube."""
+    profile = shaft.profile
+    if profile is None:
+        return
+    if shaft.outer is None or shaft.wall is None:
+        yield Problem(path, _("belongs to a tube: give its outer diameter over the lobes and its wall"), "missing")
+    elif not 2.0 * shaft.wall < profile.inscribed < shaft.outer:
+        text = _("needs to be between two walls, {walls:.6g} mm, and the outer diameter, {outer:.6g} mm")
+        said = text.format(walls=2.0 * shaft.wall / mm, outer=shaft.outer / mm)
+        yield Problem(f"{path}.inscribed", said, "inconsistent")
+    if not profile.count:
+        yield Problem(f"{path}.lobes", _("missing; a star needs the number of its lobes"), "missing")
+    elif profile.count != LOBES.get(profile.form, profile.count):
+        text = _("{given} given; a {form} has {count}")
+        said = text.format(given=profile.count, form=profile.form, count=LOBES[profile.form])
+        yield Problem(f"{path}.lobes", said, "inconsistent")
+    for name in ("layup", "crack"):
+        if getattr(shaft, name) is not None:
+            yield Problem(f"{path}", _("a tube with a profile has no {name}").format(name=name), "inconsistent")
 
 
 def _crack(shaft: Shaft, path: str) -> Iterator[Problem]:

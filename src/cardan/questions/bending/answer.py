@@ -12,6 +12,7 @@ from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark,
 from cardan.answers.quantity import Joined, Quantity, Text, numbered, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import MODES, OutputColumn, SweepQuestion, each, first
+from cardan.drive.body import pieces
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.yokes import unweighed, yokes_estimated
@@ -28,6 +29,9 @@ __all__ = ["COLUMNS", "answer", "answer_of_map", "ask", "lacking", "over_movemen
 
 MESH = 2e-3
 """Share by which finite elements, a few dozen of them, may differ from the exact transfer matrices."""
+
+EQUAL = 0.01
+"""Difference of the critical speeds about the axes of a tube below which it is as stiff about both."""
 
 LONG = 1.5
 """Distance of joints [m] above which two pieces are advised."""
@@ -279,6 +283,18 @@ def _unheld(drive: Drive) -> Iterator[Remark]:
         yield Remark(text=say(text, which=which, kinds=", ".join(kinds)), tone="warning", alarm=True)
 
 
+def _unequal(drive: Drive) -> Iterator[Remark]:
+    """Yield which tubes are softer about one axis than about the other."""
+    for shaft in drive.shafts:
+        tubes = [one.profile for one in pieces(shaft, 1.0) if one.profile is not None]
+        if tubes and float(tubes[0].unequal) > EQUAL:
+            text = _(
+                "The tube of shaft {number} counts with the softer of its axes; about the other its critical speed is "
+                "up to {share} higher, and between the two it whirls."
+            )
+            yield Remark(text=say(text, number=shaft.number, share=Quantity(float(tubes[0].unequal), "share", 2)))
+
+
 def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
     yield from _judged(drive, result)
     yield from _held(drive, result)
@@ -298,6 +314,7 @@ def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
                 "Support {number} counts with its stiffness up and down; cardan rotor --line counts the other, too."
             )
             yield Remark(text=text.format(number=k))
+    yield from _unequal(drive)
     light = unweighed(drive)
     if light:
         text = plural(

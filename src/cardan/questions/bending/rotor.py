@@ -477,4 +477,4 @@ def _turning_stiffness(drive: Drive, number: int) -> float:
     if shaft.stiffness is not None:
         return shaft.stiffness
     body = pieces(shaft, body_length(shaft, _length(drive, number)))
-    return 1.0 / sum(one.length / (one.material.shear_modulus * 2.0 * one.second_moment) for one in body)
+    return 1.0 / sum(one.length / (one.material.shear_modulus * one.torsion_constant) for one in body)

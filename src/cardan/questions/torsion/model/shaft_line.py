@@ -96,7 +96,7 @@ def cut_name(shaft: int, place: float) -> Say:
 
 def _turning(piece: Piece) -> float:
     """Return the inertia of a stretch about its axis [kg m²]."""
-    return piece.mass * (piece.outer**2 + piece.inner**2) / 8.0
+    return piece.inertia
 
 
 class _Elastic:
@@ -188,7 +188,7 @@ class _Elastic:
         for one in self.body:
             reach = min(end, one.start + one.length) - max(begin, one.start)
             if reach > 0.0:
-                found += reach / (one.material.shear_modulus * 2.0 * one.second_moment)
+                found += reach / (one.material.shear_modulus * one.torsion_constant)
         return found
 
     def _spline_element(self) -> tuple[int, int]:
