@@ -202,7 +202,7 @@ def test_what_is_no_joint_is_refused_with_link_angle_and_amount():
     said = refusal(short)
     assert "cannot follow: with the driving link turned by" in said
     assert "mm and" in said
-    assert "needs one pair with the frame" in refusal(example_mechanism("hooke-cured"))
+    assert "needs one pair with the frame" in refusal(example_mechanism("crank-slider"))
     assert "missing: neither this key nor input_link" in refusal(replace(drawing, input_link=""))
 
 
@@ -223,3 +223,31 @@ def test_the_file_is_read_beside_the_drive_file(tmp_path):
     (tmp_path / "own.toml").write_text("format = 1\n[[joints]]\nid = 'a'\nlinks = ['a', 'b']\n", "utf-8")
     with pytest.raises(InputError, match=r"joints\[0\].file"):
         load(tmp_path / "drive.toml")
+
+
+@pytest.mark.parametrize("kind", ["SG", "S"])
+def test_a_driven_shaft_that_a_ball_holds_alone_keeps_its_direction(kind):
+    """The joint holds its centre and the ball another point of the shaft: as well as a bearing."""
+    joint = joint_of("hooke-cured", bearing_2={"type": kind})
+    bearing = joint_of("hooke-stiff-bearings")
+    assert joint.fixed
+    for one, other in zip(
+        joint.deviation(ANGLE, np.asarray(0.4)), bearing.deviation(ANGLE, np.asarray(0.4)), strict=True
+    ):
+        assert np.abs(one - other).max() < 1e-12
+    own, known = (joint_carried(one, 0.4, ANGLE).wrench for one in (joint, bearing))
+    assert np.abs(own - known).max() < 1e-9
+
+
+def test_a_ball_without_an_axis_does_not_tell_where_its_shaft_lies():
+    joint = joint_of("hooke-cured", bearing_2={"type": "S", "axis": None})
+    (problem,) = joint.own_problems()
+    assert (
+        "'shaft 2' needs one pair with the frame, of type R or C, or a ball, S or SG, with an axis" in problem.message
+    )
+
+
+def test_a_ball_off_the_shaft_is_refused():
+    joint = joint_of("hooke-cured", bearing_2={"point": (0.312, 0.002, -0.130)})
+    (problem,) = joint.own_problems()
+    assert "its shafts pass each other" in problem.message

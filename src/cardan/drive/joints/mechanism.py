@@ -50,6 +50,9 @@ LEAST = 0.5 * deg
 MEET = 1e-6
 """Distance of the shaft axes over the size of the mechanism up to which they meet."""
 
+BEARINGS = {"R": "R", "C": "C", "S": "R", "SG": "C"}
+"""Pair that holds a shaft in a mechanism file -> bearing that keeps its axis as much where the joint centres it."""
+
 MOVES = 1e-6
 """Share of a small motion that is none."""
 
@@ -519,9 +522,12 @@ def _bearing(mechanism: Mechanism, link: str) -> int:
     """Return which pair is the bearing of a shaft."""
     ends = {mechanism.frame, link}
     held = [k for k, pair in enumerate(mechanism.joints) if set(pair.links) == ends]
-    if len(held) == 1 and mechanism.joints[held[0]].type in ("R", "C"):
+    if len(held) == 1 and mechanism.joints[held[0]].type in BEARINGS and mechanism.joints[held[0]].axis is not None:
         return held[0]
-    text = _("{link} needs one pair with the frame, of type R or C: the bearing that tells where its axis lies")
+    text = _(
+        "{link} needs one pair with the frame, of type R or C, or a ball, S or SG, with an axis: the bearing that "
+        "tells where its axis lies"
+    )
     raise InputError([Problem("file", text.format(link=repr(link)), "inconsistent")])
 
 
@@ -543,7 +549,10 @@ def _drawn(mechanism: Mechanism, ends: tuple[str, str], bearings: tuple[int, int
         tuple(grounds[1] if link == mechanism.frame and k == bearings[1] else link for link in pair.links)
         for k, pair in enumerate(mechanism.joints)
     ]
-    linkage = Linkage(mechanism.joints, [(one, two) for one, two in named])
+    joints = list(mechanism.joints)
+    for k in bearings:  # a shaft that the joint centres and a ball holds keeps its direction as in a bearing
+        joints[k] = replace(joints[k], type=BEARINGS[joints[k].type])
+    linkage = Linkage(joints, [(one, two) for one, two in named])
     one, two = (mechanism.joints[k] for k in bearings)
     a, b = one.along, two.along
     p, q = np.asarray(one.point, dtype=float), np.asarray(two.point, dtype=float)
