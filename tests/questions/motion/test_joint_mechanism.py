@@ -31,6 +31,7 @@ from cardan.drive.models.geometry import geometry
 from cardan.drive.models.kinematics_model import turning_chain
 from cardan.mechanism.kinetostatics import influence
 from cardan.questions.forces.kinetostatics import kind_arms
+from cardan.questions.losses.chain_friction import chain_friction
 from cardan.questions.losses.loss_model import torque_flow
 from cardan.questions.motion.joint_mechanism import joint_carried
 from cardan.questions.motion.motion import motion
@@ -43,6 +44,7 @@ LAWFUL = [
     Hooke(),
     ConstantVelocity(),
     DoubleCardan(),
+    DoubleCardan(centre_distance=0.08),
     DoubleCardan(centring_ratio=0.55),
     DoubleCardan(centring_ratio=0.45, ball_on="driven"),
     Tracta(driving_distance=0.03, driven_distance=0.03),
@@ -167,3 +169,25 @@ def test_errors_of_sizes_turn_the_output_by_the_reactions():
 def test_a_joint_that_does_not_turn_is_refused():
     with pytest.raises(InputError, match="does not turn"):
         joint_carried(PinCoupling(driving_slant=0.2, driving_distance=0.05, driven_distance=0.06), 0.6, ANGLE)
+
+
+def test_balls_that_press_at_an_angle_rub_harder():
+    """Each groove presses with F/sin δ on a ball that passes on F; to first order the heat grows as much."""
+    plain = Rzeppa(driving_offset=0.004, driven_offset=0.004, groove_radius=0.03)
+    steep = replace(plain, pressure_angle=np.radians(40.0))
+    one, other = (joint_carried(joint, BEND, ANGLE, friction=1e-6).loss for joint in (plain, steep))
+    assert other == pytest.approx(one / np.sin(np.radians(40.0)), rel=1e-5)
+
+
+def test_the_exact_device_of_a_double_cardan_holds_its_middle_piece():
+    """Both crosses put the couple 2 T sin(α/2) at most on the middle piece; the ball holds it at half its length."""
+    joint = DoubleCardan(centre_distance=0.08, journal_span=0.06, journal_diameter=0.014)
+    found = joint_carried(joint, BEND, np.linspace(0.0, np.pi, 181))
+    names = [one.name for one in found.pairs[: found.inner]]
+    for part in ("driving bore", "driven bore"):
+        (own,) = (k for k, name in enumerate(names) if name.startswith(part))
+        force = np.linalg.norm(found.found.reaction[:, own, 3:], axis=-1)
+        assert np.max(force) == pytest.approx(2.0 * np.sin(0.5 * BEND) / 0.08, rel=1e-9)
+    crosses = chain_friction(Drive.from_angles([0.5 * BEND] * 2), [1e-4 * 14.0 / 60.0] * 2)
+    rubs = joint_carried(joint, BEND, ANGLE, friction=1e-4)
+    assert np.mean(rubs.loss) > 1.0 - float(crosses.efficiency)  # the force of the ball goes through the pins, too

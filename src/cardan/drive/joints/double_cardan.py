@@ -34,7 +34,7 @@ class DoubleCardan(Joint):
     title: ClassVar[str] = mark("double cardan")
     types: ClassVar[tuple[str, ...]] = ("double_centred", "double_frame")
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
-    rubbing: ClassVar[tuple[str, ...]] = ("centring_ratio", "centre_distance", "journal_span", "journal_diameter")
+    rubbing: ClassVar[tuple[str, ...]] = ("centre_distance", "journal_span", "journal_diameter")
     rated: ClassVar[tuple[str, ...]] = (*rubbing, "bearing_capacity")
     fixed: ClassVar[bool] = True
     steepest: ClassVar[float] = 0.5 * math.pi
@@ -72,11 +72,11 @@ class DoubleCardan(Joint):
         return pair if self.ball_on == "driving" else mobius.inverse(pair)
 
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
-        """Yield both crosses, the piece between them and the ball that slides on the other shaft.
+        """Yield both crosses, the piece between them and what centres them, see `_centring`.
 
-        Without a ball it is told as what its exact device holds.
+        Without a ball and the distance of both centres it is told as what its exact device holds.
         """
-        if self.centring_ratio is None:
+        if self.centring_ratio is None and self.centre_distance is None:
             yield from Joint.mechanism(self, stance)
             return
         before, behind = self._spread(stance.joint_angle, self.centre_distance or APART * stance.length)
@@ -99,15 +99,32 @@ class DoubleCardan(Joint):
             yield InnerPair(
                 name=name, type="R", links=links, point=at, axis=axis, rubs=True, lever=sizes[0], spread=sizes[1]
             )
-        ball, on = (
-            ((DRIVEN, DRIVING), stance.after) if self.ball_on == "driving" else ((DRIVING, DRIVEN), stance.before)
-        )
-        name = mark("ball of joint {number}")
-        yield InnerPair(name=name, type="SG", links=ball, point=stance.centre, axis=on, rubs=True)
+        yield from self._centring(stance, middle, between)
+
+    def _centring(self, stance: Stance, middle: str, between: Array) -> Iterator[InnerPair]:
+        """Yield the ball that slides on the other shaft, or the exact device, `middle` the piece between both crosses.
+
+        The device is that of a slotted sphere: a ball where both shafts meet slides in a bore of either of them, and
+        the middle piece holds it in its middle plane, so that both crosses stand equally far from it.
+        """
+        at = stance.centre
+        if self.centring_ratio is not None:
+            ball, on = (
+                ((DRIVEN, DRIVING), stance.after) if self.ball_on == "driving" else ((DRIVING, DRIVEN), stance.before)
+            )
+            yield InnerPair(name=mark("ball of joint {number}"), type="SG", links=ball, point=at, axis=on, rubs=True)
+            return
+        part = mark("centring ball of joint {number}")
+        for name, kind, link, axis in (
+            (mark("driving bore of joint {number}"), "SG", DRIVING, stance.before),
+            (mark("driven bore of joint {number}"), "SG", DRIVEN, stance.after),
+            (mark("slot of joint {number}"), "PT", middle, between),
+        ):
+            yield InnerPair(name=name, type=kind, links=(link, part), point=at, axis=axis, rubs=True)
 
     def loaded(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the same, where the distance of both centres is given."""
-        if self.centring_ratio is not None and self.centre_distance is not None:
+        if self.centre_distance is not None:
             yield from self.mechanism(stance)
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:

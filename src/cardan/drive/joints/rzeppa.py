@@ -103,7 +103,10 @@ class Rzeppa(Joint):
         """Yield its grooves with the balls; what holds as much where the grooves are not given."""
         if self.driving_offset is None or self.driven_offset is None or self.groove_radius is None:
             return Joint.mechanism(self, stance)
-        return groove_mechanism(stance, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
+        # both grooves press on a ball at the pressure angle: harder than it passes on
+        press = 1.0 if self.pressure_angle is None else 1.0 / math.sin(self.pressure_angle)
+        sizes = self.driving_offset, self.driven_offset, self.groove_radius
+        return groove_mechanism(stance, *sizes, self.balls, press=press)
 
     def loaded(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the contacts of its balls with bell, inner race and cage, where all balls fit at once."""

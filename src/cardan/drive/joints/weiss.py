@@ -62,10 +62,13 @@ def groove_inside(
     yield from balls_inside(float(plane_tilt(joint_angle, first, second)), angle_errors)
 
 
-def groove_mechanism(stance: Stance, first: float, second: float, radius: float, balls: int) -> Iterator[InnerPair]:
+def groove_mechanism(
+    stance: Stance, first: float, second: float, radius: float, balls: int, *, press: float = 1.0
+) -> Iterator[InnerPair]:
     """Yield the balls between circular grooves: each swings about the centres of its two grooves.
 
     first, second, radius [m]: offsets of the groove centres and radius of the grooves; balls: how many carry.
+    press: force on a contact over that which a ball passes on; with it grow the levers at which they rub.
     """
     name = mark("driving groove {count} of joint {number}"), mark("driven groove {count} of joint {number}")
     ball = mark("ball {count} of joint {number}")
@@ -98,7 +101,7 @@ def groove_mechanism(stance: Stance, first: float, second: float, radius: float,
                 count=k + 1,
                 repeats=k > 0,
                 rubs=True,
-                lever=radius,
+                lever=press * radius,
             )
         yield InnerPair(name=ball, type="S", links=(one, two), point=at, axis=way, count=k + 1, repeats=k > 0)
 
