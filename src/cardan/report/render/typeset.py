@@ -17,7 +17,7 @@ import numpy as np
 
 from cardan.errors import Problem, check
 from cardan.figures.figure import Bars, Figure, Panel, Row
-from cardan.figures.page import LETTER
+from cardan.figures.page import LETTER, breadth
 from cardan.figures.render_svg import inline_svg
 from cardan.later import later
 from cardan.reading.fields import fields_of
@@ -34,6 +34,7 @@ TEMPLATE = Path(__file__).parent / "templates" / "report.typ"
 
 FONTS = "'DejaVu Sans'"  # font of the words in figures: matplotlib brings it wherever cardan is installed
 NARROW = 4.6  # width [inch] of a figure that is drawn for half of the paper
+WIDE = 8.2  # width [inch] of a figure with its panels side by side
 LOWER = 0.62  # height of curves on paper over that on a screen
 USUAL = Look()
 STANDARD: Final = "ua-1"  # the PDF can be read aloud: tagged, with words for every picture
@@ -193,12 +194,19 @@ def _picture(figure: Figure) -> dict[str, Any]:
 
 
 def _wide(figure: Figure) -> Figure:
-    """Return a figure for the whole width: two or three panels of curves stand side by side."""
+    """Return a figure for the whole width: two or three panels of curves over the same stand side by side."""
     panels = [row.panels[0] for row in figure.rows]
-    if 1 < len(panels) <= 3 and all(len(row.panels) == 1 and _curves(row) for row in figure.rows):
-        row = replace(figure.rows[0], panels=tuple(panels), height=max(row.height for row in figure.rows))
-        return replace(figure, rows=(row,))
-    return _of_width(figure, figure.width)
+    single = all(len(row.panels) == 1 and _curves(row) for row in figure.rows)
+    if not single or not 1 < len(panels) <= 3 or any(one.x.title not in ("", panels[-1].x.title) for one in panels):
+        return _of_width(figure, figure.width)
+    if any(LETTER * breadth(one.heading) > WIDE / len(panels) - 0.4 for one in panels):
+        return _of_width(figure, figure.width)
+    along, middle = panels[-1].x, len(panels) // 2  # what they run over is said once, below the middle
+    bare = [replace(one, x=replace(one.x, label="", unit="", dimension="")) for one in panels]
+    named = replace(along, ticks=panels[middle].x.ticks, texts=panels[middle].x.texts)
+    bare[middle] = replace(bare[middle], x=named)
+    row = replace(figure.rows[0], panels=tuple(bare), height=max(row.height for row in figure.rows))
+    return replace(figure, width=WIDE, rows=(row,))
 
 
 def _of_width(figure: Figure, width: float) -> Figure:
