@@ -39,6 +39,16 @@ _GEOMETRY = re.compile(
 )
 
 
+@lru_cache(maxsize=4096)
+def _steps(path: str) -> tuple[bool, tuple[tuple[str, tuple[int, ...]], ...]]:
+    """Return whether a path begins at the duty, and the names behind it, each with its places in lists."""
+    words = path.split(".")
+    own = words[0] == "duty"
+    matches = [_STEP.fullmatch(word) for word in words[own:]]
+    assert all(matches), path
+    return own, tuple((one[1], tuple(map(int, re.findall(r"\d+", one[2])))) for one in matches if one is not None)
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Design:
     """A drive in its duty, or many drives that differ in a few fields.
@@ -80,15 +90,14 @@ class Design:
         """
         if path in self.varied:
             return self.varied[path]
-        here: Any = {"duty": self.duty}.get(path.partition(".")[0], self.drive)
-        for word in path.removeprefix("duty.").split(".") if here is self.duty else path.split("."):
-            match = _STEP.fullmatch(word)
-            assert match is not None, path
+        own, steps = _steps(path)
+        here: Any = self.duty if own else self.drive
+        for name, places in steps:
             if here is None:
                 return None
-            here = getattr(here, match[1])
-            for k in re.findall(r"\d+", match[2]):
-                here = here[int(k)] if here is not None and int(k) < len(here) else None
+            here = getattr(here, name)
+            for k in places:
+                here = here[k] if here is not None and k < len(here) else None
         return here
 
     def missing(self, *paths: str) -> tuple[str, ...]:

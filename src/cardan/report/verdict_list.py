@@ -12,7 +12,7 @@ from cardan.answers.answer import Column, Tone
 from cardan.answers.printed import Cell, cell, number
 from cardan.answers.quantity import Joined, Quantity, say, told
 from cardan.answers.reader import reader
-from cardan.checks import Verdict, check
+from cardan.checks import CHECKS, Verdict, check
 from cardan.checks.verdict_table import MOST, alike, limit, verdict_key
 from cardan.choices.check_answer import sentence as said
 from cardan.choices.remedy import Remedy, remedies, typed
@@ -32,6 +32,7 @@ from .block import capital
 from .subject import Progress, Subject
 
 FIRST = "speed_fluctuation"  # the check whose number stands first
+SELF_CHECK = "answers_agree"  # the check that asks every question anew
 REMEDIES = 3  # cures of a verdict; those after them move the drive more
 
 
@@ -57,10 +58,20 @@ class Light:
     verdicts: tuple[Verdict, ...] = ()  # those it stands for
 
 
-def lights(on: Subject) -> tuple[Light, ...]:
-    """Return the verdicts on a drive, the worst first, rules of thumb last; without remedies."""
-    run = [one for one in check(on.drive, known=on.known) if one.run]
+def lights(on: Subject, *, swift: bool = False) -> tuple[Light, ...]:
+    """Return the verdicts on a drive, the worst first, rules of thumb last; without remedies.
+
+    swift: without `SELF_CHECK`, which asks every question anew.
+    """
+    asked = [name for name in CHECKS if name != SELF_CHECK] if swift else []
+    run = [one for one in check(on.drive, known=on.known, only=asked) if one.run]
     return tuple(_light(group) for group in alike(sorted(run, key=lambda one: (one.advice, -float(one.utilisation)))))
+
+
+def with_self_check(shown: Sequence[Light], before: Sequence[Light]) -> tuple[Light, ...]:
+    """Return verdicts reached swiftly with that of `SELF_CHECK` as it was before; until it is reached anew."""
+    own = [one for one in before if any(verdict.check == SELF_CHECK for verdict in one.verdicts)]
+    return tuple(sorted((*shown, *own), key=lambda one: (one.advice, -one.used)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -168,7 +179,18 @@ def sentence(shown: Sequence[Light]) -> str:
     return capital(told(said([verdict for one in shown for verdict in one.verdicts]), reader()))
 
 
-__all__ = ["MOST", "Headline", "Light", "headline", "headline_at", "lights", "moving_span", "sentence", "with_remedies"]
+__all__ = [
+    "MOST",
+    "Headline",
+    "Light",
+    "headline",
+    "headline_at",
+    "lights",
+    "moving_span",
+    "sentence",
+    "with_remedies",
+    "with_self_check",
+]
 
 
 # What can be put into a drive file with one touch: settings of the yokes, and changes that cure failed verdicts.

@@ -17,7 +17,16 @@ from cardan.app.state.work import SOON as SOONER
 from cardan.errors import CardanError
 from cardan.report.answers import subject
 from cardan.report.block import SIGNS
-from cardan.report.verdict_list import MOST, Applicable, Headline, Light, headline_at, sentence, synchronous
+from cardan.report.verdict_list import (
+    MOST,
+    Applicable,
+    Headline,
+    Light,
+    headline_at,
+    sentence,
+    synchronous,
+    with_self_check,
+)
 from cardan.texts import _
 
 from .answers import applied
@@ -82,7 +91,7 @@ class Verdicts:
         """Judge the drive as it is now; cures come once the user is quiet."""
         self._end()
         self._told.set_visibility(False)
-        question = asked(self.session, VERDICTS)
+        question = asked(self.session, VERDICTS, swift=bool(self.lights) and not self.session.heavy)
         if question is None:
             return
         if self.session.heavy:
@@ -99,16 +108,15 @@ class Verdicts:
             self._summed.say(own_fault(question.language, f"{type(error).__name__}: {error}"))
             self._show(())
             return
-        self._found(cast("Judged", found))
+        self._found(cast("Judged", found), swift=question.choices["swift"])
 
-    def _found(self, judged: Judged) -> None:
-        """Show the number that stands first and the verdicts, and look for what cures the failed ones."""
+    def _found(self, judged: Judged, *, swift: bool = False) -> None:
+        """Show the number that stands first and the verdicts; what takes longer follows once the user is quiet."""
         self._number, found = judged
         self._stand()
         self._list.classes(remove="stale")
-        self._summed.say(sentence(found))
-        self._show(found)
-        if any(one.tone == "failed" for one in found):
+        self._tell(with_self_check(found, self.lights) if swift else found)
+        if swift or any(one.tone == "failed" for one in found):
             self._due = Timer(self.session, self.body, QUIET, self._search, once=True)
 
     def _stand(self) -> None:
@@ -142,7 +150,11 @@ class Verdicts:
         if job.state == "failed" and job.question.name == VERDICTS:
             self._summed.say(job.message)
         elif job.state == "done":
-            (self._found if job.question.name == VERDICTS else self._show)(job.result)
+            (self._found if job.question.name == VERDICTS else self._tell)(job.result)
+
+    def _tell(self, found: Sequence[Light]) -> None:
+        self._summed.say(sentence(found))
+        self._show(found)
 
     def _show(self, found: Sequence[Light]) -> None:
         self.lights = tuple(found)
@@ -220,16 +232,18 @@ def _light(one: Light, opened: bool) -> str:
     summary = (
         f'<summary><span class="sign" aria-hidden="true">{SIGNS[one.tone]}</span>'
         f'<span>{escaped(one.title)}<span class="word">{escaped(one.verdict)}</span></span>'
-        f'<span class="value"{full}>{value}<span class="word">{escaped(_against(one))}</span></span></summary>'
+        f'<span class="value"{full}>{value}<span class="word">{_against(one)}</span></span></summary>'
     )
     state = " open" if opened else ""
     return f'<details class="{one.tone}" data-name="{escaped(one.name)}"{state}>{summary}{_more(one)}</details>'
 
 
 def _against(one: Light) -> str:
-    """Return limit and share of it."""
+    """Return limit and share of it, each of which stays in a line."""
     used = f"{100.0 * one.used:.0f}" if one.used <= MOST else f"> {100.0 * MOST:.0f}"
-    return " · ".join(filter(None, [one.limit, f"{used} %"]))
+    limit = one.limit.rstrip()
+    told = [f"{limit} ·", f"{used} %"] if limit else [f"{used} %"]
+    return " ".join(f"<span>{escaped(part)}</span>" for part in told)
 
 
 def _more(one: Light) -> str:

@@ -64,7 +64,7 @@ def result(question: Question | Edit, progress: Progress | None = None) -> Resul
             return recordings.heard(question.drive, question.choices["recording"], known, progress)
         on = subject(question.drive, known=known)
         if question.name == VERDICTS:
-            shown = lights(on)
+            shown = lights(on, **question.choices)
             return headline(on, shown), shown
         if question.name == SCENE:
             return drawn(question.drive, **question.choices)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
+from functools import cache
 from typing import Any
 from unicodedata import category
 
@@ -14,11 +15,19 @@ from cardan.texts import _
 from cardan.units import KEY, Key
 
 
+@cache
+def _keys(kind: type) -> tuple[tuple[str, Key | None], ...]:
+    """Return the names of the fields of a dataclass, each with its key if it has one."""
+    return tuple((field.name, field.metadata.get(KEY)) for field in fields(kind))
+
+
 def range_problems(thing: Any, path: str = "") -> Iterator[Problem]:
     """Yield every number of a dataclass tree that is out of range or not finite, and every unprintable text."""
-    for field in fields(thing):
-        value = getattr(thing, field.name)
-        here = f"{path}.{field.name}" if path else field.name
+    for name, key in _keys(thing.__class__):
+        value = getattr(thing, name)
+        if value is None or isinstance(value, bool):
+            continue
+        here = f"{path}.{name}" if path else name
         if isinstance(value, tuple) and value and is_dataclass(value[0]):
             for index, item in enumerate(value):
                 place = item.number - 1 if isinstance(item, Shaft) else index
@@ -26,17 +35,19 @@ def range_problems(thing: Any, path: str = "") -> Iterator[Problem]:
         elif is_dataclass(value):
             yield from range_problems(value, here)
         elif isinstance(value, str):
-            yield from _text_problems(value, here, lines=field.name == "note")
-            choices = field.metadata[KEY].choices if KEY in field.metadata else ()
+            yield from _text_problems(value, here, lines=name == "note")
+            choices = key.choices if key is not None else ()
             if choices and value not in choices:
                 text = _("{value} is none of {choices}")
                 yield Problem(here, text.format(value=repr(value), choices=", ".join(choices)))
-        elif KEY in field.metadata and not isinstance(value, bool):
-            yield from _number_problems(value, field.metadata[KEY], here)
+        elif key is not None:
+            yield from _number_problems(value, key, here)
 
 
 def _text_problems(text: str, path: str, *, lines: bool) -> Iterator[Problem]:
     """Yield a problem if a text holds a character that terminals obey instead of printing."""
+    if text.isprintable():
+        return
     found = next((sign for sign in text if category(sign) == "Cc" and not (lines and sign in "\n\r\t")), None)
     if found is not None:
         yield Problem(path, _("holds the control character {sign}; write plain text").format(sign=ascii(found)))
