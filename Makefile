@@ -18,7 +18,7 @@ help:
 	@echo "make app      the app in the browser, with a drive of your own by FILE=drive.toml"
 	@echo "make test     all tests, docstring and documentation examples"
 	@echo "make quick    the tests but for the slow ones, in under 3 minutes on two cores; one: make quick FILE=tests/drive/test_line.py"
-	@echo "make lint     format, lint, types, import contracts"
+	@echo "make lint     format, lint, types, import contracts; scripts of the app too where there is node"
 	@echo "make docs     the documentation as docs/_build/html/index.html"
 	@echo "make dist     wheel and source archive in dist/, checked and tried in an empty environment; list of parts out/sbom.json"
 	@echo "make bench    benchmarks as JSON lines, each against its yardstick"
@@ -42,6 +42,7 @@ lint: $(VENV)/.lint
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
+	$(BIN)/python -m tests.javascript
 
 docs: $(VENV)/.docs
 	@rm -f docs/_build/.whole

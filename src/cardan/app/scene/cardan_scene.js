@@ -16,7 +16,7 @@ export default {
     this.view?.dispose();
     this.view = null;
   },
-  methods: {
+  methods: /** @type {Methods} */ ({
     show(text) {
       if (this.view && !this.view.show(JSON.parse(text))) this.$emit("lacking");
     },
@@ -31,5 +31,5 @@ export default {
     ...Object.fromEntries(FORWARDED.map((name) => [name, function (...values) {
       return this.view?.[name](...values);
     }])),
-  },
+  }),
 };

@@ -22,6 +22,7 @@ export class Bodies {
     this.batches = new Map();
     this.by = "shaft";
     this.fine = false;
+    this.thinned = false;
     this.ghost = false;
     this.selected = null;
     this.shown = [];
@@ -144,7 +145,8 @@ export class Bodies {
   quality(fine, pixel) {
     const thinned = !fine && 1.5 * pixel > (this.error ?? Infinity);
     if (this.fine === fine && this.thinned === thinned) return;
-    Object.assign(this, { fine, thinned });
+    this.fine = fine;
+    this.thinned = thinned;
     this.dress();
   }
 

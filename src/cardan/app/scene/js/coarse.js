@@ -8,7 +8,7 @@ const BEND = 0.3; // cosine of how far the direction of shading may jump
 const PASSES = 14;
 
 export function coarser(mesh, error) {
-  const work = new Work(mesh, error);
+  const work = new Work(mesh);
   for (let pass = 1; pass <= PASSES; pass++) {
     if (work.pass(error * Math.min(1, 0.25 * pass)) === 0 && pass >= 4) break;
   }
@@ -17,7 +17,9 @@ export function coarser(mesh, error) {
 
 class Work {
   constructor({ positions, normals, indices, points }) {
-    Object.assign(this, { positions, normals, points });
+    this.positions = positions;
+    this.normals = normals;
+    this.points = points;
     this.corners = indices.slice(); // vertices of the triangles that are left
     this.alive = new Uint8Array(indices.length / 3).fill(1);
     const count = points.reduce((most, point) => Math.max(most, point + 1), 0);
@@ -116,6 +118,7 @@ class Work {
     return Math.abs(way);
   }
 
+  /** @param {number[]} corners */
   normal([i, j, k]) {
     const p = this.place;
     const [ux, uy, uz] = [0, 1, 2].map((c) => p[3 * j + c] - p[3 * i + c]);

@@ -27,7 +27,10 @@ export class Cube {
       this.solid.append(side);
     }
     this.frame.append(this.solid);
-    this.frame.addEventListener("click", ({ target }) => target.dataset.look && chosen(target.dataset.look));
+    this.frame.addEventListener("click", ({ target }) => {
+      const { look } = /** @type {HTMLElement} */ (target).dataset;
+      if (look) chosen(look);
+    });
     parent.append(this.frame);
   }
 

@@ -49,7 +49,17 @@ export function open(root, texts, emit) {
 
 class View {
   constructor(page, context, slow, emit) {
-    Object.assign(this, { page, slow, emit, playing: false, rate: 6, angle: 0, groupsOn: null, scene: null, selected: null });
+    this.page = page;
+    this.slow = slow;
+    this.emit = emit;
+    this.playing = false;
+    this.rate = 6;
+    this.angle = 0;
+    this.groupsOn = null;
+    this.scene = null;
+    this.selected = null;
+    this.width = 0;
+    this.height = 0;
     this.renderer = new THREE.WebGLRenderer({ canvas: page.canvas, context });
     this.renderer.debug.checkShaderErrors = false;
     this.renderer.info.autoReset = true;
@@ -81,7 +91,7 @@ class View {
 
   listen() {
     const { canvas, root } = this.page;
-    const goTo = ({ detail }) => this.goTo(detail.angle);
+    const goTo = (/** @type {Event} */ event) => this.goTo(/** @type {CustomEvent} */ (event).detail.angle);
     const lost = (event) => {
       event.preventDefault();
       this.page.say(this.page.texts.lost);
@@ -128,7 +138,7 @@ class View {
     this.areas.show(scene.areas);
     this.arrows.show(scene.arrows, this.motion, scene.size);
     this.labels.show(scene.labels);
-    this.modes.show(scene.modes, this.motion);
+    this.modes.show(scene.modes);
     this.bodies.haunt(this.modes.whirls);
     this.switch();
     clearTimeout(this.laying);

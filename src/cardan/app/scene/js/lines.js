@@ -62,7 +62,8 @@ const QUAD = { corners: [-1, 0, 0, 1, 0, 0, -1, 1, 0, 1, 1, 0], indices: [0, 1, 
 
 export class Lines {
   constructor(tracks, { order = 3, hidden = true } = {}) {
-    Object.assign(this, { order, hidden });
+    this.order = order;
+    this.hidden = hidden;
     this.tracks = tracks; // of the scene; lines hang in them
     this.screen = { value: new THREE.Vector2(1, 1) };
     this.period = { value: 1 };

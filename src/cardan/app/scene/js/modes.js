@@ -23,8 +23,9 @@ export class Modes {
   choose(index) {
     this.index = index;
     this.chosen = this.all[index] ?? null;
+    /** @type {[number, Float32Array][]} */
     this.turns = Object.entries(this.chosen?.turns ?? {}).map(([track, turn]) => [
-      track,
+      Number(track),
       typeof turn === "string" ? floats(turn) : Float32Array.from(turn),
     ]);
     if (this.chosen) this.curves.show(this.chosen.curves, this.chosen.frames);

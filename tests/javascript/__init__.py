@@ -1,0 +1,1 @@
+"""What checks the scripts of the app: types, lint, tests without a browser."""
