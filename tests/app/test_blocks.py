@@ -1,7 +1,10 @@
 """Pages of the report as HTML: everything a user wrote is escaped, numbers keep their place, signs and full figures."""
 
+import re
 from html.parser import HTMLParser
+from pathlib import Path
 
+import nicegui
 import pytest
 
 from cardan.app.parts.blocks import _placed, block_html, cell_html, drawn_in_space, table_html
@@ -140,3 +143,16 @@ def test_every_colour_of_figures_has_one_for_dark_pages():
     half = len(bright) // 2
     curves = [k for k, colour in enumerate(DARK) if colour in SHAFTS]
     assert all(bright[k + half] > bright[k] for k in curves)
+
+
+KNOWN = ("3.1.",)
+"""Versions of plotly.js whose inner parts `chart.js` knows, see docs/decisions/0023."""
+
+
+def test_the_plotly_that_nicegui_ships_is_one_whose_inner_parts_the_charts_know():
+    shipped = Path(nicegui.__file__).parent / "elements" / "plotly" / "dist" / "index.js"
+    version = re.findall(r'version="(\d+\.\d+\.\d+)"', shipped.read_text("utf-8"))[0]
+    assert version.startswith(KNOWN), (
+        f"NiceGUI ships plotly.js {version}; chart.js moves curves in the SVG of {', '.join(KNOWN)}x: "
+        "run tests/app/test_seen.py and tests/app/test_access.py with it, then add it to KNOWN"
+    )

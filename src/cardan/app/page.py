@@ -186,7 +186,7 @@ def example_picture(name: str) -> str:
     if name not in example_names():
         return ""
     drive = example(name)
-    return inline_svg(space_figure(drive, solids(sized(drive)), name="sketch"))
+    return inline_svg(space_figure(drive, solids(sized(drive)), name="sketch", named=False))
 
 
 def kept_choices(cookies: Mapping[str, str]) -> Mapping[str, Any]:
@@ -278,6 +278,7 @@ def build(session: Session, jobs: Jobs, keep: Callable[[Kept], None]) -> None:
     ui.colors(primary="#1f4e8c", positive="#1b7f4b", negative="#b3261e", warning="#9a5b00")
     dark = ui.dark_mode({"auto": None, "light": False, "dark": True}[session.choices.theme])
     ui.query("body").classes("cardan")
+    _frame().tag = "div"  # Quasar's would be the main part, which the page has of its own
     _tell_browser(session)
 
     def chosen() -> None:
@@ -318,6 +319,14 @@ def build(session: Session, jobs: Jobs, keep: Callable[[Kept], None]) -> None:
     )
     if session.notice:
         ui.notify(session.notice, type="negative", timeout=0, close_button=_("Close"))
+
+
+def _frame() -> ui.element:
+    """Return what NiceGUI puts a page into."""
+    slot = ui.context.client.content.parent_slot
+    assert slot is not None
+    slot.parent.update()
+    return slot.parent
 
 
 def _tell_browser(session: Session) -> None:

@@ -71,8 +71,12 @@ def views_figure(drive: Drive, seen: Solids) -> Figure:
     )
 
 
-def space_figure(drive: Drive, seen: Solids, *, name: str = "space") -> Figure:
-    """Return the view in space."""
+def space_figure(drive: Drive, seen: Solids, *, name: str = "space", named: bool = True) -> Figure:
+    """Return the view in space.
+
+    named: with the numbers of joints and shafts and the directions of x, y and z; not for a picture so small that
+    nobody could read them.
+    """
     meshes = _meshes(seen)
     sheet = _sheet(SPACE, meshes, 3.6)
     return Figure(
@@ -83,7 +87,10 @@ def space_figure(drive: Drive, seen: Solids, *, name: str = "space") -> Figure:
         ),
         source=_("Geometry: plain vectors through the joint centres"),
         rows=(
-            Row(panels=(_view(drive, seen, meshes, sheet, sheet.inch, ""),), height=max(1.3, sheet.height(sheet.inch))),
+            Row(
+                panels=(_view(drive, seen, meshes, sheet, sheet.inch, "", named=named),),
+                height=max(1.3, sheet.height(sheet.inch)),
+            ),
         ),
         legend=False,
     )
@@ -127,12 +134,23 @@ def _meshes(seen: Solids) -> tuple[Mesh, ...]:
     )
 
 
-def _view(drive: Drive, seen: Solids, meshes: Sequence[Mesh], sheet: _Sheet, inch: float, title: str) -> Panel:
+def _view(
+    drive: Drive,
+    seen: Solids,
+    meshes: Sequence[Mesh],
+    sheet: _Sheet,
+    inch: float,
+    title: str,
+    *,
+    named: bool = True,
+) -> Panel:
     """Return a panel; one without a title has no frame either, but the directions of x, y and z."""
     middle, half = 0.5 * (sheet.left + sheet.right), 0.5 * WIDE * inch
     low, high = sheet.low - MARGIN * inch, sheet.high + MARGIN * inch
-    series: list[Series] = [*meshes, *_labels(drive, seen, sheet.view, 72.0 / inch)]
-    if not title:
+    series: list[Series] = list(meshes)
+    if named:
+        series += _labels(drive, seen, sheet.view, 72.0 / inch)
+    if named and not title:
         series += _triad(sheet.view, np.asarray([sheet.left, low]), inch)
     x, y = _axis(middle - half, middle + half, 8), _axis(low, high, 4)
     return Panel(series=tuple(series), x=x, y=y, title=title, equal=True, bare=not title, view=sheet.view)

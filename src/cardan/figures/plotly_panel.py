@@ -13,9 +13,12 @@ from cardan.units import label as printed
 
 from . import palette
 from .figure import Axis, Band, Bars, Cells, Curve, Mesh, Note, Panel, Rule, Series, Shape
-from .page import Box, Page, facets, onto, ranges
+from .page import Box, Label, Page, facets, labels, onto, ranges
 
 Spec: TypeAlias = dict[str, Any]
+
+LEAST_LETTER = 12.0  # pixels of the letters of a note at least
+LINE = 15.0  # pixels of a line of the words beside upright rules
 
 _DASHES = {"solid": "solid", "dashed": "dash", "dotted": "dot", "dashdot": "dashdot"}
 _SIDES = {"left": "left", "centre": "center", "right": "right"}
@@ -60,6 +63,8 @@ class PanelWriter:
             self.layout[f"scene{self.tail}"] = scene(self.panel, self.box, self.across, self.upright)
         else:
             self._axes()
+        if self.panel.equal:
+            self.layout["meta"]["equal"].append(self.tail)
         if self.panel.heading:
             place = {"x": self.across[0], "y": self.upright[1], "xref": "paper", "yref": "paper"}
             how = {"xanchor": "left", "yanchor": "bottom", "showarrow": False, "font": {"size": 12.5}}
@@ -67,7 +72,9 @@ class PanelWriter:
         meshes = [item for item in self.panel.series if isinstance(item, Mesh)]
         if meshes and not self.space:
             self._faces(meshes)
-        for item in self.panel.series:
+        beside = {} if self.space else labels(self.panel, self.box)
+        for k, item in enumerate(self.panel.series):
+            self.label = beside.get(k, Label())
             if self.space:
                 traces, words = in_space(item, f"scene{self.tail}", self.reach)
                 self.data.extend(traces)
@@ -187,7 +194,7 @@ class PanelWriter:
         place = {"x": x, "y": y, "xref": f"x{self.tail}", "yref": f"y{self.tail}"}
         sides = {"xanchor": _SIDES[item.side], "yanchor": item.level}
         shift = {"xshift": 1.5 * item.shift[0], "yshift": 1.5 * item.shift[1], "showarrow": False}
-        font = {"size": 1.45 * item.size, "color": palette.colour(item.role)}
+        font = {"size": max(LEAST_LETTER, 1.45 * item.size), "color": palette.colour(item.role)}
         self.layout["annotations"].append({"text": _marked(item), **place, **sides, **shift, "font": font})
 
     def _shape(self, item: Rule | Band, low: float, high: float, **how: Any) -> None:
@@ -201,7 +208,9 @@ class PanelWriter:
             at = float(np.log10(high)) if log else high
             x, y, side, level = (at, 1.0, "left", "top") if item.upright else (1.0, at, "right", "bottom")
             font = {"size": 12, "color": palette.colour(item.role)}
-            place = {"x": x, "y": y, **here, "xanchor": side, "yanchor": level}
+            if item.upright and self.label.before:
+                side = "right"
+            place = {"x": x, "y": y, **here, "xanchor": side, "yanchor": level, "yshift": -LINE * self.label.line}
             self.layout["annotations"].append({"text": escape(item.text), "showarrow": False, "font": font, **place})
 
     def _faces(self, meshes: Sequence[Mesh]) -> None:

@@ -95,14 +95,9 @@ def described(figure: Figure) -> Spec:
             "legend": {"orientation": "h", "x": 0.0, "xanchor": "left", "y": 1.0, "yanchor": "top"},
             "shapes": [],
             "annotations": [],
-            # Tails of the axes, as in "xaxis2", along which the input angle runs, and along which the time of a
-            # movement does; whether circles must stay round, and at which width they do.
-            "meta": {
-                "turning": [],
-                "timed": [],
-                "equal": any(panel.equal for panel in figure.panels),
-                "width": page.width * INCH,
-            },
+            # Tails of the axes, as in "xaxis2", along which the input angle runs, along which the time of a movement
+            # does, and where circles must stay round; the width at which it is laid out.
+            "meta": {"turning": [], "timed": [], "equal": [], "width": page.width * INCH},
         },
     }
     shown: set[str] = set()

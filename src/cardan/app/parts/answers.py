@@ -325,6 +325,7 @@ class Progress:
         self.body = ui.element("div").classes("progress").props("role=group")
         with self.body, ui.element("div").classes("box"):
             self._bar = ui.linear_progress(value=0.0, show_value=False).props("instant-feedback rounded size=6px")
+            self._bar.props(f'aria-label="{_("progress of the calculation")}"')
             self._said = ui.label()
             self._stop = (
                 ui.button(_("cancel"), on_click=cancel).props("flat dense no-caps size=sm").props('data-mark="cancel"')

@@ -30,7 +30,7 @@ BUTTONS = "(event) => { const one = event.target.closest('[data-do]'); if (one) 
 
 def words_html(block: Words) -> str:
     """Return a paragraph; with a tone a remark with its sign."""
-    title = f"<h4>{escaped(block.title)}</h4>" if block.title else ""
+    title = f"<h3>{escaped(block.title)}</h3>" if block.title else ""
     if block.tone == "plain":
         return f"{title}<p>{escaped(block.text)}</p>"
     sign = f'<span class="sign" aria-hidden="true">{block.sign}</span>'
@@ -40,12 +40,12 @@ def words_html(block: Words) -> str:
 def points_html(block: Points) -> str:
     """Return a list of short remarks."""
     items = "".join(f"<li>{escaped(item)}</li>" for item in block.items)
-    return f"<h4>{escaped(block.title)}</h4><ul>{items}</ul>"
+    return f"<h3>{escaped(block.title)}</h3><ul>{items}</ul>"
 
 
 def listing_html(block: Listing) -> str:
     """Return text as it stands in a file."""
-    return f"<h4>{escaped(block.title)}</h4><pre>{escaped(block.text)}</pre>"
+    return f"<h3>{escaped(block.title)}</h3><pre>{escaped(block.text)}</pre>"
 
 
 def cell_html(cell: Cell, *, left: bool, button: str = "") -> str:
@@ -84,10 +84,12 @@ def table_html(block: Table, buttons: Mapping[str, str] | None = None) -> str:
             for k, (column, cell) in enumerate(zip(block.columns, row, strict=True))
         ]
         rows.append(f"<tr>{''.join(cells)}</tr>")
-    title = f"<h4>{escaped(block.title)}</h4>" if block.title else ""
+    title = f"<h3>{escaped(block.title)}</h3>" if block.title else ""
     note = f'<p class="small">{escaped(block.note)}</p>' if block.note else ""
     head, body = f"<thead><tr>{''.join(heads)}</tr></thead>", f"<tbody>{''.join(rows)}</tbody>"
-    return f'{title}<div class="wide"><table>{head}{body}</table></div>{note}'
+    name = escaped(block.title or _("table"))
+    table = f'<div class="wide" role="group" tabindex="0" aria-label="{name}"><table>{head}{body}</table></div>'
+    return f"{title}{table}{note}"
 
 
 def block_html(block: Block, buttons: Mapping[str, str] | None = None) -> str:
@@ -141,7 +143,7 @@ class Drawn:
         self.figure = block.figure
         with ui.element("figure").classes("block") as self.element:
             with ui.element("div").classes("heading"):
-                self.title = Live(escaped(self.figure.title)).classes("title")
+                self.title = Live(escaped(self.figure.title), tag="h3").classes("title")
                 if export is not None:
                     button = ui.button(icon="download", on_click=lambda: export(self.figure))
                     button.props(f'flat dense round size=sm aria-label="{_("save this figure")}"').props(
@@ -231,7 +233,7 @@ def _placed(blocks: Sequence[Block], buttons: Mapping[str, str]) -> list[Mapping
 # A figure as a chart to point at and to zoom, updated in place.
 
 
-class Chart(Element, component="chart.js"):
+class Chart(Element, component="chart.js", esm={"cardan-charts": "charts"}):
     """A figure that can be pointed at.
 
     Curves over the input angle show where the drive stands: the window's event ``cardan-angle`` with ``detail.angle``
@@ -241,7 +243,7 @@ class Chart(Element, component="chart.js"):
     def __init__(self, figure: Figure) -> None:
         super().__init__()
         # Within a tuple NiceGUI does not watch every number of it, which takes longer than the motion of the drive.
-        self._props.update(dark=DARK, label=figure.spoken, spec=(described(figure),))
+        self._props.update(dark=DARK, words=_buttons(), label=figure.spoken, spec=(described(figure),))
 
     def show(self, figure: Figure) -> None:
         """Show another figure in its place; what the user zoomed stays zoomed."""
@@ -252,6 +254,17 @@ class Chart(Element, component="chart.js"):
         with self._props.suspend_updates():
             self._props.update(spec=(spec,), label=label)
         self.run_method("change", json.dumps({"label": label, **change}, ensure_ascii=False, separators=(",", ":")))
+
+
+def _buttons() -> dict[str, str]:
+    """Return what the buttons of a chart say, by the words of plotly."""
+    return {
+        "Zoom": _("zoom"),
+        "Pan": _("move"),
+        "Zoom in": _("zoom in"),
+        "Zoom out": _("zoom out"),
+        "Reset axes": _("show all of it"),
+    }
 
 
 def changed(before: Mapping[str, Any], after: Mapping[str, Any]) -> dict[str, Any]:

@@ -2,11 +2,13 @@
 // Curves over the input angle have a cursor: the window's "cardan-angle" moves it, pressing on the chart sends
 // "cardan-go-to". The cursor is a line of the page, moved by a transform alone: nothing is drawn anew while it moves.
 // Curves that an edit moves are drawn at once between the axes there are; plotly follows when the user is quiet.
+import { fitted } from "cardan-charts";
 import { toRaw } from "vue";
 
 const CONFIG = {
   displaylogo: false,
   responsive: false,
+  locale: "own",
   modeBarButtonsToRemove: ["lasso2d", "select2d", "toImage", "autoScale2d"],
 };
 const TURN = 360;
@@ -25,6 +27,16 @@ function darkened(thing, colours, rgb) {
   if (Array.isArray(thing)) return typeof thing[0] === "number" ? thing : thing.map((one) => darkened(one, colours, rgb));
   if (thing === null || typeof thing !== "object") return thing;
   return Object.fromEntries(Object.entries(thing).map(([key, one]) => [key, darkened(one, colours, rgb)]));
+}
+
+const sheet = document.createElement("canvas").getContext("2d");
+
+// Return what tells how wide a text is.
+function ruler({ family, size }) {
+  return (text) => {
+    sheet.font = `bold ${size}px ${family}`;
+    return sheet.measureText(text).width;
+  };
 }
 
 // Return the numbers that bytes in base 64 are.
@@ -47,9 +59,9 @@ function curve(across, heights, x, y) {
 }
 
 export default {
-  template: `<div class="cardan-chart" tabindex="0" role="img" @keydown="key">
+  template: `<div class="cardan-chart" tabindex="0" role="group" @keydown="key">
     <div ref="plot" class="plot"></div><div ref="cursors" class="cursors" aria-hidden="true"></div></div>`,
-  props: { spec: Array, label: String, dark: Object }, // spec: the one description, in a list
+  props: { spec: Array, label: String, dark: Object, words: Object }, // spec: the one description, in a list
   watch: {
     spec() {
       this.take();
@@ -127,15 +139,19 @@ export default {
     },
     dress(label) {
       const { meta, height } = this.held.layout;
-      this.$refs.plot.style.minHeight = meta.equal ? "" : `${height}px`;
+      this.$refs.plot.style.minHeight = meta.equal.length ? "" : `${height}px`;
       this.$el.setAttribute("aria-label", label);
+    },
+    // Lines and numbers of a drawing say less to the ear than its label does.
+    hush() {
+      for (const one of this.$refs.plot.querySelectorAll("svg.main-svg")) one.setAttribute("aria-hidden", "true");
     },
     // Show another state of the figure: the bytes of the `heights` of curves by their places, else all `data`; `layout` if it is another.
     change(text) {
       const { label, heights, data, layout } = JSON.parse(text);
       if (data) this.held.data = data;
-      const curves = Object.entries(heights ?? {}).map(([place, bytes]) => [+place, numbers(bytes)]);
-      for (const [place, y] of curves) this.held.data[place] = { ...this.held.data[place], y };
+      const curves = Object.entries(heights ?? {}).map(([place, bytes]) => ({ place: +place, y: numbers(bytes) }));
+      for (const { place, y } of curves) this.held.data[place] = { ...this.held.data[place], y };
       if (layout) this.held.layout = layout;
       this.dress(label);
       clearTimeout(this.waiting);
@@ -151,7 +167,7 @@ export default {
         const trace = one.__data__?.[0]?.trace;
         if (trace) drawn.set(trace.index, { trace, path: one.querySelector("path.js-line") });
       }
-      return curves.every(([place, heights]) => {
+      return curves.every(({ place, y: heights }) => {
         const { trace, path } = drawn.get(place) ?? {};
         if (!trace) return this.held.data[place].visible === "legendonly";
         const [x, y] = [whole[trace.xaxis.replace("x", "xaxis")], whole[trace.yaxis.replace("y", "yaxis")]];
@@ -170,26 +186,30 @@ export default {
         layout = darkened(layout, this.dark, this.rgb);
       }
       const turns = this.courses();
-      const size = this.size();
-      const looks = { paper_bgcolor: "rgba(0,0,0,0)", uirevision: "kept", autosize: false, ...size };
       const plot = this.$refs.plot;
       const dragmode = turns.length ? false : "zoom";
+      const looks = { paper_bgcolor: "rgba(0,0,0,0)", uirevision: "kept", autosize: false, dragmode };
+      const config = { ...CONFIG, locales: { own: { dictionary: this.words, format: {} } } };
+      const fit = () => fitted({ data, layout }, this.$el.clientWidth || 600, ruler(layout.font), this.legend);
+      const drawn = (one) => this.Plotly.react(plot, data, { ...one, ...looks }, config);
       this.drawing = true;
-      await this.Plotly.react(plot, data, { ...layout, ...looks, dragmode }, CONFIG).finally(() => (this.drawing = false));
+      try {
+        const one = fit();
+        await drawn(one);
+        this.legend = plot.querySelector("g.legend")?.getBoundingClientRect().height;
+        const other = fit();
+        if (other.height !== one.height && !this.gone) await drawn(other);
+      } finally {
+        this.drawing = false;
+      }
+      if (this.gone) return;
+      this.hush();
       if (!this.afterplot && plot.on) {
         this.afterplot = true;
         plot.on("plotly_afterplot", this.measure);
       }
       plot.style.touchAction = turns.length ? "pan-y" : "";
       this.measure();
-    },
-    // Return the size to draw at: as wide as there is room; where circles are to stay round as high as that asks for.
-    size() {
-      const { height, meta } = this.held.layout;
-      const room = this.$el.clientWidth || 600;
-      if (!meta.equal) return { width: room, height };
-      const share = Math.min(1, room / meta.width);
-      return { width: share * meta.width, height: share * height };
     },
     // Note where the panels stand, so that the cursor needs no look at the page while it moves.
     measure() {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from cardan.texts import _
 from . import widgets
 from .answers import Sheet
 from .blocks import Export, PageView
-from .widgets import drop_down, sending
+from .widgets import drop_down, menu_item, sending
 
 MOST_PULSES = 10_000  # pulses that a tacho gives in a turn at most
 
@@ -66,11 +67,10 @@ class Diagnosis(Sheet):
             with drop_down(_("Open a recording"), "recording-open", icon="folder_open"):
                 recordings = self.session.recordings
                 for name in recordings.names():
-                    ui.item(name, on_click=lambda name=name: self._open(lambda: recordings.open(name)))
+                    menu_item(name, partial(self._open, partial(recordings.open, name)))
                 ui.item_label(_("Examples, of the drive truck-supports")).props("header")
                 for name in recording_names():
-                    item = ui.item(name, on_click=lambda name=name: self._open(lambda: recordings.open_example(name)))
-                    item.props(f'data-mark="recording-{name}"')
+                    menu_item(name, partial(self._open, partial(recordings.open_example, name)), f"recording-{name}")
             said = opened.name if opened is not None else ""
             ui.label(said).classes("head").props('role=status data-mark="recording-name"')
             if opened is None:

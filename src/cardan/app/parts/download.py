@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
+from functools import partial
 from typing import Any, TypeAlias
 
 from nicegui import ui
@@ -18,7 +19,7 @@ from cardan.report.render.exports import Exported, kinds
 from cardan.texts import _
 
 from . import widgets as toasts
-from .widgets import asking, drop_down
+from .widgets import asking, drop_down, menu_item
 
 # A paper on its way: how far it is, a button to stop it, and what becomes of it.
 
@@ -42,6 +43,7 @@ class Making:
         with asking("making", names="dialog making") as self.dialog:
             ui.label(title).classes("head")
             self._bar = ui.linear_progress(value=0.0, show_value=False).props("instant-feedback rounded size=6px")
+            self._bar.props["aria-label"] = title
             self._said = ui.label(_("It is being made …")).props("role=status")
             with ui.row().classes("ends"):
                 self._stop = ui.button(_("Cancel"), on_click=self.dialog.close).props("flat no-caps autofocus")
@@ -127,11 +129,11 @@ class ReportMenu:
         self.snapshot: Snapshot | None = None
         with drop_down(_("Report"), "report-menu"):
             for form, title in _forms().items():
-                ui.item(title, on_click=lambda form=form: self.report(form)).props(f'data-mark="report-{form}"')
+                menu_item(title, partial(self.report, form), f"report-{form}")
             ui.separator()
-            ui.item(_("Drive file (TOML)"), on_click=self.toml).props('data-mark="drive-toml"')
-            ui.item(_("Drive as data (JSON)"), on_click=self.json).props('data-mark="drive-json"')
-            ui.item(_("What the view shows (PNG)"), on_click=self.picture).props('data-mark="view-png"')
+            menu_item(_("Drive file (TOML)"), self.toml, "drive-toml")
+            menu_item(_("Drive as data (JSON)"), self.json, "drive-json")
+            menu_item(_("What the view shows (PNG)"), self.picture, "view-png")
 
     def report(self, form: papers.Form) -> None:
         """Make the report of the drive in a form and give it to the browser."""

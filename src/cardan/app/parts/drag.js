@@ -1,6 +1,8 @@
 // Plan and side view of a drive: its points can be dragged, or moved with the arrow keys.
 // Coordinates are millimetres of the drive; the server is told where a point is to be and sends the drive back.
 
+const GRIP = 2.8; // times as large as a point is what a finger may touch of it
+
 export default {
   template: `
     <div class="drag-views">
@@ -9,13 +11,14 @@ export default {
         <svg :ref="view.name" :viewBox="box(view)" preserveAspectRatio="xMidYMid meet" role="group" :aria-label="view.title">
           <polyline :points="line(view)" fill="none" class="axis" vector-effect="non-scaling-stroke" />
           <g v-for="point in points" :key="point.path">
-            <circle :cx="point.at[0]" :cy="-point.at[view.up]" :r="dot(view)" tabindex="0" role="slider"
-              :class="{ end: point.end, selected: point.path === selected }"
+            <circle :cx="point.at[0]" :cy="-point.at[view.up]" :r="grip(view)" tabindex="0" role="slider"
               :aria-label="point.name" :aria-valuetext="told(point)" :data-path="point.path"
               @pointerdown.prevent="grab($event, point, view)" @pointermove="drag($event, view)"
               @pointerup="drop" @pointercancel="drop" @keydown="key($event, point, view)"
-              vector-effect="non-scaling-stroke"><title>{{ point.name }} {{ told(point) }}</title></circle>
-            <text :x="point.at[0]" :y="-point.at[view.up] - 1.6 * dot(view)" :font-size="1.5 * dot(view)"
+              ><title>{{ point.name }} {{ told(point) }}</title></circle>
+            <ellipse :cx="point.at[0]" :cy="-point.at[view.up]" :rx="dot(view)" :ry="dot(view)"
+              :class="{ end: point.end, selected: point.path === selected }" vector-effect="non-scaling-stroke" />
+            <text :x="point.at[0]" :y="-point.at[view.up] - 1.6 * dot(view)" :font-size="2.6 * dot(view)"
               text-anchor="middle">{{ point.short }}</text>
           </g>
         </svg>
@@ -49,6 +52,9 @@ export default {
     },
     line(view) {
       return this.points.map((point) => `${point.at[0]},${-point.at[view.up]}`).join(" ");
+    },
+    grip(view) {
+      return GRIP * this.dot(view);
     },
     dot(view) {
       return 0.022 * (this.frozen?.[view.name] ?? this.extent(view))[2];

@@ -17,7 +17,7 @@ from cardan.texts import _
 from cardan.units import label
 
 from . import widgets as toasts
-from .widgets import drop_down
+from .widgets import drop_down, menu_item
 
 SLICE = 30  # tables that are built at a time
 PAUSE = 0.02  # seconds between them
@@ -104,7 +104,7 @@ class Form:
             with drop_down(_("add"), "add", icon="add"):
                 for name, title in names.items():
                     add = self._add_joint if name == "joints" else partial(self._add, name)
-                    ui.item(title, on_click=lambda add=add: add()).props(f'data-mark="add-{name}"')
+                    menu_item(title, add, f"add-{name}")
 
     def _add_joint(self) -> None:
         tree = self.session.document.tree or {}
@@ -274,7 +274,7 @@ class Table:
 
 
 def _tool(icon: str, title: str, act: Callable[[], None]) -> None:
-    ui.button(icon=icon, on_click=act).props(f'flat dense round size=sm aria-label="{title}"').tooltip(title)
+    ui.button(icon=icon, on_click=act).props(f'flat dense round size=sm aria-label="{title}" title="{title}"')
 
 
 def _shape(now: Section) -> tuple[Any, ...]:
@@ -345,7 +345,7 @@ class KeyField:
         with ui.element("div").classes("key").props(f'data-mark="key-{entry.key()}"') as self.row:
             with ui.element("div").classes("line"):
                 name = ui.label(entry.name.replace("_", " ")).classes("name")
-                name.tooltip(entry.doc)
+                name.props["title"] = entry.doc
                 self.widget = self._widget()
                 self._unit()
                 if removable and not entry.required:

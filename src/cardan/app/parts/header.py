@@ -21,7 +21,7 @@ from cardan.units import DIMENSIONS, label
 from . import widgets as toasts
 from .blocks import PageView
 from .download import Exports, Making, ReportMenu
-from .widgets import Timer, asking, drop_down, pop_up, sending
+from .widgets import Live, Timer, asking, drop_down, menu_item, pop_up, sending
 
 LOOK = 2.0  # seconds between two looks whether somebody else changed the file
 
@@ -37,6 +37,7 @@ class Header:
         with ui.element("header").classes("top"):
             ui.link(_("Skip to the drive"), "#main").classes("skip").props('data-mark="skip"')
             ui.link("cardan", "/").classes("brand")
+            self.title = Live(tag="h1").classes("unseen") if not session.empty else None
             self.name = ui.label().classes("name").props('data-mark="file-name"').props("role=status")
             ui.element("div").classes("gap")
             if not session.empty:
@@ -60,6 +61,8 @@ class Header:
         if foreign:
             state = _("changed on the disk")
         name = visible(session.name) or _("new drive")
+        if self.title is not None:
+            self.title.say(name)
         self.name.set_text(f"{name} {'○' if session.saved and not foreign else '●'} {state}")
         self.disk.set_visibility(foreign)
         if foreign:
@@ -95,14 +98,14 @@ class Header:
 
     def _files(self) -> None:
         with drop_down(_("File"), "file-menu"):
-            ui.item(_("New"), on_click=lambda: self._leave(lambda: self.session.open(starter(), saved=False)))
-            ui.item(_("Open …"), on_click=lambda: self.open()).props('data-mark="file-open"')
-            ui.item(_("Send a file …"), on_click=lambda: self.send()).props('data-mark="file-send"')
+            menu_item(_("New"), lambda: self._leave(lambda: self.session.open(starter(), saved=False)), "file-new")
+            menu_item(_("Open …"), self.open, "file-open")
+            menu_item(_("Send a file …"), self.send, "file-send")
             if not self.session.empty:
-                ui.item(_("Save"), on_click=lambda: self.save()).props('data-mark="file-save"')
-                ui.item(_("Save as …"), on_click=lambda: self.save_as()).props('data-mark="file-save-as"')
-                ui.item(_("Download"), on_click=lambda: self.download()).props('data-mark="file-download"')
-            ui.item(_("Examples"), on_click=lambda: self._leave(lambda: self.session.open("")))
+                menu_item(_("Save"), self.save, "file-save")
+                menu_item(_("Save as …"), self.save_as, "file-save-as")
+                menu_item(_("Download"), self.download, "file-download")
+            menu_item(_("Examples"), lambda: self._leave(lambda: self.session.open("")), "file-examples")
 
     def _leave(self, then: Callable[[], object]) -> None:
         """Do what leaves the present file, after a question where it is not saved."""
@@ -158,6 +161,7 @@ class Header:
         session = self.session
         with session.speaking(), asking("save-file-as") as dialog:
             proposed = session.name or session.workspace.free(session.example or "drive")
+            ui.label(_("Save as …")).classes("head")
             name = ui.input(_("name"), value=proposed).props('autofocus outlined dense data-mark="save-name"')
 
             def named() -> None:
@@ -232,9 +236,8 @@ def _of_folder(session: Session, dialog: ui.dialog, taken: Callable[[str], None]
 
 
 def _button(icon: str, title: str, act: Callable[[], None]) -> ui.button:
-    button = ui.button(icon=icon, on_click=act).props(f'flat dense round aria-label="{title}" data-mark="{icon}"')
-    button.tooltip(title)
-    return button
+    button = ui.button(icon=icon, on_click=act).props(f'flat dense round data-mark="{icon}"')
+    return button.props(f'aria-label="{title}" title="{title}"')
 
 
 # How the user likes to see things: language, light or dark, units, decimal sign.
@@ -255,33 +258,32 @@ class SettingsMenu:
                 if code == session.choices.language:
                     button.classes("on").props("aria-pressed=true")
         title = _("How to show it")
-        with ui.button(icon="tune").props(f'flat dense round aria-label="{title}"').props('data-mark="settings"'):
-            ui.tooltip(title)
-            with pop_up(), ui.element("div").classes("settings"):
-                themes = {"auto": _("as the system"), "light": _("light"), "dark": _("dark")}
-                ui.label(_("Page")).classes("head")
-                ui.toggle(
-                    themes, value=session.choices.theme, on_change=lambda event: session.choose(theme=event.value)
-                ).props("dense no-caps flat").props('data-mark="theme"')
-                ui.label(_("Decimal sign")).classes("head")
-                ui.toggle(
-                    {".": "1.5", ",": "1,5"},
-                    value=session.reader.sign,
-                    on_change=lambda event: session.choose(decimal=event.value),
-                ).props("dense no-caps flat").props('data-mark="decimal"')
-                ui.label(_("Units of the answers")).classes("head")
-                for dimension, title in _dimensions().items():
-                    options = {unit: label(unit) or unit for unit in DIMENSIONS[dimension]}
-                    usual = next(iter(options))
-                    with ui.element("div").classes("line"):
-                        ui.label(title).classes("name")
-                        ui.select(
-                            options,
-                            value=session.choices.units.get(dimension, usual),
-                            on_change=lambda event, dimension=dimension: self._unit(dimension, event.value),
-                        ).props(f'dense options-dense borderless aria-label="{title}" title="{title}"').props(
-                            f'data-mark="unit-{dimension}"'
-                        )
+        button = ui.button(icon="tune").props(f'flat dense round aria-label="{title}" title="{title}"')
+        with button.props('data-mark="settings"'), pop_up(title), ui.element("div").classes("settings"):
+            themes = {"auto": _("as the system"), "light": _("light"), "dark": _("dark")}
+            ui.label(_("Page")).classes("head")
+            ui.toggle(
+                themes, value=session.choices.theme, on_change=lambda event: session.choose(theme=event.value)
+            ).props("dense no-caps flat").props('data-mark="theme"')
+            ui.label(_("Decimal sign")).classes("head")
+            ui.toggle(
+                {".": "1.5", ",": "1,5"},
+                value=session.reader.sign,
+                on_change=lambda event: session.choose(decimal=event.value),
+            ).props("dense no-caps flat").props('data-mark="decimal"')
+            ui.label(_("Units of the answers")).classes("head")
+            for dimension, title in _dimensions().items():
+                options = {unit: label(unit) or unit for unit in DIMENSIONS[dimension]}
+                usual = next(iter(options))
+                with ui.element("div").classes("line"):
+                    ui.label(title).classes("name")
+                    ui.select(
+                        options,
+                        value=session.choices.units.get(dimension, usual),
+                        on_change=lambda event, dimension=dimension: self._unit(dimension, event.value),
+                    ).props(f'dense options-dense borderless aria-label="{title}" title="{title}"').props(
+                        f'data-mark="unit-{dimension}"'
+                    )
 
     def _unit(self, dimension: str, unit: str) -> None:
         kept = {one: held for one, held in self.session.choices.units.items() if one != dimension}
@@ -307,7 +309,7 @@ class VariantsMenu:
         self.session = session
         self._jobs = jobs
         with (
-            drop_down(_("Variants"), "variants-menu").on("before-show", self._mark_own) as self._button,
+            drop_down(_("Variants"), "variants-menu", role="dialog").on("before-show", self._mark_own) as self._menu,
             ui.element("div").classes("variants"),
         ):
             self._act("bookmark_add", _("Keep this as a variant …"), self.keep, "keep")
@@ -345,7 +347,9 @@ class VariantsMenu:
 
     def _count(self) -> None:
         count = len(self.session.variants)
-        self._button.props["label"] = f"{_('Variants')} ({count})" if count else _("Variants")
+        slot = self._menu.parent_slot
+        assert slot is not None
+        slot.parent.props["label"] = f"{_('Variants')} ({count})" if count else _("Variants")
         self._filled()
 
     def _filled(self) -> None:
@@ -444,6 +448,7 @@ class VariantsMenu:
         """Ask for a name."""
         with asking("variant-naming") as dialog:
             ui.label(title).classes("head")
+            ui.label(_("Save as …")).classes("head")
             name = ui.input(_("name"), value=proposed).props(
                 f'autofocus outlined dense maxlength={LONGEST} data-mark="variant-name"'
             )

@@ -100,7 +100,7 @@ class View:
             button = ui.button(title, on_click=lambda name=name: self.scene.view(name))
             button.props("flat dense no-caps size=sm").props(f'data-mark="look-{name}"')
         _tool("fit_screen", _("show all of it (F)"), "fit", self.scene.fit)
-        with drop_down(_("show"), "show", look="size=sm", closes=False):
+        with drop_down(_("show"), "show", role="dialog", closes=False):
             self.switches = ui.element("div").classes("switches")
         colours = {"shaft": _("by shaft"), "utilisation": _("by utilisation")}
         ui.select(colours, value="shaft", on_change=lambda event: self.scene.colour_by(event.value)).props(

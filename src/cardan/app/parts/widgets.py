@@ -153,16 +153,24 @@ class Apart:
 
 @contextmanager
 def asking(mark: str, *, names: str = "", role: str = "dialog", whole: bool = False) -> Iterator[ui.dialog]:
-    """Open a dialog with what is built within; it goes once it is closed.
+    """Open a dialog with what is built within, named by its first words; it goes once it is closed.
 
     names: classes of its look; role: what it is for readers of the screen.
     """
     with ui.context.client.content:
-        dialog = ui.dialog().props("maximized" if whole else "")
-        with dialog, ui.card().classes(names or "dialog").props(f'role={role} data-mark="{mark}"'):
+        dialog = ui.dialog().props("maximized" if whole else "").props(f"role={role}")
+        with dialog, ui.card().classes(names or "dialog").props(f'data-mark="{mark}"') as card:
             yield dialog
+        dialog.props["aria-label"] = next(one.text for one in card.descendants() if isinstance(one, ui.label))
         dialog.on("hide", dialog.delete)
         dialog.open()
+
+
+CHOOSE = (
+    '<q-btn flat no-caps icon="upload_file" class="full-width" label="{}" @click="props.pickFiles"></q-btn>'
+    '<div class="unseen" aria-hidden="true"><q-uploader-add-trigger></q-uploader-add-trigger></div>'
+)
+"""What a file is chosen by: Quasar's own button has its field within, which has no name."""
 
 
 def sending(
@@ -187,9 +195,9 @@ def sending(
             then()
 
         ui.label(title).classes("head")
-        ui.upload(on_upload=came, on_rejected=lambda: refused(larger), max_file_size=most, auto_upload=True).props(
-            f'accept={",".join(suffixes)} flat bordered data-mark="{upload}"'
-        )
+        took = ui.upload(on_upload=came, on_rejected=lambda: refused(larger), max_file_size=most, auto_upload=True)
+        took.props(f'accept={",".join(suffixes)} flat bordered data-mark="{upload}"')
+        took.add_slot("header", CHOOSE.format(escaped(_("Choose a file, or drop it here"))))
         ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
 
 
@@ -214,19 +222,25 @@ def done(what: str) -> None:
 # the next one, and closes a menu the user has just opened, or opens one that was closed.
 
 
-def drop_down(title: str, mark: str, *, icon: str = "", look: str = "", closes: bool = True) -> ui.element:
-    """Return a button with a menu below it; what is built within stands in the menu.
+def drop_down(title: str, mark: str, *, icon: str = "", role: str = "menu", closes: bool = True) -> ui.element:
+    """Return the menu below a button; what is built within it stands in the menu.
 
-    icon: name of the icon before the title, none if empty; look: more of the button's properties.
+    icon: name of the icon before the title, none if empty.
+    role: ``menu`` of `menu_item`s, ``dialog`` of other things; closes: after anything in it was pressed.
     """
-    button = ui.element("q-btn-dropdown").props("flat dense no-caps color=primary").props(look)
-    button.props["label"] = title
-    button.props["data-mark"] = mark
-    if icon:
-        button.props["icon"] = icon
-    return button.props("auto-close" if closes else "")
+    with ui.element("q-btn").props("flat dense no-caps color=primary icon-right=arrow_drop_down") as button:
+        button.props(f'data-mark="{mark}"' + (f" icon={icon}" if icon else ""))
+        button.props["label"] = title
+        menu = ui.element("q-menu").props(f"role={role}{' auto-close' if closes else ''}")
+    menu.props["aria-label"] = title
+    return menu
 
 
-def pop_up() -> ui.element:
+def menu_item(title: str, what: Callable[[], object], mark: str = "") -> None:
+    """Add an act to a menu."""
+    ui.item(title, on_click=lambda: what()).props(f'role=menuitem data-mark="{mark}"')
+
+
+def pop_up(title: str) -> ui.element:
     """Return a menu that opens when what it stands in is clicked, and stays while its content is used."""
-    return ui.element("q-menu").props("max-height=80vh")
+    return ui.element("q-menu").props(f'max-height=80vh role=dialog aria-label="{title}"')

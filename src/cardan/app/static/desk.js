@@ -33,8 +33,11 @@ function pointed(edge, event) {
 
 let dragged = null;
 
+// Return what an event is about, or what it stands in.
+const within = ({ target }, names) => /** @type {HTMLElement | null} */ (target instanceof Element ? target.closest(names) : null);
+
 addEventListener("pointerdown", (event) => {
-  const edge = event.target.closest?.(".edge");
+  const edge = within(event, ".edge");
   if (!edge || event.button !== 0) return;
   event.preventDefault();
   edge.focus();
@@ -46,7 +49,7 @@ addEventListener("pointerup", () => (dragged = null));
 addEventListener("pointercancel", () => (dragged = null));
 
 addEventListener("keydown", (event) => {
-  const edge = event.target.closest?.(".edge");
+  const edge = within(event, ".edge");
   const way = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 }[event.key];
   if (!edge || !way) return;
   event.preventDefault();
@@ -55,21 +58,32 @@ addEventListener("keydown", (event) => {
 });
 
 addEventListener("click", (event) => {
-  const button = event.target.closest?.(".enlarge");
+  const button = within(event, ".enlarge");
   if (!button) return;
-  const desk = button.closest(".desk");
+  const desk = /** @type {HTMLElement} */ (button.closest(".desk"));
   const name = button.closest(".pane").classList[1];
   const on = desk.dataset.whole !== name;
   if (on) desk.dataset.whole = name;
   else delete desk.dataset.whole;
-  button.setAttribute("aria-pressed", on);
+  button.setAttribute("aria-pressed", String(on));
 });
+
+// The editor of the file has the name of what it stands in, and its lines are scrolled by keys.
+function named() {
+  for (const one of document.querySelectorAll(".cm-editor:not([data-named])")) {
+    one.setAttribute("data-named", "");
+    one.querySelector(".cm-content").setAttribute("aria-label", one.closest("[aria-label]")?.ariaLabel ?? "");
+    one.querySelector(".cm-scroller").setAttribute("tabindex", "0");
+  }
+}
 
 // A page that is built anew has the shares that were chosen.
 new MutationObserver(() => {
+  named();
   const desk = document.querySelector(".desk:not([data-laid])");
   if (!desk?.querySelector(".edge")) return;
-  desk.dataset.laid = "";
+  desk.setAttribute("data-laid", "");
   const shares = kept();
-  for (const edge of desk.querySelectorAll(".edge")) if (edge.dataset.share in shares) set(edge, shares[edge.dataset.share]);
+  const edges = /** @type {NodeListOf<HTMLElement>} */ (desk.querySelectorAll(".edge"));
+  for (const edge of edges) if (edge.dataset.share in shares) set(edge, shares[edge.dataset.share]);
 }).observe(document, { childList: true, subtree: true });
