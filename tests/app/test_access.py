@@ -155,8 +155,7 @@ def test_nothing_keeps_anybody_out_of_a_drive(opened: Open, example: str, size: 
         judge(page, name)
     for name in ("way-geometry", "way-file"):
         page.locator(f'[data-mark="{name}"]').click()
-        page.locator(".drag-views:visible, .cm-content:visible").first.wait_for()
-        page.wait_for_timeout(QUIET)
+        page.wait_for_timeout(2 * QUIET)
         judge(page, name)
 
 

@@ -42,7 +42,7 @@ class Answers:
 
     def __init__(self, session: Session, jobs: Jobs, *, export: Export | None = None) -> None:
         self.session = session
-        self.sheets: dict[str, Sheet] = {}
+        self.sheets: dict[str, Sheet] = {}  # those that were looked at: a sheet is built once it is
         jobs.start()
         jobs.leave(session)  # what an older page of the same window was waiting for
         ui.context.client.on_delete(lambda: jobs.leave(session))
@@ -56,13 +56,14 @@ class Answers:
                 for title, names in tabs.items():
                     self._marked[title] = ui.tab(names[0], label=_(title)).props(f'data-mark="tab-{names[0]}"')
         self._bodies = ui.element("div").classes("sheets")
+        self._made: dict[str, Callable[[], Sheet]] = {
+            name: partial(Sheet, name, session, jobs, export) for name in QUESTIONS
+        }
         self._groups: dict[str, ui.toggle] = {}
         with self._bodies:
             for names in tabs.values():
                 if len(names) > 1:
                     self._groups[names[0]] = self._toggle(names)
-            for name in QUESTIONS:
-                self.sheets[name] = Sheet(name, session, jobs, export)
         self.shown = next(iter(QUESTIONS))
         self._within = {names[0]: names[0] for names in tabs.values()}
         self._tabs.set_value(self.shown)
@@ -80,9 +81,7 @@ class Answers:
         """
         with self._tabs:
             ui.tab(name, label=title).props(f'data-mark="tab-{name}"')
-        with self._bodies:
-            self.sheets[name] = made()
-        self.sheets[name].body.set_visibility(False)
+        self._made[name] = made
         self._within[name] = name
 
     def open(self, group: str) -> None:
@@ -108,6 +107,9 @@ class Answers:
     def _show(self) -> None:
         for group, toggle in self._groups.items():
             toggle.set_visibility(self._within[group] == self.shown)
+        if self.shown not in self.sheets:
+            with self._bodies:
+                self.sheets[self.shown] = self._made[self.shown]()
         for name, sheet in self.sheets.items():
             sheet.body.set_visibility(name == self.shown)
             if name != self.shown:

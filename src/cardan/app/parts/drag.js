@@ -38,6 +38,7 @@ export default {
   },
   methods: {
     extent(view) {
+      if (!this.points.length) return [0, 0, 1, 1];
       const across = this.points.map((point) => point.at[0]);
       const upright = this.points.map((point) => -point.at[view.up]);
       const [left, right] = [Math.min(...across), Math.max(...across)];

@@ -19,7 +19,7 @@ from cardan.units import label
 from . import widgets as toasts
 from .widgets import drop_down, menu_item
 
-SLICE = 30  # tables that are built at a time
+SLICE = 10  # tables that are built at a time
 PAUSE = 0.02  # seconds between them
 
 NEW: dict[str, Mapping[str, Any]] = {
