@@ -297,7 +297,7 @@ def _play(found: RoadTorsion) -> Iterator[Remark]:
     k = int(known[np.argmax(np.max(largest[known], axis=-1))])
     text = _(
         "The torque changes its sign and backlash opens: with its play the torque reaches {torque} where it reaches "
-        "{closed} with closed backlash (the largest of {count} instants). All else counts with closed backlash."
+        "{closed} with closed backlash (the largest of {count} instants); all else counts with closed backlash."
     )
     closed = float(np.max(found.standing.largest[opened.row[k], found.line]))
     said = say(text, torque=_torque(float(np.max(largest[k]))), closed=_torque(closed), count=count)
