@@ -305,8 +305,8 @@ def _beside(found: TorsionResponse) -> Remark:
     """Return that there are further stable motions: at one speed their torque, over many where they are."""
     if not found.speed.ndim:
         text = _(
-            "Other stable motions at this speed: {torques}; which one runs depends on how the speed was reached, and told "
-            "is the one with the largest alternating torque."
+            "Other stable motions at this speed: {torques}; which one runs depends on how the speed was reached, and "
+            "told is the one with the largest alternating torque."
         )
         torques = [say("±{torque}", torque=_torque(float(np.max(one.swing)))) for one in found.beside]
         return Remark(text=say(text, torques=Joined(torques)), tone="warning")
