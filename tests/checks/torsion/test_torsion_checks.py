@@ -18,6 +18,8 @@ from cardan.drive.joints import Hooke
 from cardan.drive.material import Material
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.station import Station
+from cardan.questions.motion.standing import still
+from cardan.questions.torsion.road.road import road_torsion
 from cardan.units import deg, mm, rpm
 
 STEEL = Material(yield_strength=355e6, ultimate_strength=600e6)
@@ -175,3 +177,14 @@ def test_every_surface_tells(tmp_path, capsys):
     capsys.readouterr()
     main(["check", str(tmp_path / "car.toml")])
     assert "Torsional vibration was not looked at" in " ".join(capsys.readouterr().out.split())
+
+
+def test_a_torque_that_a_movement_turns_about_is_judged_along_it():
+    """As drawn it never dips; in the turn the play opens, as the response of the drive that stops there tells."""
+    drive = example("pto-baler")
+    (drawn,) = [one for one in check(replace(drive, movements=()), only=["torque_reversal"]) if not one.advice]
+    (verdict,) = [one for one in check(drive, only=["torque_reversal"]) if not one.advice]
+    assert (drawn.state, verdict.state) == ("passed", "failed")
+    lowest = [float(torsion_response(still(drive, t)).torque_lowest[0]) for t in np.linspace(7.2, 7.8, 9)]
+    assert float(np.min(road_torsion(drive).standing.low)) < 0.0
+    assert verdict.value == pytest.approx(150.0 - min(lowest), rel=0.01)

@@ -7,6 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from cardan.answers.quantity import Joined, Text
 from cardan.checks.design import Design
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
@@ -14,6 +15,7 @@ from cardan.drive.torsional_layout import has_torsion
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
+from cardan.texts import _
 
 NO_MODEL = ("stations[0].inertia",)
 """What a file lacks that says nothing of masses and stiffness."""
@@ -55,6 +57,13 @@ def nearest_used(drive: Drive, speed: float) -> float:
     """Return the speed in use that is nearest to a speed [rad/s], in their ratio."""
     inside = [float(np.clip(speed, *between)) for between in used(drive) if between[1] > 0.0]
     return min(inside, key=lambda one: abs(np.log(max(one, 1e-12) / speed)))
+
+
+def as_drawn(design: Design, note: Text) -> Text:
+    """Return a note, of a drive that moves with the word that it is judged as drawn."""
+    if not design.drive.movements:
+        return note
+    return Joined([note, _("as drawn; cardan torsion road tells it along the movement")], between="; ")
 
 
 def worst(used: Sequence[Array], *columns: Sequence[Array]) -> tuple[Array, ...]:

@@ -24,7 +24,7 @@ from cardan.questions.torsion.stability.torsion_stability import proved_in_use
 from cardan.questions.torsion.steady.torsion_response import loaded_model, parted
 from cardan.texts import _, mark
 
-from .line import lacking, modes, nearest_used, used
+from .line import as_drawn, lacking, modes, nearest_used, used
 
 MANY = 4000
 """Drives that are judged one by one at most; of more all count as the first."""
@@ -131,7 +131,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
             *design.joint_angle_design_variables,
             *design.speed_design_variables,
         ),
-        note=_note(own, used(design.drive)),
+        note=as_drawn(design, _note(own, used(design.drive))),
     )
 
 

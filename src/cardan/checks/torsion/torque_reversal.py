@@ -60,13 +60,15 @@ def _loose(design: Design, k: int) -> tuple[str, ...]:
     paths = [f"shafts[{k}].spline.backlash"]
     if k < design.joints:
         paths.append(f"joints[{k}].backlash")
-    return tuple(path for path in paths if design.value(path))
+    given = {path: design.value(path) for path in paths}
+    return tuple(path for path, value in given.items() if value is not None and np.any(value))
 
 
 CHECK = Check(
     name="torque_reversal",
     doc=mark("torque of shafts with backlash against reversal by torsional vibration"),
     judge=_judge,
+    moves=True,
     title=mark("reversal of the torque"),
     dimension="torque",
     unit="Nm",

@@ -20,7 +20,7 @@ from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torsion import Crossing
 from cardan.texts import _, mark
 
-from .line import lacking, modes, nearest_used, worst
+from .line import as_drawn, lacking, modes, nearest_used, worst
 
 APART = 0.1
 """Share by which a speed should differ from one at which an excitation meets a natural frequency."""
@@ -74,7 +74,7 @@ def _apart(design: Design) -> Iterator[Verdict]:
         unit="rpm",
         source=_("API 617: 10 % between an excitation and a torsional natural frequency"),
         design_variables=design.speed_design_variables,
-        note=say(text, order=order, cause=nearest.cause, mode=nearest.mode),
+        note=as_drawn(design, say(text, order=order, cause=nearest.cause, mode=nearest.mode)),
         advice=True,
     )
 
