@@ -187,4 +187,5 @@ def test_a_torque_that_a_movement_turns_about_is_judged_along_it():
     assert (drawn.state, verdict.state) == ("passed", "failed")
     lowest = [float(torsion_response(still(drive, t)).torque_lowest[0]) for t in np.linspace(7.2, 7.8, 9)]
     assert float(np.min(road_torsion(drive).standing.low)) < 0.0
-    assert verdict.value == pytest.approx(150.0 - min(lowest), rel=0.01)
+    # the check refines the worst instant once only
+    assert 0.95 < verdict.value / (150.0 - min(lowest)) < 1.001
