@@ -149,11 +149,12 @@ def _three(
 ) -> list[Row]:
     angle = found.angle / deg
     rows = []
+    still = 0.02 * float(np.nanmax(np.abs(panels[1][0])))  # rates that vary by less are drawn as a flat line
     for k, (values, label, unit, dimension) in enumerate(panels):
         curves = [
             _curve(angle, value, one.link, n) for n, (value, one) in enumerate(zip(values, links, strict=True), 1)
         ]
-        upright = axis(label, unit, values, dimension=dimension, least=1e-6)
+        upright = axis(label, unit, values, dimension=dimension, least=max(1e-6, still if k else 0.0))
         panel = Panel(series=tuple(curves), x=across(angle, named=k == len(panels) - 1), y=upright)
         rows.append(Row(panels=(panel,), height=1.5))
     return rows
