@@ -105,9 +105,14 @@ CHARTS = """() => [...document.querySelectorAll('.cardan-chart')].flatMap((chart
 """What is cut in charts, and what stands on each other."""
 
 
-def refused(page: Any, impacts: Sequence[str] = ("minor", "moderate", "serious", "critical")) -> list[str]:
-    """Return what axe-core has to say."""
-    found = axe.Axe().run(page, options={"runOnly": {"type": "tag", "values": TAGS}}).response["violations"]
+ALL = ("minor", "moderate", "serious", "critical")
+"""How grave what axe-core finds may be."""
+
+
+def refused(page: Any, impacts: Sequence[str] = ALL, within: str | None = None) -> list[str]:
+    """Return what axe-core has to say, of a part of the page where that is named: the rest was asked before."""
+    options = {"runOnly": {"type": "tag", "values": TAGS}}
+    found = axe.Axe().run(page, context=within, options=options).response["violations"]
     some = [one for one in found if one["impact"] in impacts]
     return [f"{one['id']}: {node['target']} {node['html'][:160]}" for one in some for node in one["nodes"]]
 
@@ -145,14 +150,16 @@ def test_nothing_keeps_anybody_out_of_the_first_page(opened: Open, size: str, la
 )
 def test_nothing_keeps_anybody_out_of_a_drive(opened: Open, example: str, size: str, language: str, theme: str) -> None:
     page = opened(f"/?example={example}", size, language, theme)
+    judge(page, "as it opens")
     for name in page.locator('[data-mark^="tab-"]').evaluate_all("all => all.map((one) => one.dataset.mark)"):
         page.locator(f'[data-mark="{name}"]').click()
-        sheet = page.locator(f'[data-mark="{name.replace("tab", "sheet", 1)}"]')
+        mark = f'[data-mark="{name.replace("tab", "sheet", 1)}"]'
+        sheet = page.locator(mark)
         sheet.locator('[data-mark="answer"]:not(:empty), [data-mark="recording-hint"]').first.wait_for()
         if sheet.locator(".cardan-chart").count():
             sheet.locator(".cardan-chart .main-svg").last.wait_for(state="attached")
         page.wait_for_timeout(QUIET)
-        judge(page, name)
+        judge(page, name, within=mark)
     for name in ("way-geometry", "way-file"):
         page.locator(f'[data-mark="{name}"]').click()
         page.wait_for_timeout(2 * QUIET)
