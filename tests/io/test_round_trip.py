@@ -31,6 +31,7 @@ from cardan.drive.machine import (
 )
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Random, Spectrum, Table
+from cardan.drive.profile_tube import Profile
 from cardan.drive.settings import Settings
 from cardan.drive.shaft import PointMass, Shaft, Spline
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
@@ -139,7 +140,17 @@ def test_movements(kind: type, data: st.DataObject) -> None:
         assert loads(dumps(drive, form=form), form=form) == drive
 
 
-bodies = st.sampled_from([{}, {"outer": 0.07}, {"outer": 0.07, "wall": 0.002}, {"outer": 1 / 3, "inner": 0.1}])
+TUBE = {"outer": 0.07, "wall": 0.002}
+bodies = st.sampled_from(
+    [
+        {},
+        {"outer": 0.07},
+        TUBE,
+        TUBE | {"profile": Profile(form="lemon", inscribed=0.06)},
+        TUBE | {"profile": Profile(form="star", inscribed=0.05, lobes=4)},
+        {"outer": 1 / 3, "inner": 0.1},
+    ]
+)
 spline_parts = {
     "mean_diameter": st.just(0.04),
     "friction": st.floats(0.0, 0.3),
@@ -181,7 +192,9 @@ duties = things(
 
 @st.composite
 def shafts(draw: st.DrawFn) -> Shaft:
-    none = dict.fromkeys(("outer", "wall", "inner", "material", "centre_of_mass", "side_slope", "plan_slope"))
+    none = dict.fromkeys(
+        ("outer", "wall", "inner", "profile", "material", "centre_of_mass", "side_slope", "plan_slope")
+    )
     shaft = draw(
         things(
             Shaft,
