@@ -153,7 +153,7 @@ def test_a_new_drive_is_saved_over_no_other_file_without_a_question(page_of: Ope
     mark(page, "replace").click()
     state(page, "mine.toml ○ saved")
     assert (folder / "mine.toml").read_text("utf-8") == SMALL
-    assert page.url == f"{url}/?file=mine.toml"
+    page.wait_for_url(f"{url}/?file=mine.toml")
 
 
 def test_of_two_windows_on_one_file_the_second_to_save_is_told_and_both_are_kept(
