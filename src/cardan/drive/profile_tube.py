@@ -55,29 +55,13 @@ class ProfileSection:
 
 
 def profile_section(outer: ArrayLike, inscribed: ArrayLike, wall: ArrayLike, lobes: int) -> ProfileSection:
-    """Return the cross section of a lobed tube by the formulas of thin walls.
+    """Return the cross section of a lobed tube of n lobes by the formulas of thin walls, arrays (...).
 
-    Parameters
-    ----------
-    outer, inscribed, wall : array (...) [m]
-        Diameters of the circles around and inside of the outer contour, thickness of the wall.
-    lobes : int
-        n, 2 at least.
+    outer, inscribed, wall [m]: circles around and inside the contour r = (D + d)/4 + (D - d)/4 cos nφ, and its wall.
+    A = t ∮ ds, I = t ∮ y² ds, by Bredt I_t = 4 A_m² t/∮ ds (Timoshenko & Goodier, Theory of Elasticity, art. 116). The
+    shear stress T/(2 A_m t) of the middle line changes by 2 T/I_t - T κ/(2 A_m t) a unit of length through the wall, of
+    curvature κ. The contour is a cosine: a maker's own figures go before.
 
-    Returns
-    -------
-    ProfileSection
-
-    Notes
-    -----
-    Outer contour r = (D + d)/4 + (D - d)/4 cos nφ, the wall along its middle line, half the wall inside: A = t ∮ ds,
-    I = t ∮ y² ds, and by Bredt I_t = 4 A_m² t/∮ ds (Timoshenko & Goodier, Theory of Elasticity, art. 116). The shear
-    stress, T/(2 A_m t) along the middle line, changes through the wall by 2 T/I_t - T κ/(2 A_m t) a unit of length, κ
-    the curvature; of a round tube that is exact. The contour is a cosine; the corners of a maker's tube are others, so
-    his own figures go before (`stiffness`, `mass` and `inertia` of the shaft).
-
-    Examples
-    --------
     >>> found = profile_section(0.054, 0.046, 0.004, 2)
     >>> print(f"{found.torsion * 1e12:.0f} mm4, {found.modulus * 1e9:.0f} mm3")
     305803 mm4, 11806 mm3
