@@ -82,6 +82,11 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
     ),
     (r"losses examples/truck-supports\.toml", r".*(heat|power|efficiency|torque|journals).*", HALVES),
     (r"rotor examples/\S+ --joint", r"orders\..*", "the angles of yokes, unbalances and cracks count beside a joint"),
+    (
+        r"rotor examples/double-cardan-propshaft\.toml",
+        r"response\..*",
+        "a shaft by itself is looked at from the slowest speed in use on",
+    ),
     (r"joint$", r"kinds\.steepest_deg", "a mechanism of one's own is a kind more"),
     (r"joint$", r"kinds\.keys\..*", "a tripod has a key more, the far joint on which its shaft pivots"),
     (r"mobility examples/(truck-duty-cycle|two-piece-rubber-bearing)\.toml", r".*", HELD),
