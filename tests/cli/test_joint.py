@@ -32,6 +32,7 @@ def test_all_kinds_are_listed_with_their_keys(cardan):
         "driven_slant_deg",
         "driving_distance_mm",
         "driven_distance_mm",
+        "pin_diameter_mm",
     ]
     assert "centre_mm" not in {key for several in keys.values() for key in several}
     table = list(csv.DictReader(io.StringIO(cardan("joint", "--csv").out)))
