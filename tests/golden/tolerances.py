@@ -35,6 +35,7 @@ else is compared exactly."""
 
 SEARCHED = "a search that stops within its own tolerance"
 FLAT = "where a curve is greatest is found to the root of rounding, for its top is flat"
+PLACED = "where a search finds its optimum is known to the root of the tolerance of what is least there"
 TWICE = "the same greatest load comes twice a turn, and rounding decides which of the two is told"
 REFINED = "points are added where the curve bends, and rounding decides on the last of them"
 MANY = "more yokes than evenness needs: rounding decides which of many equally even settings is told"
@@ -59,6 +60,7 @@ LOOSER: tuple[tuple[str, str, float, str], ...] = (
     ("sweep .*boundary", r".*", 1e-6, SEARCHED),
     ("torsion modes", r"modes[.]nodes_mm", 1e-3, "where a shape that hardly bends passes zero"),
     ("torsion (calm|absorber)", r"evaluations", CLASS, SEARCHED),
+    ("torsion absorber", r"(.*[.])?(damping_\w+|\w*power_loss_W)", 1e-3, PLACED),
     ("torsion (calm|absorber)", r".*", 1e-5, SEARCHED),
     ("torsion simulate|calc torsional_simulation", r".*_at_s", 1e-5, FLAT),
     ("torsion simulate|calc torsional_simulation", r".*", 1e-7, STEPPED),
