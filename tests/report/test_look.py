@@ -109,7 +109,7 @@ def test_head_foot_and_colours_of_a_workbook(firm, drive, tmp_path):
 @pytest.mark.parametrize(
     ("lines", "says"),
     [
-        ("[colours]\nink = 'red'", "colours.ink: 'red' is no colour; write it as #1f4e8c"),
+        ("[colours]\nink = 'red'", "colours.ink: 'red' is not a colour; write it as #1f4e8c"),
         ("[colours]\nacent = '#ffffff'", "colours.acent: unknown key; the nearest known one is accent"),
         ("[head]\nleft = '{firm}'", "head.left: {firm} stands for nothing; known are {title}"),
         ("[foot]\nleft = '{page:>9}'", "foot.left: {page} stands for nothing"),
