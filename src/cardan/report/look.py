@@ -120,7 +120,9 @@ def _wrong(look: Look) -> Iterator[Problem]:
     for name in fields_of(Colours):
         value = getattr(look.colours, name)
         if not COLOUR.fullmatch(value):
-            yield Problem(f"colours.{name}", _("{value} is not a colour; write it as #1f4e8c").format(value=repr(value)))
+            yield Problem(
+                f"colours.{name}", _("{value} is not a colour; write it as #1f4e8c").format(value=repr(value))
+            )
     for name, line in (("head", look.head), ("foot", look.foot)):
         for key in fields_of(Line):
             yield from _unknown(f"{name}.{key}", getattr(line, key))
