@@ -72,8 +72,8 @@ def uniformity(on: Subject) -> Words:
         return Words(text=said, tone="failed" if bad else "good" if as_wanted else "warning")
     share = Quantity(on.fluctuation, "share", 3)
     posed, pose = _in_poses(on)
-    text, tone = _as_specified(on, posed)
     toothed = _on_teeth(on)
+    text, tone = _as_specified(on, posed, toothed)
     parts: list[Text] = [
         say(
             text,
@@ -113,7 +113,7 @@ def _errs(on: Subject) -> bool:
     return any(joint.error is not None for joint in on.drive.joints)
 
 
-def _as_specified(on: Subject, posed: float) -> tuple[str, Tone]:
+def _as_specified(on: Subject, posed: float, toothed: float) -> tuple[str, Tone]:
     """Return what is said of the drive as specified, with its tone."""
     if _errs(on) and (on.even or on.rounded):
         return _("{name} is uniform as specified but for the errors of its joints as made."), "good"
@@ -132,7 +132,7 @@ def _as_specified(on: Subject, posed: float) -> tuple[str, Tone]:
                 "errors of its joints as made."
             )
             return text, "warning"
-        if _on_teeth(on):
+        if toothed:
             text = _(
                 "{name} has {share} speed fluctuation as specified; with its yokes re-phased it is exactly uniform, "
                 "{least} is left where they keep to the teeth of its splines."

@@ -120,8 +120,7 @@ def _tables(result: MechanismMotion, listed: MechanismMotion | None) -> Iterator
             title=_("Links that turn"),
             records=True,
             columns=(
-                _link_column(turning),
-                Column(key="way", heading=_("motion"), values=[_(WAYS[one.way]) for one in turning], left=True),
+                *_heads(turning),
                 Column(
                     key="travel",
                     heading=_("turned by"),
@@ -152,8 +151,7 @@ def _tables(result: MechanismMotion, listed: MechanismMotion | None) -> Iterator
             title=_("Points that move"),
             records=True,
             columns=(
-                _link_column(moving),
-                Column(key="way", heading=_("motion"), values=[_(WAYS[one.way]) for one in moving], left=True),
+                *_heads(moving),
                 Column(
                     key="travel",
                     heading=_("travel"),
@@ -168,9 +166,7 @@ def _tables(result: MechanismMotion, listed: MechanismMotion | None) -> Iterator
                         dimension="speed" if pace else "length",
                     )
                     for k, (name, text) in enumerate(
-                        (("min", _("least speed")), ("max", _("largest")))
-                        if pace
-                        else (("min", _("least speed v/ω₁")), ("max", _("largest")))
+                        (("min", _("least speed") if pace else _("least speed v/ω₁")), ("max", _("largest")))
                     )
                 ),
                 Column(
@@ -191,11 +187,15 @@ def _tidy(values: Array, size: float) -> Array:
     return np.where(np.abs(values) < EVEN * size, 0.0, values)
 
 
-def _link_column(links: list[LinkMotion]) -> Column:
-    return Column(key="link", heading=_("link"), values=[one.link for one in links], left=True)
+def _heads(links: list[LinkMotion]) -> tuple[Column, Column]:
+    """Return the columns that tell which links these are, and how each moves."""
+    return (
+        Column(key="link", heading=_("link"), values=[one.link for one in links], left=True),
+        Column(key="way", heading=_("motion"), values=[_(WAYS[one.way]) for one in links], left=True),
+    )
 
 
-def _columns(link: LinkMotion, *, links: int = 0) -> Iterator[tuple[str, str, Array, str]]:
+def _columns(link: LinkMotion) -> Iterator[tuple[str, str, Array, str]]:
     """Yield what is told of a link over the input angle: name, heading, values, dimension."""
     if link.turns:
         if link.axis.any():
