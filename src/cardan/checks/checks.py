@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from cardan.answers.quantity import Text
 from cardan.catalogue import Catalogue
@@ -107,6 +107,9 @@ CHECKS: dict[str, Check] = {
 }
 """Name of a check -> the check; its code is the file of the same name."""
 
+FAR = 1.0 + 1e-6
+"""Use of a limit from which a verdict fails whatever rounding and ties between poses do."""
+
 
 def check(
     drive: Drive,
@@ -156,15 +159,39 @@ def check(
     unknown = [name for name in only if name not in CHECKS]
     refuse_all(Problem("only", _unknown(name)) for name in unknown)
     subject = design(drive, duty, vary=vary, known=known)
+    (_said, drawn), *poses = _everywhere(subject, only)
+    return worst_of_poses(drawn, poses)
+
+
+def passes(drive: Drive, name: str, title: str, *, known: Catalogue | None = None) -> bool:
+    """Return whether the verdict of a check that has a title is reached and passes, as `check` tells it.
+
+    Poses and movements are looked at only where it passes as drawn; so this is quicker where many drives are tried.
+    """
+    subject = design(drive, known=known)
+    found: list[tuple[Text, Sequence[Verdict]]] = []
+    for said, verdicts in _everywhere(subject, [name]):
+        if any(one.title == title and one.run and one.utilisation > FAR for one in verdicts):
+            return False
+        found.append((said, verdicts))
+    (_said, drawn), *poses = found
+    worst = next((one for one in worst_of_poses(drawn, poses) if one.title == title and one.run), None)
+    return worst is not None and bool(worst.passed)
+
+
+def _everywhere(subject: Design, only: Sequence[str]) -> Iterator[tuple[Text, Sequence[Verdict]]]:
+    """Yield the verdicts as drawn, in every pose and at the worst instants of the movements, and which that is."""
+    yield "", _judged(subject, only)
     each = [name for name in only or CHECKS if CHECKS[name].gathers == "worst"]
     moved = [name for name in each if CHECKS[name].instants]
     lines = [name for name in moved if CHECKS[name].slides]
     loads = [name for name in moved if name not in lines]
-    poses: list[tuple[Text, Sequence[Verdict]]] = []
-    poses += [(said, _judged(one, each)) for said, one in stood(subject)] if each else []
-    poses += stopped(subject, lambda one: _judged(one, loads)) if loads else []
-    poses += stopped(subject, lambda one: _judged(one, lines), slides=True) if lines else []
-    return worst_of_poses(_judged(subject, only), poses)
+    if each:
+        yield from ((said, _judged(one, each)) for said, one in stood(subject))
+    if loads:
+        yield from stopped(subject, lambda one: _judged(one, loads))
+    if lines:
+        yield from stopped(subject, lambda one: _judged(one, lines), slides=True)
 
 
 def _judged(subject: Design, only: Sequence[str]) -> tuple[Verdict, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -75,27 +75,25 @@ def stood(design: Design) -> list[tuple[Text, Design]]:
 
 def stopped(
     design: Design, judge: Callable[[Design], Sequence[Verdict]], *, slides: bool = False
-) -> list[tuple[Text, Sequence[Verdict]]]:
-    """Return the verdicts on a design, as drawn and in every pose, where its movements make them worst.
+) -> Iterator[tuple[Text, Sequence[Verdict]]]:
+    """Yield the verdicts on a design, as drawn and in every pose, where its movements make them worst.
 
     judge: by what the joint angles, planes and lengths of an instant decide.
     slides: at the instants, too, at which a shaft is longest or shortest, where the modes of a line may change places.
     Of one drive at the instants at which a verdict uses most of its limit, found over the whole movement; of many that
     of each of them.
     """
-    found: list[tuple[Text, Sequence[Verdict]]] = []
     for pose, one in (("", design), *stood(design)):
         if not one.drive.movements:
             continue
         if one.varied:
-            found.append((Joined([pose, _("while the drive moves")]), _worst_of_instants(one, judge)))
+            yield Joined([pose, _("while the drive moves")]), _worst_of_instants(one, judge)
             continue
         for time in worst_instants(one.drive, _course(one, judge, slides=slides), rounds=1):
             here = still(one.drive, time)
             at = say(_("while the drive moves, at {time}"), time=Quantity(time, "time", 3, trim=True))
             other = replace(one, drive=here, duty=here.duty, drawn=design.drawn or design)
-            found.append((Joined([pose, at]), judge(other)))
-    return found
+            yield Joined([pose, at]), judge(other)
 
 
 def _course(design: Design, judge: Callable[[Design], Sequence[Verdict]], *, slides: bool) -> Callable[[Array], Array]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from cardan.catalogue import Catalogue, catalogue, completed, material, shortened
 from cardan.catalogue.rows import Grade, JointSize
-from cardan.checks import Verdict, check
+from cardan.checks import Verdict, check, passes
 from cardan.checks.design import whole as completed_drive
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import place, with_values
@@ -399,33 +399,39 @@ def _rounded(
     drive: Drive, verdict: Verdict, design_variable: DesignVariable, value: float, known: Catalogue
 ) -> Remedy | None:
     """Return the remedy by the first round figure with which the check really passes."""
-    for shown in design_variable.beyond(value):
+
+    def helps(shown: float) -> bool:
         try:
-            new = with_values(drive, {design_variable.path: shown})
-            verdicts = check(new, only=[verdict.check], known=known)
+            other = with_values(drive, {design_variable.path: shown})
+            return passes(other, verdict.check, verdict.title, known=known)
         except InputError:
-            continue
-        after = next((one for one in verdicts if one.title == verdict.title and one.run), None)
-        if after is not None and after.passed:
-            step = abs(float(shown) * design_variable.factor - design_variable.now)
-            scale = abs(design_variable.now) if design_variable.reach is None else design_variable.reach
-            return Remedy(
-                check=verdict.check,
-                subject=verdict.subject,
-                title=verdict.title,
-                path=design_variable.path,
-                now=int(design_variable.now)
-                if design_variable.whole
-                else round(design_variable.now / design_variable.factor, 10),
-                value=shown,
-                unit=design_variable.unit,
-                change=step / scale,
-                effort=design_variable.effort,
-                note=_strong(float(shown) * design_variable.factor, known)
-                if design_variable.bare.endswith("yield_strength")
-                else "",
-            )
-    return None
+            return False
+
+    first, *more = list(design_variable.beyond(value)) or [design_variable.now]
+    if helps(first):
+        shown = first
+    elif more and helps(more[-1]):  # a trial is dear: where the farthest does not help, those between are not tried
+        shown = next((one for one in more[:-1] if helps(one)), more[-1])
+    else:
+        return None
+    step = abs(float(shown) * design_variable.factor - design_variable.now)
+    scale = abs(design_variable.now) if design_variable.reach is None else design_variable.reach
+    return Remedy(
+        check=verdict.check,
+        subject=verdict.subject,
+        title=verdict.title,
+        path=design_variable.path,
+        now=int(design_variable.now)
+        if design_variable.whole
+        else round(design_variable.now / design_variable.factor, 10),
+        value=shown,
+        unit=design_variable.unit,
+        change=step / scale,
+        effort=design_variable.effort,
+        note=_strong(float(shown) * design_variable.factor, known)
+        if design_variable.bare.endswith("yield_strength")
+        else "",
+    )
 
 
 def _strong(strength: float, known: Catalogue) -> str:
@@ -445,7 +451,12 @@ def _by_grade(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Reme
             row for row in known.rows(Grade).values() if (row.yield_strength or 0.0) > (here.yield_strength or 0.0)
         ]
         others.sort(key=lambda row: (not set(row.parts) & set(here.parts), row.yield_strength))
-        yield from _replaced(verdict, f"{path}.grade", here, others, partial(_graded, drive, path, known), known)
+        made = partial(_graded, drive, path, known)
+        strongest = max(
+            others, key=lambda row: (row.yield_strength or 0.0) + (row.ultimate_strength or 0.0), default=None
+        )
+        if strongest is not None and _helps(verdict, made, strongest, known):
+            yield from _replaced(verdict, f"{path}.grade", here, others, made, known)
 
 
 def _graded(drive: Drive, path: str, known: Catalogue, row: Grade) -> Drive:
@@ -478,12 +489,7 @@ def _replaced(
 ) -> Iterator[Remedy]:
     """Yield the first of better rows of the catalogue in place of the one here with which a verdict passes."""
     for steps, row in enumerate(rows, start=1):
-        try:
-            verdicts = check(changed(row), only=[verdict.check], known=known)
-        except InputError:
-            continue
-        after = next((one for one in verdicts if one.title == verdict.title), None)
-        if after is not None and after.run and after.passed:
+        if _helps(verdict, changed, row, known):
             yield Remedy(
                 check=verdict.check,
                 subject=verdict.subject,
@@ -495,6 +501,14 @@ def _replaced(
                 note=", ".join(row.names) if isinstance(row, Grade) else "",
             )
             return
+
+
+def _helps(verdict: Verdict, changed: Callable[[Any], Drive], row: Grade | JointSize, known: Catalogue) -> bool:
+    """Return whether a verdict passes with a row of the catalogue."""
+    try:
+        return passes(changed(row), verdict.check, verdict.title, known=known)
+    except InputError:
+        return False
 
 
 def _bulk(row: JointSize) -> float:
