@@ -1,4 +1,8 @@
-"""Test settings: property tests draw the same examples everywhere; what workers share is made once."""
+"""Test settings: property tests draw the same examples everywhere; what workers share is made once.
+
+A property that fails tells the example that was drawn; ``pytest --hypothesis-profile smallest`` looks for the smallest,
+which takes minutes.
+"""
 
 import fcntl
 import os
@@ -7,19 +11,21 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, Phase, settings
 
 # Workers share the processors; a library of linear algebra that starts threads of its own in each makes them wait.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-settings.register_profile(
-    "fixed",
-    derandomize=True,
-    max_examples=60,
-    deadline=None,
-    database=None,
-    suppress_health_check=[HealthCheck.too_slow],
-)
+for name, phases in (("fixed", [Phase.explicit, Phase.generate]), ("smallest", list(Phase))):
+    settings.register_profile(
+        name,
+        phases=phases,
+        derandomize=True,
+        max_examples=60,
+        deadline=None,
+        database=None,
+        suppress_health_check=[HealthCheck.too_slow],
+    )
 settings.load_profile("fixed")
 
 
