@@ -53,6 +53,17 @@ def test_json_holds_the_table_and_what_it_comes_from(cardan, small):
     assert content["provenance"]["drive"]["joints"][0]["joint_angle_deg"] == 20
 
 
+def test_a_grid_over_one_key_is_drawn_and_what_is_none_is_refused_before_any_work(cardan, small, tmp_path, monkeypatch):
+    picture = tmp_path / "curve.svg"
+    assert str(picture) in cardan("sweep", small, "--plot", picture).out
+    assert "speed fluctuation of the output" in picture.read_text("utf-8")
+    rows = small.with_name("rows.toml")
+    given = '[[vary]]\nname = "two"\nrows = [{ "duty.speed_rpm" = 1, "shafts[0].mass_kg" = 2 }]\n'
+    rows.write_text(small.read_text(encoding="utf-8") + given, encoding="utf-8")
+    monkeypatch.setattr("cardan.cli.sweep.sweep.run", None)
+    assert "grids over one or two fields" in cardan("sweep", rows, "--plot", picture).err
+
+
 def test_rows_that_are_not_kept_are_refused_before_any_work(cardan, small, monkeypatch):
     plan = small.with_name("none.toml")
     plan.write_text('rows = "none"\n' + small.read_text(encoding="utf-8"), encoding="utf-8")

@@ -32,6 +32,7 @@ from .parts.diagnosis import Diagnosis
 from .parts.download import Exports
 from .parts.editor import Editor
 from .parts.header import Header
+from .parts.sweep import Sweep
 from .parts.verdicts import Verdicts
 from .parts.view import View
 from .parts.widgets import Apart, Live, Timer, escaped
@@ -39,6 +40,7 @@ from .state.jobs import Jobs
 from .state.kept import Kept
 from .state.recordings import DIAGNOSIS
 from .state.session import Session
+from .state.work import SWEEP
 
 # Keys for all of the page: undo, redo, save.
 
@@ -349,6 +351,7 @@ def _parts(session: Session, jobs: Jobs) -> Header:
         with _pane("answers", _("Answers")):
             export = Exports(session, jobs)
             answers = Answers(session, jobs, export=export)
+            answers.add(SWEEP, _("Sweep"), lambda: Sweep(session, jobs, export))
             answers.add(DIAGNOSIS, _("Diagnosis"), lambda: Diagnosis(session, jobs, export))
         _edge("--verdicts", _("width of the verdicts"), 20)
         with _pane("verdicts", _("Verdicts")):

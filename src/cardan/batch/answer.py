@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,10 +10,12 @@ import numpy as np
 
 from cardan.answers.answer import Answer, Column, Remark, Table
 from cardan.answers.quantity import Joined, Quantity, Text, say
+from cardan.figures.figure import Figure
 from cardan.questions.gathering import has
 from cardan.texts import _, plural
 
 from .answering.questions import asked
+from .figures.sweep import curve_figure, heat_figure
 from .search.answer import quantity, shown
 from .show_answer import counted, missing_rows, stored
 from .sweep import SweepWork
@@ -24,8 +26,13 @@ SHOWN = 12  # rows of a table that are shown where no reduction is asked for
 GROUPS = 24  # groups of a reduction that are shown
 
 
-def answer(work: SweepWork, found: Sweep, plan: Path, *, keeps: bool) -> Answer:
-    """Return what there is to say of a sweep."""
+def answer(
+    work: SweepWork, found: Sweep, plan: Path, *, keeps: bool, of: Sequence[str] = (), rows: int = SHOWN
+) -> Answer:
+    """Return what there is to say of a sweep.
+
+    keeps: whether its table is there; of: answers that are drawn, the first by default; rows: of the table, shown.
+    """
     counts = found.reductions.get("points", {})
     answered = int(counts.get("answered", 0))
     failed = "warning" if found.status == "cancelled" else "failed"
@@ -34,7 +41,8 @@ def answer(work: SweepWork, found: Sweep, plan: Path, *, keeps: bool) -> Answer:
         title=_("Sweep"),
         sentence=_sentence(found, counts, answered),
         tone=failed if found.missing else "plain" if answered else "warning",  # type: ignore[arg-type]
-        tables=tuple(_tables(found, keeps)),
+        tables=tuple(_tables(found, keeps, rows)),
+        figures=lambda: tuple(drawn(work, found, of)) if keeps else (),
         remarks=tuple(_remarks(work, found, plan, keeps)),
         facts=_facts(found, plan, keeps),
         full=lambda: _whole(found),
@@ -63,7 +71,31 @@ def _sentence(found: Sweep, counts: Mapping[str, Any], answered: int) -> Text:
     return Joined([said, more], between=" ")
 
 
-def _tables(found: Sweep, keeps: bool) -> Iterator[Table]:
+def over(work: SweepWork) -> tuple[Field, ...]:
+    """Return the fields of a sweep that can be drawn: of a grid over one or two; none of all others."""
+    axes = work.points.axes
+    alone = all(len(axis.fields) == 1 and not axis.facts for axis in axes)
+    return work.columns[: len(axes)] if alone and len(axes) in (1, 2) else ()
+
+
+def drawn(work: SweepWork, found: Sweep, of: Sequence[str] = ()) -> Iterator[Figure]:
+    """Yield the figures of a sweep over one or two fields: answers as curves, or as maps.
+
+    of: names of answers, the first by default.
+    """
+    fields, answers = over(work), {one.name: one for one in work.ask.answers}
+    rows = found.table() if fields and not found.missing else {}
+    for name in of or list(answers)[:1] if rows else ():
+        if len(fields) == 1:
+            yield curve_figure(fields[0], answers[name], rows[fields[0].name], rows[name])
+            continue
+        up, across = ((one, *np.unique(rows[one.name], return_inverse=True)) for one in fields)
+        cells = np.full((len(up[1]), len(across[1])), np.nan)
+        cells[up[2], across[2]] = rows[name]
+        yield heat_figure(across[0], up[0], answers[name], across[1], up[1], cells)
+
+
+def _tables(found: Sweep, keeps: bool, rows: int) -> Iterator[Table]:
     told = {name: one for name, one in found.reductions.items() if one.get("kind") not in ("points", None)}
     single = {name: one for name, one in told.items() if "groups" not in one and one["kind"] != "histogram"}
     if single:
@@ -80,7 +112,7 @@ def _tables(found: Sweep, keeps: bool) -> Iterator[Table]:
         elif one["kind"] == "histogram" and "groups" not in one:
             yield _histogram(name, one)
     if not told and keeps:
-        yield _rows(found)
+        yield _rows(found, rows)
 
 
 def _value(one: Mapping[str, Any], value: Any, digits: int = 5) -> Any:
@@ -137,15 +169,15 @@ def _histogram(name: str, one: Mapping[str, Any]) -> Table:
     )
 
 
-def _rows(found: Sweep) -> Table:
+def _rows(found: Sweep, most: int) -> Table:
     """Return the first rows of the table."""
     values: dict[str, list[Any]] = {one.name: [] for one in found.columns}
     count = 0
     for _start, part in found.parts():
         for name, held in values.items():
-            held.extend(np.asarray(part[name])[: SHOWN - count].tolist())
+            held.extend(np.asarray(part[name])[: most - count].tolist())
         count = len(next(iter(values.values()), ()))
-        if count >= SHOWN:
+        if count >= most:
             break
     return Table(columns=[shown(one, values[one.name], heading=one.name) for one in found.columns], fixed=0)
 

@@ -23,7 +23,7 @@ from cardan.files import Enclosed, folder_of
 from cardan.reading.table import Table
 from cardan.texts import _
 
-from .drive_file import known_to, load
+from .drive_file import known_to, load, toml_text
 from .text import parsed, text_of
 
 FORMAT = 1  # version of the plan file
@@ -138,6 +138,14 @@ def plan_of(
         parts=parts,
         **made,
     )
+
+
+def plan_text(drive: str, axes: Sequence[Axis], ask: Sequence[str]) -> str:
+    """Return the text of a plan file; reading it gives an equal plan.
+
+    drive: name of the drive file beside it; axes: what varies; ask: names of questions.
+    """
+    return toml_text({"format": FORMAT, "drive": drive, "ask": list(ask), "vary": [axis.told() for axis in axes]})
 
 
 def _asks(top: Table, ask: Sequence[str]) -> None:

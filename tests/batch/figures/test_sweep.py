@@ -7,7 +7,7 @@ import pytest
 
 from cardan import figures
 from cardan.batch.answering.asking import Formula
-from cardan.batch.figures.sweep import heat_figure, histogram_figure, parallel_figure, pareto_figure
+from cardan.batch.figures.sweep import curve_figure, heat_figure, histogram_figure, parallel_figure, pareto_figure
 from cardan.batch.points.distributions import Uniform
 from cardan.batch.search.boundary import boundary
 from cardan.batch.search.goals import Goal, Limit
@@ -72,6 +72,19 @@ def test_the_choice_between_goals(goals):
     )
     none = {name: column[:0] for name, column in ROWS.items()}
     assert "No point" in drawn(pareto_figure(COLUMNS, goals, none)).sentence
+
+
+def test_a_curve_has_the_values_in_the_order_of_its_field():
+    x, y = np.asarray([90.0, -100.0, 0.0]), np.asarray([3.0, 1.0, np.nan])
+    figure = drawn(curve_figure(HEIGHT, SPEED_FLUCTUATION, x, y))
+    (curve,) = of(figure, Curve)
+    np.testing.assert_array_equal(curve.x, [-100.0, 0.0, 90.0])
+    np.testing.assert_array_equal(curve.y, [1.0, np.nan, 3.0])
+    assert "Least is 1.00 at −100 mm, greatest 3.00 at 90.0 mm." in figure.sentence
+    assert drawn(curve_figure(HEIGHT, SPEED_FLUCTUATION, x, y * 0.0)).sentence == "It is 0 at every point."
+    assert drawn(curve_figure(HEIGHT, SPEED_FLUCTUATION, x, y * np.nan)).sentence == "No point has an answer."
+    words = drawn(curve_figure(SUPPLIER, SPEED_FLUCTUATION, np.asarray(["Alpha", "Beta", "Alpha"]), y))
+    assert words.panels[0].x.texts == ("Alpha", "Beta")
 
 
 def test_a_map_has_the_values_where_they_belong():

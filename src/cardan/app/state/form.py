@@ -148,6 +148,20 @@ def section(tree: Mapping[str, Any], path: str, title: str = "") -> Section:
     return Section(path=path, title=title, kind=kind, kinds=kinds, entries=entries, removable=removable)
 
 
+def numbers_in(tree: Mapping[str, Any]) -> Iterator[str]:
+    """Yield the paths of all numbers that a file gives, as it spells them."""
+    todo = [path for path, _title in parts(tree)]
+    while todo:
+        path = todo.pop(0)
+        for one in section(tree, path).entries:
+            if one.sort in ("number", "whole") and isinstance(one.value, int | float):
+                yield one.key()
+            elif one.sort == "point" and isinstance(one.value, list):
+                yield from (f"{one.key()}[{k}]" for k in range(len(one.value)))
+            elif one.sort == "table" and isinstance(one.value, Mapping):
+                todo.append(one.key())
+
+
 def geometry_form(tree: Mapping[str, Any]) -> str:
     """Return in which form a file gives the geometry, also one that is not sound yet; empty where it gives none."""
     ends = [one for one in (tree.get("input"), tree.get("output")) if isinstance(one, Mapping)]

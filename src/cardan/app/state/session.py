@@ -11,6 +11,7 @@ from typing import Any, Literal, Protocol, TypeAlias
 from cardan.answers.reader import Reader, reading
 from cardan.drive.drive import Drive
 from cardan.errors import refuse
+from cardan.report.swept import Wanted
 from cardan.texts import LANGUAGES, _, speaking
 from cardan.units import DIMENSIONS
 
@@ -55,6 +56,7 @@ class Session:
     dark: whether the system of the user is dark; asked of the browser.
     variants: the variants kept, also while another file is opened.
     recordings: the recording that is open, which nobody else sees.
+    sweep: what is wanted of a sweep over keys of the drive.
     apart: makes steps of heavy files elsewhere, one after the other; None makes them here.
     opened: how many files were opened.
     rebuild: builds the parts of the page anew: another file, another language.
@@ -76,6 +78,7 @@ class Session:
         self.history = History()
         self.variants = Variants()
         self.recordings = Recordings(workspace)
+        self.sweep = Wanted()
         self._saved = ""
         self._stamp: object = None
         self._gesture = ""
@@ -181,7 +184,7 @@ class Session:
     def _begin(self, kept: Kept) -> None:
         self.history, self.variants, self.selected, self.instant = kept.history, kept.variants, "", None
         self.name, self.example, self._saved = kept.name, kept.example, kept.saved
-        self.foreign, self._stamp = None, None
+        self.foreign, self._stamp, self.sweep = None, None, Wanted()
         self.opened += 1
         self.end_gesture()
         elsewhere = self.apart is not None and heavy(kept.text)

@@ -29,6 +29,7 @@ from cardan.report.recorded import Recorded
 from cardan.report.render.exports import Exported, exported
 from cardan.report.render.renderer import renderer_for
 from cardan.report.subject import Subject
+from cardan.report.swept import Swept, swept
 from cardan.report.verdict_list import Headline, Light, headline, lights, with_remedies
 from cardan.scene.scene import Scene, scene
 from cardan.texts import _, speaking
@@ -40,11 +41,11 @@ from .session import Session
 
 Drawn: TypeAlias = tuple[Scene, dict[str, Any]]  # a drive in space, and the same as the browser draws it
 Judged: TypeAlias = tuple[Headline, tuple[Light, ...]]  # the number that stands first, and the verdicts
-Result: TypeAlias = Page | Judged | tuple[Light, ...] | Exported | Recorded | Drawn | Document
+Result: TypeAlias = Page | Judged | tuple[Light, ...] | Exported | Recorded | Swept | Drawn | Document
 
 
-VERDICTS, REMEDIES, SCENE = "verdicts", "remedies", "scene"
-"""Questions beside those of the register: the verdicts, the same with what cures them, the drive in space."""
+VERDICTS, REMEDIES, SCENE, SWEEP = "verdicts", "remedies", "scene", "sweep"
+"""Questions beside those of the register: the verdicts, the same with what cures them, the drive in space, a sweep."""
 
 RETOLD = 6  # long answers that a process keeps
 SOON = 60.0  # seconds that may be spent on what is quick but for heavy files
@@ -62,6 +63,8 @@ def result(question: Question | Edit, progress: Progress | None = None) -> Resul
             return made(question, known, progress)
         if question.name == recordings.DIAGNOSIS:
             return recordings.heard(question.drive, question.choices["recording"], known, progress)
+        if question.name == SWEEP:
+            return swept(question.drive, question.choices["wanted"], known=known, progress=progress)
         on = subject(question.drive, known=known)
         if question.name == VERDICTS:
             shown = lights(on, **question.choices)

@@ -295,7 +295,46 @@ def counted(count: int) -> str:
     return thousands(count)
 
 
-# The answers of a sweep on paper: over two fields as a map, or how often each value occurs.
+# The answers of a sweep on paper: over one field as a curve, over two as a map, or how often each value occurs.
+
+DOTS = 60  # points that a curve marks each with a dot
+
+
+def curve_figure(across: Column, value: Column, x: Array, y: Array) -> Figure:
+    """Return a column over one field as a curve through its points.
+
+    x, y (n,): values in the order of the points; where y is nan the curve has a gap.
+    """
+    numbers, words = levels(x)
+    order = np.argsort(numbers, kind="stable")
+    dots = 4.0 if len(x) <= DOTS or words else 0.0
+    curve = Curve(x=numbers[order], y=y[order], role="accent", marker=dots)
+    panel = Panel(series=(curve,), x=axis_of(across, x, margin=0.0, count=8), y=axis_of(value, y))
+    return Figure(
+        name="sweep-curve",
+        title=_("{value} over {across}").format(value=_capital(name_of(value)), across=name_of(across)),
+        sentence=_ends_sentence(across, value, x, y),
+        source=_("one dot for each point") if dots else _("a curve through all points"),
+        rows=(Row(panels=(panel,), height=2.8),),
+        legend=False,
+    )
+
+
+def _ends_sentence(across: Column, value: Column, x: Array, y: Array) -> str:
+    if not np.any(np.isfinite(y)):
+        return _("No point has an answer.")
+    y = _rounded_off(y)
+    least, most = (int(foremost(y, least=least)) for least in (True, False))
+    if least == most:
+        return _("It is {value} at every point.").format(value=amount(value, float(y[least])))
+    text = _("Least is {low} at {low_x}, greatest {high} at {high_x}.")
+    return text.format(
+        low=amount(value, float(y[least])),
+        low_x=amount(across, x[least].item()),
+        high=amount(value, float(y[most])),
+        high_x=amount(across, x[most].item()),
+    )
+
 
 WIDE = 0.02  # width of a bar of colours beside a map, a share of the map's
 
@@ -346,12 +385,20 @@ def heat_figure(
     )
 
 
+def _rounded_off(values: Array) -> Array:
+    """Return values, those that are nothing but rounding beside the largest as 0."""
+    return np.where(np.abs(values) < NOTHING * np.nanmax(np.abs(values)), 0.0, values)
+
+
 def _extremes_sentence(across: Column, up: Column, value: Column, x: Array, y: Array, values: Array) -> str:
     if not np.any(np.isfinite(values)):
         return _("No point has an answer.")
+    values = _rounded_off(values)
     least, most = (
         np.unravel_index(int(foremost(values.ravel(), least=least)), values.shape) for least in (True, False)
     )
+    if least == most:
+        return _("It is {value} at every point.").format(value=amount(value, float(values[least])))
     text = _("Least is {low} at {low_x} and {low_y}, greatest {high} at {high_x} and {high_y}.")
 
     def at(column: Column, where: Array, k: int) -> str:

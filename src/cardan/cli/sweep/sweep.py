@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from cardan.batch.answer import answer
+from cardan.batch.answer import answer, over
 from cardan.batch.engine.cluster import Cluster
 from cardan.batch.engine.engines import Engine, InProcess, Processes
 from cardan.batch.engine.running import run
@@ -69,7 +69,7 @@ def sweep(
 
     with about(str(plan)):
         read = read_plan(plan, catalogues=catalogue or ())
-        chosen = _design(read, design, plot)
+        chosen = _design(read, design)
     if chosen:
         return designed(read, plan, chosen, json=json, csv=csv, plot=plot)
     if csv and read.rows == "none":
@@ -77,13 +77,18 @@ def sweep(
     with about(str(plan)):
         work = read.work(device=device)  # type: ignore[arg-type]
         keeps = read.rows == "kept" and (into is not None or csv or work.size <= HELD)
+    if plot is not None and not (keeps and over(work)):
+        why = _(
+            "a table is drawn by cardan sweep show FOLDER --plot; here designs are, and grids over one or two fields"
+        )
+        raise refuse("--plot", why)
     where = _engine(read, engine, workers, scheduler)
     with keeping(_("answering points"), count=work.size) as progress:
         found = run(
             work, engine=where, into=into, rows="kept" if keeps else "none", chunk=read.chunk, progress=progress
         )
     title = read.title or read.drive.name or _("the drive")
-    return ended(tell(answer(work, found, plan, keeps=keeps), name=title, json=json, csv=csv), progress)
+    return ended(tell(answer(work, found, plan, keeps=keeps), name=title, json=json, csv=csv, plot=plot), progress)
 
 
 def _check(into: Path | None, resume: bool, engine: str | None, scheduler: str | None, device: str | None) -> None:
@@ -104,15 +109,12 @@ def _check(into: Path | None, resume: bool, engine: str | None, scheduler: str |
         read_sweep(into)
 
 
-def _design(read: Plan, design: str | None, plot: Path | None) -> str:
+def _design(read: Plan, design: str | None) -> str:
     """Return the design that is to choose the points: the one asked for, or the only one where nothing else varies."""
     if design is not None and design not in read.parts:
         given = ", ".join(read.parts) or _("none")
         raise refuse("--design", _("the plan has no [{name}]; it has: {given}").format(name=design, given=given))
-    chosen = design or (next(iter(read.parts)) if len(read.parts) == 1 and not read.axes else "")
-    if plot is not None and not chosen:
-        raise refuse("--plot", _("a table is drawn by cardan sweep show FOLDER --plot; here designs are"))
-    return chosen
+    return design or (next(iter(read.parts)) if len(read.parts) == 1 and not read.axes else "")
 
 
 def _engine(read: Plan, engine: str | None, workers: int | None, scheduler: str | None) -> Engine:
