@@ -269,7 +269,8 @@ def dress() -> None:
     """Give the page its looks, before anything stands on it."""
     for name in ("app", "answers", "variants"):
         ui.add_head_html(f'<link rel="stylesheet" href="/cardan/{name}.css">')
-    ui.add_head_html('<script type="module" src="/cardan/desk.js"></script>')
+    for name in ("desk", "numbers"):
+        ui.add_head_html(f'<script type="module" src="/cardan/{name}.js"></script>')
 
 
 def build(session: Session, jobs: Jobs, keep: Callable[[Kept], None]) -> None:

@@ -1,6 +1,7 @@
 // Plan and side view of a drive: its points can be dragged, or moved with the arrow keys.
 // Coordinates are millimetres of the drive; the server is told where a point is to be and sends the drive back.
 
+const WAIT = 1000; // milliseconds after which it is waited no more to be followed
 const GRIP = 2.8; // times as large as a point is what a finger may touch of it
 
 export default {
@@ -11,7 +12,7 @@ export default {
         <svg :ref="view.name" :viewBox="box(view)" preserveAspectRatio="xMidYMid meet" role="group" :aria-label="view.title">
           <polyline :points="line(view)" fill="none" class="axis" vector-effect="non-scaling-stroke" />
           <g v-for="point in points" :key="point.path">
-            <circle :cx="point.at[0]" :cy="-point.at[view.up]" :r="grip(view)" tabindex="0" role="slider"
+            <circle :cx="point.at[0]" :cy="-point.at[view.up]" :r="grip(view)" :tabindex="point.fixed ? -1 : 0" :role="point.fixed ? 'img' : 'slider'" :class="{ fixed: point.fixed }"
               :aria-label="point.name" :aria-valuetext="told(point)" :data-path="point.path"
               @pointerdown.prevent="grab($event, point, view)" @pointermove="drag($event, view)"
               @pointerup="drop" @pointercancel="drop" @keydown="key($event, point, view)"
@@ -26,7 +27,13 @@ export default {
     </div>`,
   props: { points: Array, selected: String, titles: Array },
   data() {
-    return { held: null, frozen: null, last: 0 };
+    return { held: null, frozen: null, waits: 0 };
+  },
+  mounted() {
+    addEventListener("cardan-followed", this.followed);
+  },
+  unmounted() {
+    removeEventListener("cardan-followed", this.followed);
   },
   computed: {
     views() {
@@ -69,6 +76,7 @@ export default {
       return [at.x, -at.y];
     },
     grab(event, point, view) {
+      if (point.fixed) return this.$emit("touched", { path: point.path });
       event.target.setPointerCapture(event.pointerId);
       event.target.focus();
       const [x, y] = this.place(event, view);
@@ -83,23 +91,31 @@ export default {
       const at = [...this.held.start];
       at[0] = Math.round((at[0] + x - this.held.from[0]) / step) * step;
       at[view.up] = Math.round((at[view.up] + y - this.held.from[1]) / step) * step;
-      const now = performance.now();
-      this.held.point.at = at;
+      this.held.point.at = this.held.at = this.held.last = at;
       this.held.moved = true;
-      if (now - this.last > 60) {
-        this.last = now;
-        document.dispatchEvent(new Event("cardan-moving"));
-        this.$emit("moving", { path: this.held.point.path, at });
-      }
+      this.send();
+    },
+    // The newest place alone is sent, once the one before is followed: `cardan-followed` tells, or time does.
+    send() {
+      if (this.waits || !this.held?.at) return;
+      document.dispatchEvent(new Event("cardan-moving"));
+      this.$emit("moving", { path: this.held.point.path, at: this.held.at });
+      this.held.at = null;
+      this.waits = window.setTimeout(this.followed, WAIT);
+    },
+    followed() {
+      clearTimeout(this.waits);
+      this.waits = 0;
+      this.send();
     },
     drop() {
-      if (this.held?.moved) this.$emit("moved", { path: this.held.point.path, at: this.held.point.at });
+      if (this.held?.moved) this.$emit("moved", { path: this.held.point.path, at: this.held.last });
       this.held = null;
       this.frozen = null;
     },
     key(event, point, view) {
       const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-      if (!way) return;
+      if (!way || point.fixed) return;
       event.preventDefault();
       const step = event.shiftKey ? 10 : event.altKey ? 0.1 : 1;
       const at = [...point.at];

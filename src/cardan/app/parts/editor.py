@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Any
 
@@ -11,12 +11,17 @@ from nicegui.element import Element
 
 from cardan.app.state.form import Entry, geometry_form, parts, section
 from cardan.app.state.session import Session
+from cardan.drive.drive import Drive
+from cardan.drive.fields.paths import read
+from cardan.drive.joints.joint import Point
+from cardan.drive.models.geometry import movable, with_point
+from cardan.errors import CardanError
 from cardan.io.amend import amend
 from cardan.texts import _
 from cardan.units import DIMENSIONS
 
 from .form import Form, KeyField, attempt
-from .widgets import Timer, first
+from .widgets import Timer, first, refused
 
 
 class Editor:
@@ -29,16 +34,23 @@ class Editor:
             lies = ui.tab("geometry", label=_("Geometry")).props('data-mark="way-geometry"')
             text = ui.tab("file", label=_("File")).props('data-mark="way-file"')
         self.problems = ui.element("div").classes("problems").props("role=status").props('data-mark="problems"')
-        with ui.tab_panels(tabs, value=form, animated=False, keep_alive=True).classes("way"):
+        with ui.tab_panels(tabs, value=form, animated=False, keep_alive=True).classes("way") as ways:
             with ui.tab_panel(form):
                 Form(session)
             with ui.tab_panel(lies):
                 centres = Centres(session)
             with ui.tab_panel(text):
                 Source(session)
+        ways.props["data-explore"] = _("explore with a slider")
         tabs.on_value_change(lambda event: centres.wake() if event.value == "geometry" else None)
         self._judge()
         session.listen("text", self._judge)
+        session.listen("text", self._follow, first=True)
+
+    def _follow(self) -> None:
+        """Tell a hand that moves something that it is followed: it sends the newest place then, and none between."""
+        if self.session.moving:
+            ui.run_javascript("dispatchEvent(new Event('cardan-followed'))")
 
     def _judge(self) -> None:
         """Say what is wrong with the file, whatever way is open."""
@@ -114,6 +126,9 @@ class Source:
 
 
 # Where the drive lies: its points as a table, and in plan and side view to be dragged.
+
+SPECK = 1e-7  # of a number, in the unit of the file, by which it is still the same
+
 
 COLUMNS = {
     "points": {"input": ("point",), "joints": ("centre",), "shafts": (), "output": ("point",)},
@@ -195,14 +210,18 @@ class Centres:
 
     def _moved(self, event: events.GenericEventArguments, *, last: bool) -> None:
         path, at = event.args["path"], event.args["at"]
-        tree = self.session.document.tree or {}
-        entry = next((one for _title, one in _geometry(tree) if one.path == path and one.size == 3), None)
-        if entry is None or not _sound(at):
+        drive, tree = self.session.drive, self.session.document.tree or {}
+        if drive is None or not _sound(at):
             return
-        share = DIMENSIONS["length"]["mm"] / entry.units[entry.unit]
-        value = [float(f"{float(x) * share:.9g}") for x in at]
+        x, y, z = (float(one) * DIMENSIONS["length"]["mm"] for one in at)
+        try:
+            values = dict(_changed(tree, drive, path, (x, y, z)))
+        except CardanError as error:
+            if last:
+                refused(str(error))
+            return
         gesture = f"drag {path}"
-        attempt(self.session, partial(amend, values={entry.key(): value}), gesture=gesture)
+        attempt(self.session, partial(amend, values=values), gesture=gesture)
         if last:
             self.session.end_gesture()
 
@@ -223,23 +242,32 @@ def _geometry(tree: Mapping[str, Any]) -> list[tuple[str, Entry]]:
     return found
 
 
-def _points(tree: Mapping[str, Any], drive: Any) -> list[dict[str, Any]]:
-    """Return the points of a drive given by points, as the views show them; none for another form."""
-    if drive.form != "points" or drive.input.point is None or drive.output.point is None:
-        return []
+def _changed(tree: Mapping[str, Any], drive: Drive, path: str, at: Point) -> Iterator[tuple[str, Any]]:
+    """Yield the keys that put a point of a drive elsewhere [m], as the file spells them, with their values then."""
+    entries = [one for _title, one in _geometry(tree)]
+    if drive.form == "points":  # also where that makes no drive: the file says why
+        entry = next(one for one in entries if one.path == path)
+        yield entry.key(), [float(f"{x / entry.units[entry.unit]:.9g}") for x in at]
+        return
+    after = with_point(drive, path, at)
+    for entry in entries:
+        old, new = (float(read(one, entry.key()) or 0.0) for one in (drive, after))
+        if abs(new - old) > SPECK:
+            yield entry.key(), round(new, 6)
+
+
+def _points(tree: Mapping[str, Any], drive: Drive) -> list[dict[str, Any]]:
+    """Return the points of a drive as the views show them, with whether they can be put elsewhere."""
     mm = DIMENSIONS["length"]["mm"]
-    ends = {"input": drive.input.point, "output": drive.output.point}
-    inner = {f"joints[{k}]": joint.centre for k, joint in enumerate(drive.joints)}
-    rows = {"input": ends["input"], **inner, "output": ends["output"]}
     names = {path: title for path, title in parts(tree)}
     return [
         {
             "path": path,
             "name": names.get(path, path),
-            "short": path[7:-1] and str(int(path[7:-1]) + 1) if path in inner else "",
+            "short": str(int(path[7:-1]) + 1) if path.startswith("joints[") else "",
             "at": [round(x / mm, 6) for x in at],
-            "end": path in ends,
+            "end": not path.startswith("joints["),
+            "fixed": not free,
         }
-        for path, at in rows.items()
-        if at is not None
+        for path, (at, free) in movable(drive).items()
     ]

@@ -295,22 +295,28 @@ AXES = ("x", "y", "z")
 TYPED = "(value) => emit(value?.target ? value.target.value : value)"
 """Sends what was typed with the event itself, so that no other message has to come before it."""
 
+SPUN = "(event) => emit(event.detail)"
+"""Sends what a number has come to that is on the move, see static/numbers.js."""
+
+NUMBER = "inputmode=decimal"
+
 
 class Triple:
     """Three numbers beside each other, of a point or a direction.
 
-    value: the three, with blanks between; typed: called with all three once one of them changed.
+    value: the three, with blanks between; typed: called with all three once one of them changed; spun: likewise while
+    one is on the move.
     """
 
-    def __init__(self, value: str, told: str, typed: Callable[[str], None]) -> None:
-        self._typed = typed
+    def __init__(self, value: str, told: str, typed: Callable[[str], None], spun: Callable[[str], None]) -> None:
         with ui.element("div").classes("triple"):
             self._inputs = [
-                ui.input(prefix=axis, value=part).props(f'dense outlined aria-label="{told} {axis}"')
+                ui.input(prefix=axis, value=part).props(f'dense outlined aria-label="{told} {axis}" {NUMBER}')
                 for axis, part in zip(AXES, self._parts(value), strict=True)
             ]
         for place, one in enumerate(self._inputs):
-            one.on("change", lambda event, place=place: self._changed(place, str(event.args)), js_handler=TYPED)
+            one.on("change", lambda event, place=place: self._changed(place, str(event.args), typed), js_handler=TYPED)
+            one.on("spin", lambda event, place=place: self._changed(place, str(event.args), spun), js_handler=SPUN)
 
     @property
     def value(self) -> str:
@@ -324,11 +330,11 @@ class Triple:
             if one.value != part:
                 one.value = part
 
-    def _changed(self, place: int, part: str) -> None:
+    def _changed(self, place: int, part: str, told: Callable[[str], None]) -> None:
         parts = ["".join(str(one.value or "").split()) for one in self._inputs]
         parts[place] = "".join(part.split())
         if all(parts):
-            self._typed(" ".join(parts))
+            told(" ".join(parts))
 
     @staticmethod
     def _parts(text: str) -> list[str]:
@@ -352,6 +358,7 @@ class KeyField:
                     out = ui.button(icon="close", on_click=self.remove).props("flat dense round size=xs")
                     out.props(f'aria-label="{_("take out")} {entry.name}"')
             ui.label(entry.doc).classes("hint")
+            self.row.on("spun", session.end_gesture, js_handler="() => emit()")
             self.wrong = ui.label("").classes("wrong").props("role=alert")
         self.judge()
 
@@ -390,7 +397,7 @@ class KeyField:
         told = f'dense outlined aria-label="{entry.name} {label(entry.unit)}"'
         if entry.sort == "point" and entry.size == 3:
             self.row.classes("wide")
-            return Triple(shown(entry), f"{entry.name} {label(entry.unit)}", self._typed)
+            return Triple(shown(entry), f"{entry.name} {label(entry.unit)}", self._typed, self._spun)
         if entry.sort == "flag":
             return ui.switch(value=bool(self._value()), on_change=lambda event: self._typed(event.value)).props(told)
         if entry.sort == "choice":
@@ -404,6 +411,8 @@ class KeyField:
         if not entry.given and isinstance(entry.default, int | float | str) and entry.default != "":
             widget.props(f'placeholder="{entry.default}"')
         widget.on("change", lambda event: self._typed(event.args), js_handler=TYPED)
+        if entry.sort in ("number", "whole"):
+            widget.props(NUMBER).on("spin", lambda event: self._spun(str(event.args)), js_handler=SPUN)
         return widget
 
     def _unit(self) -> None:
@@ -416,6 +425,13 @@ class KeyField:
         chosen = ui.select(options, value=entry.unit, on_change=lambda event: self._turned(event.value))
         told = f"{_('unit of')} {entry.name}"  # the title is what Quasar passes on to the element with the focus
         chosen.props(f'dense borderless options-dense aria-label="{told}" title="{told}"').classes("unit")
+
+    def _spun(self, text: str) -> None:
+        """Take a number that is on the move: all its steps are one of undo."""
+        new = written(self.entry, text)
+        if new != self.entry.value:
+            key = self.entry.key()
+            attempt(self.session, partial(amend, values={key: new}), gesture=f"spin {key}")
 
     def _typed(self, value: Any) -> None:
         if self._silent:

@@ -223,11 +223,15 @@ class Session:
     def _stepped(self, after: Document, gesture: str = "") -> None:
         if after.text == self.document.text:
             return
-        if gesture and gesture == self._gesture:
-            self._now(after)
-        else:
-            self._step(after)
+        if not gesture or gesture != self._gesture:
+            self.history = self.history.after(self.document.text)
         self._gesture = gesture
+        self._now(after)
+
+    @property
+    def moving(self) -> bool:
+        """Whether a gesture goes on, whose browser waits to be followed before it sends the next place."""
+        return bool(self._gesture)
 
     def end_gesture(self) -> None:
         """End a gesture: what follows is a step of its own."""
@@ -325,10 +329,6 @@ class Session:
         self.tell("choices")
         if self.choices.language != before.language:
             self.rebuild()
-
-    def _step(self, document: Document) -> None:
-        self.history, self._gesture = self.history.after(self.document.text), ""
-        self._now(document)
 
     def _now(self, document: Document) -> None:
         """Show another document: first what the user waits for, then all the rest, for several edits in a row once."""

@@ -301,6 +301,39 @@ def in_form(drive: Drive, form: Form) -> Drive:
     return replace(other, movements=tuple(_shifted(one, here.points[1]) for one in drive.movements))
 
 
+def movable(drive: Drive) -> dict[str, tuple[Point, bool]]:
+    """Return ends and joint centres of a drive by their paths [m], each with whether `with_point` can put it elsewhere.
+
+    A form without coordinates keeps the input shaft and joint 1 where they are. None where it does not say the lengths
+    of the shafts between joints.
+    """
+    here = geometry(drive)
+    if any(f"shafts[{k}].length" in here.assumed for k in range(1, len(drive.joints))):
+        return {}
+    paths = ["input", *(f"joints[{k}]" for k in range(len(drive.joints))), "output"]
+    points = zip(paths, here.points.tolist(), strict=True)
+    return {path: ((x, y, z), drive.form == "points" or k > 1) for k, (path, (x, y, z)) in enumerate(points)}
+
+
+def with_point(drive: Drive, path: str, point: Point) -> Drive:
+    """Return a drive with one of its `movable` points elsewhere [m], in its own form; the others stay where they are.
+
+    Lengths of the outer shafts that the drive does not give stay so.
+    """
+    moved = _to_points(drive, geometry(drive)) if drive.form != "points" else drive
+    if path in ("input", "output"):
+        moved = replace(moved, **{path: replace(getattr(moved, path), point=point)})
+    else:
+        joints = (replace(one, centre=point) if f"joints[{k}]" == path else one for k, one in enumerate(moved.joints))
+        moved = replace(moved, joints=tuple(joints))
+    if drive.form == "points":
+        return moved
+    made = (_to_angles if drive.form == "angles" else _to_slopes)(moved, geometry(moved))
+    pairs = zip(drive.shafts, made.shafts, strict=True)
+    shafts = (new if old.length is not None else replace(new, length=None) for old, new in pairs)
+    return replace(made, shafts=tuple(shafts))
+
+
 def _with_vectors(other: Drive, old: Geometry) -> Drive:
     """Return a drive that was turned as a whole with gravity and the offsets of its supports turned alike."""
     now = geometry(other)
