@@ -257,3 +257,8 @@ def _angle(turn: Array, about: Array | None, ratio: Array, angle: Array) -> Arra
     told = np.empty(len(turn))
     told[order] = wrapped[order] + 2.0 * np.pi * np.round((rough - wrapped[order]) / (2.0 * np.pi))
     return told
+
+
+def most(values: Array) -> float:
+    """Return the largest size of values of any shape, leaving out what is not a number."""
+    return float(np.nanmax(np.abs(values)))
