@@ -19,7 +19,7 @@ from cardan.texts import _, plural
 from .figure import forces_figures
 from .forces import MechanismForces
 from .forces import mechanism_forces as ask
-from .motion import most
+from .motion import peak
 
 __all__ = ["answer", "ask", "lacking"]
 
@@ -119,7 +119,7 @@ def _tables(result: MechanismForces, held: Mobility) -> Iterator[Table]:
                 key="axial_force",
                 heading=_("along its axis ±"),
                 values=[
-                    _told(most(_along(result, k)), forces) if pair.axis is not None else None
+                    _told(peak(_along(result, k)), forces) if pair.axis is not None else None
                     for k, pair in enumerate(pairs)
                 ],
                 dimension="force",
@@ -261,7 +261,7 @@ def _remarks(result: MechanismForces, held: Mobility) -> Iterator[Remark]:
 
 
 def _keys(result: MechanismForces) -> Iterator[KeyFigure]:
-    torque = Quantity(most(result.input_torque), "torque")
+    torque = Quantity(peak(result.input_torque), "torque")
     yield KeyFigure(name="input_torque", title=_("largest input torque"), value=torque)
     k = int(foremost(np.nanmax(result.force, axis=0)))
     force = Quantity(float(np.nanmax(result.force)), "force")

@@ -259,6 +259,6 @@ def _angle(turn: Array, about: Array | None, ratio: Array, angle: Array) -> Arra
     return told
 
 
-def most(values: Array) -> float:
+def peak(values: Array) -> float:
     """Return the largest size of values of any shape, leaving out what is not a number."""
     return float(np.nanmax(np.abs(values)))

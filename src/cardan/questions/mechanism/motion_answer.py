@@ -17,7 +17,7 @@ from cardan.texts import _
 from cardan.units import deg
 
 from .figure import motion_figures
-from .motion import WAYS, LinkMotion, MechanismMotion, most
+from .motion import WAYS, LinkMotion, MechanismMotion, peak
 from .motion import mechanism_motion as ask
 
 __all__ = ["answer", "ask", "lacking", "sentence"]
@@ -63,7 +63,7 @@ def sentence(result: MechanismMotion) -> Say:
             output=output.link,
             input=given,
             travel=_length(_span(output.path)),
-            speed=_length(most(output.speed)),
+            speed=_length(peak(output.speed)),
         )
     if output.turns:
         low, high = _ends(output.ratio)
@@ -77,7 +77,7 @@ def sentence(result: MechanismMotion) -> Say:
         values: dict[str, Any] = {"angle": Quantity(_span(output.angle), "angle"), "share": share}
         return say(text, output=output.link, input=given, low=Quantity(low), high=Quantity(high), **values)
     text = _("{output} shifts without turning, at most {speed} for a radian of {input}.")
-    return say(text, output=output.link, input=given, speed=_length(most(output.speed)))
+    return say(text, output=output.link, input=given, speed=_length(peak(output.speed)))
 
 
 def fluctuation(link: LinkMotion, angle: Array) -> float | None:
@@ -110,7 +110,7 @@ def _tables(result: MechanismMotion, listed: MechanismMotion | None) -> Iterator
     turning = [one for one in result.links if one.turns]
     if turning:
         rates = np.asarray([_ends(link.ratio) for link in turning])
-        steep = _tidy(np.asarray([most(one.slope) for one in turning]), 1.0)
+        steep = _tidy(np.asarray([peak(one.slope) for one in turning]), 1.0)
         yield Table(
             name="turning",
             title=_("Links that turn"),
@@ -141,7 +141,7 @@ def _tables(result: MechanismMotion, listed: MechanismMotion | None) -> Iterator
     if moving:
         size = result.turned.placed.size
         speeds = _tidy(np.asarray([_ends(one.speed) for one in moving]), size)
-        steep = _tidy(np.asarray([most(one.curve) for one in moving]), size)
+        steep = _tidy(np.asarray([peak(one.curve) for one in moving]), size)
         yield Table(
             name="moving",
             title=_("Points that move"),
