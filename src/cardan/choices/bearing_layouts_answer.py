@@ -9,12 +9,12 @@ from cardan.answers.answer import FILE, Answer, Column, Remark, Table
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.answers.question import Lacking
 from cardan.drive.drive import Drive
+from cardan.drive.models.machine_held import balls_of
 from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.mechanism.counting import Group, minus_groups
 from cardan.mechanism.layouts import BEARINGS
 from cardan.mechanism.mechanism import PAIRS
-from cardan.questions.mobility.drive_mechanism import ball_held
 from cardan.texts import _, mark
 
 from .bearing_layouts import BearingLayouts, HeldDrive
@@ -39,7 +39,7 @@ def lacking(drive: Drive) -> Lacking:
 
 def ask(drive: Drive, *, other_joints: bool = False) -> BearingLayouts | None:
     """Return the layouts of a drive; None where a joint holds its shaft in a bearing of its own."""
-    return None if ball_held(drive) else search(drive, other_joints=other_joints)
+    return None if balls_of(drive, pivots=True) else search(drive, other_joints=other_joints)
 
 
 def otherwise(drive: Drive) -> str:

@@ -198,8 +198,8 @@ def _torque_counted(asked: Asked) -> Values:
 def _couple_carried(asked: Asked) -> Values:
     """Return the largest part across each shaft of the couples that the joints at its ends put on it."""
     found = asked.forces
-    if found is None or not _light(asked):
-        return {}
+    if found is None or not _light(asked) or any(joint.ball is not None for joint in asked.drive.joints):
+        return {}  # strength takes the couples of pins that meet
 
     def across(couple: Array, axis: Array) -> Array:
         """Return the largest part of couples (n, p, 3) across axes (n, p, 3) [N·m]."""

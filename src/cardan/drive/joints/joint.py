@@ -36,6 +36,7 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``wobbles``          no: the driven shaft keeps its place while it turns
 ``head``             the driven shaft starts at the joint centre
 ``held``             it is held where its next joint is
+``ball``             none: no ball of its own holds its driven shaft
 ``solid``            yokes with a cross, else a bell with balls
 ``span``             from its cross or its rating
 ``types``            no rows of the catalogue
@@ -377,6 +378,11 @@ class Joint:
         length [m]: of that shaft up to the next joint; None where it is not known or there is none.
         """
         return length
+
+    @property
+    def ball(self) -> float | None:
+        """How far from the joint centre a sliding ball of its own holds its driven shaft [m]; None where none does."""
+        return None
 
     def half_length(self, apart: float) -> float:
         """Return how far its yokes swing off its centre [m], ``apart`` where it has two crosses that stand so."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -21,7 +21,7 @@ from cardan.units import plain, quantity
 from .common import site as drawn
 from .common.inner import DRIVEN, FRAME, InnerPair, Stance, carried, crossed
 from .common.site import Site
-from .joint import CROSS_ONLY, REFUSALS, Inside, Joint, both_or_none
+from .joint import CROSS_ONLY, Inside, Joint, both_or_none
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -34,10 +34,7 @@ class OffsetCross(Joint):
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("journal_span", "journal_diameter")
     crossed: ClassVar[bool] = True
-    refusals: ClassVar[Mapping[str, str]] = {
-        **REFUSALS,
-        "forces": mark("its driven shaft wobbles, so that its shafts take forces besides the couple"),
-    }
+    fixed: ClassVar[bool] = True
 
     offset: float = quantity("length", doc="distance of both pin axes, along their common perpendicular", low=0.0)
     reach: float = quantity(
@@ -105,6 +102,11 @@ class OffsetCross(Joint):
 
     def held(self, length: float | None) -> float:
         """Return where its sliding ball stands."""
+        return self.reach
+
+    @property
+    def ball(self) -> float:
+        """Its reach."""
         return self.reach
 
     def solid(self, site: Site) -> None:

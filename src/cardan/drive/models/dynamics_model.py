@@ -138,11 +138,7 @@ def train(drive: Drive, *, kinds: bool = False) -> Train:
     place = geometry(drive)
     known = known_lengths(drive)
     if drive.supports:
-        check(
-            Problem(f"shafts[{number - 1}].length", _("missing; the balance of moments needs it"))
-            for number in range(2, len(drive.joints) + 1)
-            if number not in known
-        )
+        check(length_problems(drive))
     length = [float(one) for one in place.length]
     assumed = [*place.assumed]
     bodies = [weight(shaft, body_length(shaft, known.get(shaft.number))) for shaft in drive.shafts]
@@ -292,6 +288,14 @@ def _drag(joint: Joint) -> float:
     if reduced is None or cross is None or cross.span is None or cross.journal is None:
         return 0.0
     return reduced * cross.journal / cross.span
+
+
+def length_problems(drive: Drive) -> Iterator[Problem]:
+    """Yield shafts between two joints whose length is not given."""
+    known = known_lengths(drive)
+    for number in range(2, len(drive.joints) + 1):
+        if number not in known:
+            yield Problem(f"shafts[{number - 1}].length", _("missing; the balance of moments needs it"))
 
 
 def mass_problems(drive: Drive) -> Iterator[Problem]:

@@ -17,22 +17,44 @@ from cardan.texts import _, plural
 from .geometry import geometry
 
 NEAR = 0.9  # share of its length at which a shaft is proposed to have its centre bearing: before its second joint
+SAME = 1e-9  # share of a length up to which two places are one
 REACH = 0.1  # distance [m] of the proposed bearings of an end shaft from its joint and from each other
+
+
+def balls_of(drive: Drive, *, pivots: bool = False) -> dict[int, float]:
+    """Return the joints, from 0, with a sliding ball that holds their driven shaft, and how far behind them [m].
+
+    None where supports stand on that shaft, where the next joint stands in the ball's place and holds it, or where it
+    is not known how long the shafts are.
+    pivots: whatever else holds such a shaft in a place of its own is among them.
+    """
+    stood = {one.shaft for one in drive.supports}
+    places = {i: joint.held(None) if pivots else joint.ball for i, joint in enumerate(drive.joints)}
+    found = {i: far for i, far in places.items() if far is not None and i + 2 not in stood}
+    if not found or len(known_lengths(drive)) < len(drive.joints) - 1:
+        return {}
+    length = geometry(drive).length[:-1]
+    return {i: far for i, far in found.items() if i + 1 >= len(length) or abs(far / length[i + 1] - 1.0) > SAME}
 
 
 def machines_of(drive: Drive) -> tuple[int, ...]:
     """Return the numbers of the end shafts that their machines hold, as no support of the drive stands on them."""
-    stood = {one.shaft for one in drive.supports}
+    stood = {one.shaft for one in drive.supports} | {i + 2 for i in balls_of(drive)}
     return tuple(number for number in (1, len(drive.shafts)) if number not in stood) if stood else ()
 
 
 def machine_held(drive: Drive) -> Drive:
     """Return a drive with supports whose end shafts without any are held by their machines, at the joint.
 
+    The sliding ball that a joint brings along for its driven shaft is a support too.
+
     Returns Drive: a machine holds its shaft sideways and against tilting; lengthwise too where no other axial support
     holds the part of the drive up to the next spline or joint that slides.
     """
     made = list(drive.supports)
+    for i, far in balls_of(drive).items():
+        name = _("ball behind joint {number}").format(number=i + 1)
+        made.append(Support(name=name, shaft=i + 2, position=far, bore=1e-3, friction=0.0))
     for number in machines_of(drive):
         axial = not any(one.axial and _segment(drive, one) == _segment_of(drive, number) for one in made)
         place = 0.0

@@ -10,9 +10,9 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.dynamics_model import Train, mass_problems, place_of, train
+from cardan.drive.models.dynamics_model import Train, length_problems, mass_problems, place_of, train
 from cardan.drive.models.geometry import geometry
-from cardan.drive.models.kinematics_model import refuse_kinds
+from cardan.drive.models.kinematics_model import Chain, refuse_kinds
 from cardan.drive.models.machine_held import machine_held, tables_proposed
 from cardan.drive.movement import Movement
 from cardan.errors import Problem, check, refuse
@@ -41,8 +41,15 @@ from .reactions import (
     whole_balance,
 )
 from .turn_loads import turns
+from .wobbling import wobbling_state
 
 __all__ = ["Forces", "forces", "kinetostatics"]
+
+ROUNDS = 100
+"""Rounds between torques and forces where pins stand apart, at most."""
+
+RESTS = 1e-14
+"""Change of a force over the largest one at which they are found."""
 
 
 def forces(
@@ -125,6 +132,12 @@ def _forces(
     phi = positions(angle, xp, turns=turns(used.harmonics))
     if isinstance(drive, Drive) and movement is None:
         _refuse_locked(whole, np.asarray(whole.chain.joint_angle))
+    if isinstance(drive, Drive) and any(joint.ball is not None for joint in drive.joints):
+        if movement is not None:
+            i = next(i for i, joint in enumerate(drive.joints) if joint.ball is not None)
+            text = _("the ball behind it stands in the frame, and no movement says where it goes with its drive")
+            raise refuse(f"joints[{i}].kind", text, "unknown_kind")
+        return _wobbling(drive, whole, used, phi)
     if movement is None:
 
         def asked(one: Train) -> Forces:
@@ -144,6 +157,41 @@ def _forces(
     if not isinstance(drive, Drive):
         raise refuse("movement", _("one drive at a time can move; a batch of drives stands still"))
     return _moving(drive, whole, used, phi, movement)
+
+
+def _wobbling(drive: Drive, whole: Train, duty: Duty, angle: Array) -> Forces:
+    """Return the forces of a drive with pins that stand apart: its shafts wobble with the turn.
+
+    A force in such a joint turns its shafts, so that torques and forces follow from each other, round by round: each
+    leaves the distance of the pins over the length of the shaft.
+    """
+    check(length_problems(drive))
+    if not whole.bearings:
+        text = _(
+            "missing; where pins stand apart the forces between the shafts turn them too, and they follow from what "
+            "holds the shafts"
+        )
+        raise refuse("supports", text, "missing")
+    still = duty.speed is None
+    if still:
+        whole = replace(whole, inertia=None, transverse_inertia=None, cross_inertia=None)
+    moved, points, acceleration = wobbling_state(drive, angle, duty.speed or 1.0, 0.0 if still else duty.acceleration)
+    given = (duty.torque or 0.0) + _harmonics(
+        [(one.order, one.torque, one.phase) for one in duty.harmonics], duty.torque_at, drive, angle
+    )
+    force, found = np.zeros((*angle.shape, whole.joints, 3)), None
+    for _round in range(ROUNDS):
+        carried = _carried(whole, moved, given, duty.torque_at, force)
+        found = forces_from(
+            whole, moved, points, None if still else acceleration, angle, carried, still=still, field="supports"
+        )
+        assert found.joint_force is not None
+        new = np.moveaxis(found.joint_force, 0, 1)
+        change, force = np.max(np.abs(new - force)), new
+        if not change > RESTS * np.max(np.abs(force)):
+            return found
+    text = _("the forces between its pins that stand apart do not settle: they stand too far apart for its ball")
+    raise refuse("joints", text, "out_of_range")
 
 
 def kinetostatics(
@@ -185,7 +233,7 @@ def kinetostatics(
     if used.drag is not None:
         hold = used.drag * xp.tan(place.joint_angle)
         used = replace(used, drag=xp.where(hold < 1.0, used.drag + 0.0 * hold, xp.full_like(hold, xp.nan)))
-    wave = _harmonics(harmonics, torque_at, whole, angle)
+    wave = _harmonics(harmonics, torque_at, whole.chain, angle)
     carried = _carried(used, moved, given + wave + xp.zeros((*outer, angle.shape[0]), dtype=xp.float64), torque_at)
     return forces_from(used, moved, whole.points[..., None, :, :], None, angle, carried, still=still, field=field)
 
@@ -212,21 +260,23 @@ def _slid_back(drive: Drive, whole: Train) -> Train | None:
     return replace(whole, sliding=np.where(turned, -whole.sliding, whole.sliding))
 
 
-def _harmonics(harmonics: Sequence[tuple[float, float, float]], torque_at: str, whole: Train, angle: Array) -> Array:
+def _harmonics(
+    harmonics: Sequence[tuple[float, float, float]], torque_at: str, turning: Drive | Chain, angle: Array
+) -> Array:
     """Return the swinging part of the torque, array (..., p)."""
     xp = namespace(angle)
     if not harmonics:
         return xp.zeros_like(angle)
-    at = angle if torque_at == "input" else motion(whole.chain, angle).output_angle
+    at = angle if torque_at == "input" else motion(turning, angle).output_angle
     return sum(size * xp.cos(order * at + phase) for order, size, phase in harmonics)
 
 
-def _carried(whole: Train, stand: KinematicState, given: Array, torque_at: str) -> tuple[Couples, Array]:
-    """Return the couples for a torque at either end, and the torque that resists the output."""
-    if torque_at == "output":
-        return couples(whole, stand, given), given
-    load = resisted(whole, stand, given)
-    return couples(whole, stand, load), load
+def _carried(
+    whole: Train, stand: KinematicState, given: Array, torque_at: str, force: Array | None = None
+) -> tuple[Couples, Array]:
+    """Return the couples for a torque at either end, and the torque that resists the output; force as of `couples`."""
+    load = given if torque_at == "output" else resisted(whole, stand, given, force)
+    return couples(whole, stand, load, force), load
 
 
 def _moving(

@@ -11,12 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cardan.drive.joints import Joint
 from cardan.drive.models.dynamics_model import Train
 from cardan.drive.models.kinematics_model import Chain
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.curves.paths import Jet
 from cardan.maths.kernel import frames
-from cardan.questions.motion.joint_mechanism import FEW, STRAIGHT, rubbed_push, rubbed_share
+from cardan.questions.motion.joint_mechanism import FEW, STRAIGHT, rubbed_pins, rubbed_push, rubbed_share
 from cardan.questions.motion.motion import Motion, motion
 from cardan.questions.motion.moving_chain import Spins, moving_axes, seen
 
@@ -42,12 +43,28 @@ class KinematicState:
     driven_arm: Array  # (..., p, n, 3)
     # (..., p, n, 3): directions of the couples that the joints pass on; None where all are normals u×v of crosses
     way: Array | None = None
+    # (p, n, 3) [m]: from each joint centre to the driven pin, where its driven shaft begins, along u×v; None where no
+    # joint has its pins apart
+    head: Array | None = None
+    head_acceleration: Array | None = None  # (p, n, 3) [m/s²]
+    ahead: Array | None = None  # (n) [m]: how far along its shaft it lies in the mean; lengths count from the centre
+    rest: Array | None = None  # (n+1, 3): directions of the shafts as drawn, where some wobble
 
     def couple_way(self, i: int) -> Array:
         """Direction of the couple that joint i passes on, array (..., p, 3)."""
         if self.way is not None:
             return self.way[..., i, :]
         return frames.cross(self.driving_arm[..., i, :], self.driven_arm[..., i, :])
+
+    def levered(self, i: int, force: Array) -> tuple[Array, Array]:
+        """Couples that go with a force (..., 3) on driven shaft i+1: on it, and of the driving one on the cross.
+
+        A force along either pin acts in the axis of the other one: (F·v) a u and (F·u) a v, a the distance of the pins.
+        """
+        u, v = self.driving_arm[..., i, :], self.driven_arm[..., i, :]
+        apart = 0.0 if self.head is None else frames.dot(self.head[..., i, :], frames.cross(u, v))
+        along = frames.dot(force, v), frames.dot(force, u)
+        return (apart * along[0])[..., None] * u, (apart * along[1])[..., None] * v
 
     def turning(self, i: int) -> Array:
         """Angular velocity Ω_i of shaft i, array (..., p, 3) [rad/s]."""
@@ -139,7 +156,7 @@ def standing_kinds(
     )
 
 
-def _stand(axis: Array, rate: Array | None, curve: Array | None, spins: Spins) -> KinematicState:
+def _stand(axis: Array, rate: Array | None, curve: Array | None, spins: Spins, **apart: Array | None) -> KinematicState:
     return KinematicState(
         axis=axis,
         axis_rate=rate,
@@ -149,19 +166,24 @@ def _stand(axis: Array, rate: Array | None, curve: Array | None, spins: Spins) -
         driving_arm=spins.driving_arm,
         driven_arm=spins.driven_arm,
         way=spins.way,
+        **apart,
     )
 
 
-def swinging(axes: tuple[Array, Array, Array], spins: Spins) -> KinematicState:
-    """Return how a drive whose axes move turns, from the jet of its axes (p, n+1, 3) and its spins."""
-    return _stand(*axes, spins)
+def swinging(axes: tuple[Array, Array, Array], spins: Spins, **apart: Array | None) -> KinematicState:
+    """Return how a drive whose axes move turns, from the jet of its axes (p, n+1, 3) and its spins.
+
+    apart: what `KinematicState` says of pins that stand apart.
+    """
+    return _stand(*axes, spins, **apart)
 
 
-def couples(train: Train, stand: KinematicState, load: Array) -> Couples:
+def couples(train: Train, stand: KinematicState, load: Array, force: Array | None = None) -> Couples:
     """Return torques and couples of all shafts, backwards from the load.
 
     train (...): masses and friction; stand (..., p): how shafts and crosses stand and turn.
     load (..., p) [N·m]: torque that resists the output shaft, positive when it resists positive turning.
+    force (..., p, n, 3) [N]: of the joints on their driven shafts, which turn these where pins stand apart.
     With h = Ḣ of the cross: T⁺ = [τ_{i+1} + (h·u)(u·e_{i+1})]/(n·e_{i+1}), K⁺ = T⁺ n - (h·u) u, K⁻ = K⁺ + h,
     τ_i = K⁻·e_i + L_i + J_i ε_i. Friction of the journals adds -κ|T| sgn(p) u + κ|T| sgn(q) v to both couples, p and q
     the rates of the cross against the driving and of the driven yoke against the cross; where one of them changes its
@@ -186,6 +208,8 @@ def couples(train: Train, stand: KinematicState, load: Array) -> Couples:
         swing = _cross_swing(train, stand, i, (u, v, normal))
         inside = inner_friction(train, stand, i)
         top = tau if swing is None else tau + swing.rate[0] * lean
+        ahead_of, behind_of = _lever_torques(stand, i, force)
+        top = top - behind_of
         if train.drag is not None:
             (p, q), (ahead, behind) = _journal_rates(stand, i, u, v, lean)
             kappa = train.drag[..., None, i]
@@ -217,8 +241,8 @@ def couples(train: Train, stand: KinematicState, load: Array) -> Couples:
             out = out - hu[..., None] * u
             work = work + sum(h * turn for h, turn in zip(swing.rate, swing.turning, strict=True))
         own = _own(train, stand, i)
-        tau = frames.dot(given, e[..., i, :]) + own
-        work = work + own * w[..., i] + lost
+        tau = frames.dot(given, e[..., i, :]) + ahead_of + own
+        work = work + own * w[..., i] + lost + ahead_of * w[..., i] - behind_of * w[..., i + 1]
         flow = xp.maximum(flow, xp.abs(tau * w[..., i]))
         for row, value in zip(
             (torque, pushed, driving, driven, losses, entering), (t, back, given, out, lost, tau), strict=True
@@ -243,11 +267,11 @@ def couples(train: Train, stand: KinematicState, load: Array) -> Couples:
     )
 
 
-def resisted(train: Train, stand: KinematicState, drive: Array) -> Array:
+def resisted(train: Train, stand: KinematicState, drive: Array, force: Array | None = None) -> Array:
     """Return the torque at the output that a torque at the input holds, array (..., p) [N·m].
 
     train (...): masses and friction, no joint locked; stand (..., p): how shafts and crosses stand and turn.
-    drive (..., p) [N·m]: torque that drives the input shaft.
+    drive (..., p) [N·m]: torque that drives the input shaft; force: as of `couples`.
     The equations of `couples` from their other end: friction leaves the couple of each cross the sign of the torque
     that its driving shaft passes on.
     """
@@ -260,7 +284,8 @@ def resisted(train: Train, stand: KinematicState, drive: Array) -> Array:
         lean, back = frames.dot(u, e[..., i + 1, :]), frames.dot(v, e[..., i, :])
         out, into = frames.dot(normal, e[..., i, :]), frames.dot(normal, e[..., i + 1, :])
         swing = _cross_swing(train, stand, i, (u, v, normal))
-        left = tau - _own(train, stand, i)
+        ahead_of, behind_of = _lever_torques(stand, i, force)
+        left = tau - _own(train, stand, i) - ahead_of
         if swing is not None:
             left = left - swing.rate[2] * out - swing.rate[1] * back
         if train.drag is not None:
@@ -272,10 +297,21 @@ def resisted(train: Train, stand: KinematicState, drive: Array) -> Array:
             tau = left / out * into
         inside = inner_friction(train, stand, i)
         if inside is not None:
-            tau = left / (out / into + inside.of(left * stand.speed[..., i], frames.dot(inside.couple, e[..., i, :])))
+            rubs = inside.of(left * stand.speed[..., i], frames.dot(inside.couple, e[..., i, :]))
+            tau = (left + behind_of * out / into) / (out / into + rubs) - behind_of
         if swing is not None:
             tau = tau - swing.rate[0] * lean
+        tau = tau + behind_of
     return tau - _own(train, stand, train.joints)
+
+
+def _lever_torques(stand: KinematicState, i: int, force: Array | None) -> tuple[Array | float, Array | float]:
+    """Return the torques (..., p) [N·m] that the force of joint i takes from its driving and gives its driven shaft."""
+    if stand.head is None or force is None:
+        return 0.0, 0.0
+    on_driven, on_cross = stand.levered(i, force[..., i, :])
+    e = stand.axis
+    return frames.dot(on_cross, e[..., i, :]), frames.dot(on_driven, e[..., i + 1, :])
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -312,6 +348,8 @@ def inner_friction(train: Train, stand: KinematicState, i: int) -> InnerFriction
     """
     if not train.kinds or not train.kinds[i].rubs:
         return None
+    if stand.head is not None and train.kinds[i].ball is not None:
+        return _pin_friction(train.kinds[i], stand, i)
     after = stand.axis[..., i + 1, :]
     normal, aside, theta, alpha, before = seen_by(train, stand, i)
     many = np.unique(np.round(alpha, 9)).size > FEW
@@ -326,6 +364,18 @@ def inner_friction(train: Train, stand: KinematicState, i: int) -> InnerFriction
         couple=across[..., None] * frames.cross(normal, after) + push[:, 0][..., None] * normal,
         force=sum(push[:, 1 + k][..., None] * axis for k, axis in enumerate((before, aside, normal))),
     )
+
+
+def _pin_friction(kind: Joint, stand: KinematicState, i: int) -> InnerFriction:
+    """Return the couples of friction about both pins, which stand apart; the normal makes up for the torque."""
+    assert stand.rest is not None
+    u, v, after = stand.driving_arm[..., i, :], stand.driven_arm[..., i, :], stand.axis[..., i + 1, :]
+    _normal, _aside, theta, alpha = seen(u, stand.rest[i] + 0.0 * u, stand.rest[i + 1] + 0.0 * u)
+    about = rubbed_pins(kind, alpha, theta)
+    way = stand.couple_way(i)
+    level = u - (frames.dot(u, after) / frames.dot(way, after))[..., None] * way
+    couple = about[:, 0][..., None] * level + about[:, 1][..., None] * v
+    return InnerFriction(couple=couple, force=0.0 * couple)
 
 
 def sprung(train: Train, stand: KinematicState, i: int) -> tuple[Array, Array | None] | None:

@@ -49,6 +49,8 @@ class Frame:
     acting: Actions  # the unknowns as forces and couples
     matrix: Array  # (..., p or 1, rows, unknowns): balance of the shafts, then no force along journals that slide
     points: Array  # (..., p or 1, n+2, 3) [m]: B_0 … B_{n+1}
+    starts: Array  # (..., p or 1, n+1, 3) [m]: where the shafts begin
+    place: Array  # (..., p or 1, k) [m]: places of the supports, from there on
 
     @property
     def slides(self) -> int:
@@ -78,11 +80,16 @@ def frame(train: Train, stand: KinematicState, points: Array) -> Frame:
     """
     xp = namespace(points)
     layout = layout_of(train)
-    length = frames.norm(points[..., 1:, :] - points[..., :-1, :])
+    starts = points[..., :-1, :]
     position = xp.zeros(0, dtype=xp.float64) if train.position is None else train.position
     outer = tuple(stand.axis.shape[:-2])
     place = xp.broadcast_to(position[..., None, :], (*outer, position.shape[-1]))
-    acting = actions(stand.axis, length, layout, place, _cut(train))
+    if stand.head is not None:
+        place = _standing_places(train, stand, place)
+        starts = xp.concat((starts[..., :1, :], starts[..., 1:, :] + stand.head), axis=-2)
+    length = frames.norm(points[..., 1:, :] - starts)
+    levered = None if stand.head is None else stand.levered
+    acting = actions(stand.axis, length, layout, place, _cut(train), levered)
     rows = balance(acting)
     free = sliding(layout, arms_of(train, stand)) if any(map(any, layout.slides)) else None
     if free is not None:
@@ -91,7 +98,21 @@ def frame(train: Train, stand: KinematicState, points: Array) -> Frame:
             (xp.broadcast_to(rows, (*outer, *rows.shape[-2:])), xp.broadcast_to(free, (*outer, *free.shape[-2:]))),
             axis=-2,
         )
-    return Frame(layout=layout, acting=acting, matrix=rows, points=points)
+    return Frame(layout=layout, acting=acting, matrix=rows, points=points, starts=starts, place=place)
+
+
+def _standing_places(train: Train, stand: KinematicState, drawn: Array) -> Array:
+    """Return how far from where their shafts begin the supports stand, on shafts that wobble; drawn (p, k) [m]."""
+    assert stand.head is not None
+    assert stand.rest is not None
+    rows = []
+    for k, (s, _holds) in enumerate(train.bearings):
+        place = drawn[..., k]
+        if s:
+            e = stand.axis[..., s, :]
+            place = frames.dot(place[..., None] * stand.rest[s] - stand.head[..., s - 1, :], e)
+        rows.append(place)
+    return np.stack(rows, axis=-1)
 
 
 def arms_of(train: Train, stand: KinematicState) -> Crosses:
@@ -127,6 +148,8 @@ def weights(train: Train, frame: Frame, stand: KinematicState, acceleration: Arr
         drawn = frames.norm(train.points[..., 1:, :] - train.points[..., :-1, :])
         for i in range(train.joints + 1):
             mass, centre = train.mass[..., None, i], train.centre_of_mass[..., None, i]
+            if i and stand.ahead is not None:
+                centre = centre - stand.ahead[i - 1]
             parts: list[tuple[Array, Array, bool | None]] = [(mass, centre, None)]
             if i in train.splines and train.behind is not None:
                 heavy, far, _inertia = (train.behind[..., None, train.splines.index(i), k] for k in range(3))
@@ -143,6 +166,8 @@ def weights(train: Train, frame: Frame, stand: KinematicState, acceleration: Arr
                     if stand.axis_acceleration is None:
                         raise AssertionError
                     pull = gravity - acceleration[..., start, :] - ahead[..., None] * stand.axis_acceleration[..., i, :]
+                    if stand.head_acceleration is not None and i and not behind:
+                        pull = pull - stand.head_acceleration[..., i - 1, :]
                 loads.append(Load(shaft=i, force=amount[..., None] * pull, place=where, behind=behind))
     if train.cross_mass is not None:
         for i in range(train.joints):
@@ -327,15 +352,14 @@ def whole_balance(
     strongest = 0.0 * largest
     reach = xp.mean(frame.acting.length, axis=-1)
     for k, (s, _holds) in enumerate(train.bearings):
-        assert train.position is not None
-        at = frame.points[..., s, :] - origin + train.position[..., None, k, None] * e[..., s, :]
+        at = frame.starts[..., s, :] - origin + frame.place[..., k, None] * e[..., s, :]
         force = force + reaction[..., k, :]
         turn = frames.cross(at + 0.0 * reaction[..., k, :], reaction[..., k, :])
         moment = moment + couple[..., k, :] + turn
         strongest = xp.maximum(strongest, frames.norm(reaction[..., k, :]))
         largest = xp.maximum(largest, frames.norm(turn))
     for load in loads:
-        at = frame.points[..., load.shaft, :] - origin + load.place[..., None] * e[..., load.shaft, :]
+        at = frame.starts[..., load.shaft, :] - origin + load.place[..., None] * e[..., load.shaft, :]
         force = force + load.force
         moment = moment + frames.cross(at + 0.0 * load.force, load.force + 0.0 * at)
         strongest = xp.maximum(strongest, frames.norm(load.force))

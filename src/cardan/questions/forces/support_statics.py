@@ -6,7 +6,7 @@ couples across. Each is an action: a force and a couple on one shaft or, in a jo
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -62,12 +62,20 @@ class Actions:
     cut: dict[int, Array]  # dict from int to array (...) [m]: places of splines by their shaft, counted from 0
 
 
-def actions(axis: Array, length: Array, layout: Layout, position: Array, cut: Array | None = None) -> Actions:
+def actions(
+    axis: Array,
+    length: Array,
+    layout: Layout,
+    position: Array,
+    cut: Array | None = None,
+    levered: Callable[[int, Array], tuple[Array, Array]] | None = None,
+) -> Actions:
     """Return the unknowns as forces and couples on the shafts.
 
     axis (..., n+1, 3): directions e_i of the shafts along the power flow; length (..., n+1) [m].
     position (..., k) [m]: places of the bearings from the beginning of their shafts on; they may lie beyond the ends.
     cut (..., number of splines) [m]: places of the splines; the middle of the shafts when not given.
+    levered: couples that go with a force in a joint, `KinematicState.levered`; none when not given.
     """
     xp = namespace(axis, length, position)
     n = layout.joints
@@ -89,7 +97,8 @@ def actions(axis: Array, length: Array, layout: Layout, position: Array, cut: Ar
     for i in range(n):
         for k in range(3):
             unit = xp.stack([none + (1.0 if k == m else 0.0) for m in range(3)], axis=-1)
-            add({i: (-unit, zero, length[..., i]), i + 1: (unit, zero, none)})
+            ahead, behind = (zero, zero) if levered is None else levered(i, unit)
+            add({i: (-unit, -behind, length[..., i]), i + 1: (unit, ahead, none)})
     for k, (shaft, holds) in enumerate(layout.bearings):
         sides = [across[..., shaft, 0, :], across[..., shaft, 1, :]]
         where = position[..., k]

@@ -13,7 +13,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking, all_of
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
-from cardan.drive.models.machine_held import held_by_machines, machines_of
+from cardan.drive.models.machine_held import balls_of, held_by_machines, machines_of
 from cardan.errors import InputError, refuse
 from cardan.figures.figure import Figure
 from cardan.mechanism.counting import Partition, joins, partition
@@ -21,7 +21,7 @@ from cardan.mechanism.mechanism import PAIRS, Mechanism
 from cardan.texts import _, mark, plural
 
 from .constraint_release import Repair, advice, strain, working
-from .drive_mechanism import SUPPORT, ball_held, mechanism_of, support_name
+from .drive_mechanism import SUPPORT, mechanism_of, support_name
 from .figure import closure_figures, mobility_figures, turn_figures
 from .finite_mobility import FiniteMobility, MobilityTurn, finite_mobility, mobility_over_turn
 from .mobility import JointHold, Mobility, mobility
@@ -197,7 +197,7 @@ def _remarks(
     thing: Drive | Mechanism, result: Mobility, remedies: Sequence[Repair], around: Turned | None
 ) -> Iterator[Remark]:
     if isinstance(thing, Drive):
-        own = ball_held(thing)
+        own = balls_of(thing, pivots=True)
         yield from held_by_machines(tuple(number for number in machines_of(thing) if number - 2 not in own))
         yield from _repeated(thing)
     if result.misalignment:

@@ -11,7 +11,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths, spline_place
 from cardan.drive.joints.common.inner import DRIVEN, DRIVING, Stance
 from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.machine_held import machine_held
+from cardan.drive.models.machine_held import balls_of, machine_held
 from cardan.drive.models.wobble import Course, course
 from cardan.drive.support import Support
 from cardan.errors import Problem, check, refuse
@@ -48,7 +48,7 @@ def mechanism_of(drive: Drive, angle: float = 0.0) -> Mechanism:
     cylinder or hinge (C, R). Joints stand with their inner mechanism, with the first of parts alike that hold the same.
     """
     check(_problems(drive))
-    balls, drive = ball_held(drive), machine_held(drive)
+    balls, drive = balls_of(drive, pivots=True), machine_held(drive)
     place, known = geometry(drive), course(drive, np.asarray([angle]), still=True)
     starts = (place.points[1], *known.start[:, 0])
     lying = [_Line(start, axis) for start, axis in zip(starts, known.axis[:, 0], strict=True)]
@@ -76,16 +76,6 @@ def mechanism_of(drive: Drive, angle: float = 0.0) -> Mechanism:
         output_link=_end_link(drive, len(drive.joints) + 1, last=True),
         joints=tuple(joints),
     )
-
-
-def ball_held(drive: Drive) -> dict[int, float]:
-    """Return joints, from 0, whose driven shaft stands in a place of their own, and how far behind them [m].
-
-    A shaft with supports is held by these.
-    """
-    stood = {one.shaft for one in drive.supports}
-    found = {i: joint.held(None) for i, joint in enumerate(drive.joints) if i + 2 not in stood}
-    return {i: reach for i, reach in found.items() if reach is not None}
 
 
 def _input_link(drive: Drive) -> str:

@@ -187,6 +187,15 @@ def rubbed_push(joint: Joint, joint_angle: ArrayLike, angle: Array, *, many: boo
     return _looked_up(_pushes, PLACES if many else CLOSER, joint, joint_angle, angle, many=many)
 
 
+def rubbed_pins(joint: Joint, joint_angle: ArrayLike, angle: Array) -> Array:
+    """Return the couples of friction about both pins of a cross for 1 N·m on its driven shaft, array (2, 2, ...).
+
+    As `rubbed_share`: while the driving shaft drives and while the other does, of the driving yoke on the cross and of
+    the cross on the driven yoke.
+    """
+    return _looked_up(_pins, CLOSER, joint, joint_angle, angle, many=False)
+
+
 def _looked_up(
     table: Callable[[Joint, float, int], Array],
     places: int,
@@ -245,6 +254,17 @@ def _pushes(joint: Joint, joint_angle: float, places: int) -> Array:
     if not found:
         return np.zeros((2, 4, places))
     return _all_round(joint, np.stack([np.swapaxes(one - found[2], 0, 1) for one in found[:2]]), places)
+
+
+@lru_cache(maxsize=512)
+def _pins(joint: Joint, joint_angle: float, places: int) -> Array:
+    """Return what `rubbed_pins` finds at even places of a turn, array (2, 2, places)."""
+    rows = []
+    for one in _turned(joint, joint_angle, places):
+        rate = frames.dot(one.found.rate[:, :2, :3], one.placed.axis[:, :2])
+        turns = np.abs(rate) > STRAIGHT * np.max(np.abs(rate))
+        rows.append(-np.where(turns, one.found.loss[:, :2] / np.where(turns, rate, 1.0), 0.0).T)
+    return _all_round(joint, np.stack(rows), places) if rows else np.zeros((2, 2, places))
 
 
 def _turned(joint: Joint, joint_angle: float, places: int, *, bare: bool = False) -> list[JointCarried]:

@@ -1,0 +1,223 @@
+"""Forces of drives whose shafts wobble, as pins of a cross stand apart: against the mechanism of the whole drive."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan import Drive, InputError, forces, losses, moving_forces
+from cardan.drive.models.geometry import geometry
+from cardan.drive.models.wobble import course
+from cardan.drive.support import Support
+from cardan.io.drive_file import loads
+from cardan.mechanism.load import LinkMass, Load
+from cardan.mechanism.mechanism import Mechanism
+from cardan.questions.forces.assembly import assembly
+from cardan.questions.mechanism.forces import mechanism_forces
+from cardan.questions.mobility.drive_mechanism import mechanism_of
+from cardan.questions.motion.joint_mechanism import joint_carried
+
+SINGLE = """format = 1
+[input]
+point_mm = [-500, 0, 0]
+[output]
+point_mm = [800, 300, 100]
+[[joints]]
+kind = "offset_cross"
+centre_mm = [0, 0, 0]
+offset_mm = 15
+reach_mm = 200
+{pins}
+[[supports]]
+shaft = 1
+position_mm = -100
+axial = true
+tilt = true
+[duty]
+speed_rpm = 1200
+torque_Nm = {torque}
+torque_at = "{at}"
+"""
+
+PINS = "friction = 0.05\njournal_span_mm = 60\njournal_diameter_mm = 14"
+
+CHAIN = """format = 1
+[input]
+point_mm = [-500, 0, 0]
+[output]
+point_mm = [1500, 240, -60]
+[[joints]]
+centre_mm = [0, 0, 0]
+{first}
+[[joints]]
+centre_mm = [900, 0, 0]
+{second}
+[[shafts]]
+number = 2
+yoke_angle_deg = 25
+{spline}
+[[supports]]
+shaft = 1
+position_mm = -100
+axial = true
+tilt = true
+{bearings}
+[duty]
+speed_rpm = 1200
+torque_Nm = 300
+"""
+
+OFFSET = 'kind = "offset_cross"\noffset_mm = 15\npin_side = "{side}"\nreach_mm = {reach}'
+
+TWO = "[[supports]]\nshaft = 3\nposition_mm = 100\naxial = true\n[[supports]]\nshaft = 3\nposition_mm = 400\n"
+
+
+def single(torque: float = 300.0, *, pins: str = "", at: str = "output") -> Drive:
+    """Return an offset cross between a shaft in two bearings and one in a ball."""
+    return loads(SINGLE.format(torque=torque, pins=pins, at=at))
+
+
+def chain(place: str, side: str = "near") -> Drive:
+    """Return a cross joint and an offset cross, which is the first or the second one, on a bent line."""
+    text = CHAIN.replace("[-500, 0, 0]", "[-450, -120, 60]")
+    offset = OFFSET.format(side=side, reach=900 if place == "first" else 250)
+    cross = 'kind = "hooke"'
+    if place == "first":
+        return loads(text.format(first=offset, second=cross, spline="[shafts.spline]", bearings=TWO))
+    bearings = "[[supports]]\nshaft = 2\nposition_mm = 700\n"
+    return loads(text.format(first=cross, second=offset, spline="", bearings=bearings))
+
+
+def standing(drive: Drive, angle: float) -> Mechanism:
+    """Return a drive as a mechanism where it stands at an input angle, its torque on its output link."""
+    whole = mechanism_of(drive, angle)
+    axis = course(drive, np.asarray([angle])).axis[-1, 0]
+    torque = tuple((-(drive.duty.torque or 0.0) * axis).tolist())
+    return replace(
+        whole, speed=drive.duty.speed, loads=(Load(link=whole.output_link, torque=torque, turns_with_link=True),)
+    )
+
+
+@pytest.mark.parametrize("torque", [300.0, -300.0])
+@pytest.mark.parametrize("pins", ["", PINS])
+def test_one_joint_carries_what_its_mechanism_carries(torque, pins):
+    drive = single(torque, pins=pins)
+    angle = np.arange(0.0, 2.0 * np.pi, np.pi / 36)
+    found = forces(drive, angle=angle)
+    joint = drive.joints[0]
+    inner = joint_carried(
+        joint, float(geometry(drive).joint_angle[0]), angle, friction=joint.friction or 0.0, fed=torque > 0.0
+    )
+    assert found.input_torque / torque == pytest.approx(np.abs(inner.input_torque), rel=1e-12)
+    ball = found.reaction[-1] / torque
+    assert np.linalg.norm(ball, axis=-1) == pytest.approx(
+        np.linalg.norm(inner.found.reaction[:, 3, 3:], axis=-1), rel=1e-11, abs=1e-12
+    )
+    assert max(np.max(one) for one in (found.power_left, found.force_left, found.moment_left)) < 1e-13
+
+
+@pytest.mark.parametrize("at", ["output", "input"])
+def test_its_friction_is_that_of_the_losses(at):
+    drive = single(pins=PINS, at=at)
+    found, lost = forces(drive), losses(drive)
+    # losses are told for a torque about the driven shaft as drawn, from which it wobbles by some 0.8°
+    assert found.input_torque == pytest.approx(lost.input_torque, rel=5e-4)
+    given, taken = found.input_torque * found.speed[0], found.output_torque * found.speed[1]
+    assert given - taken == pytest.approx(found.loss[0], rel=1e-9)
+
+
+@pytest.mark.parametrize("place", ["first", "second"])
+@pytest.mark.parametrize("side", ["near", "far"])
+@pytest.mark.parametrize("angle", [0.3, 2.1])
+def test_a_drive_carries_what_the_mechanism_of_it_carries(place, side, angle):
+    drive = chain(place, side)
+    found = forces(drive, angle=[angle])
+    whole = mechanism_forces(standing(drive, angle), np.zeros(1))
+    assert float(found.input_torque[0]) == pytest.approx(abs(float(whole.input_torque[0])), rel=1e-10)
+    names = [pair.id for pair in whole.mechanism.joints]
+    first = next(k for k, name in enumerate(names) if "support" in name or "ball" in name)
+    sizes = np.linalg.norm(whole.reaction[0, :, 3:], axis=-1)[first:]
+    ours = np.linalg.norm(found.reaction[:, 0], axis=-1)
+    assert np.sort(ours) == pytest.approx(np.sort(sizes[sizes > 0.0])[-ours.size :], rel=1e-9)
+    assert found.input_torque * found.speed[0] == pytest.approx(found.output_torque * found.speed[2], rel=1e-12)
+
+
+def test_a_shaft_that_wobbles_shakes():
+    """Mass and inertia of the driven shaft against Newton and Euler for the mechanism, at places of a turn."""
+    drive = single()
+    heavy = {"mass": 4.0, "centre_of_mass": 0.15, "inertia": 0.02, "transverse_inertia": 0.05}
+    drive = replace(
+        drive,
+        shafts=(drive.shafts[0], replace(drive.shafts[1], **heavy)),
+        settings=replace(drive.settings, gravity=(0.0, 0.0, -9.81)),
+    )
+    turn = np.arange(720) * (2.0 * np.pi / 720)
+    lying = course(drive, turn)
+    ahead = float(np.mean(np.sum((lying.start[0] - lying.centre[0]) * lying.axis[1], axis=-1)))
+    for k in (25, 100, 400):
+        found = forces(drive, angle=[turn[k]])
+        whole = standing(drive, float(turn[k]))
+        axis = lying.axis[1, k]
+        tensor = 0.05 * np.eye(3) + (0.02 - 0.05) * np.outer(axis, axis)
+        mass = LinkMass(
+            link=whole.output_link,
+            mass=4.0,
+            mass_centre=tuple(lying.start[0, k] + (0.15 - ahead) * axis),
+            inertia=tuple(np.diag(tensor)),
+            inertia_products=(tensor[0, 1], tensor[0, 2], tensor[1, 2]),
+        )
+        known = mechanism_forces(replace(whole, masses=(mass,), gravity=(0.0, 0.0, -9.81)), np.zeros(1))
+        assert float(found.input_torque[0]) == pytest.approx(abs(float(known.input_torque[0])), rel=1e-8)
+        ball = next(i for i, pair in enumerate(known.mechanism.joints) if "ball" in pair.id)
+        assert np.linalg.norm(found.reaction[-1, 0]) == pytest.approx(
+            float(np.linalg.norm(known.reaction[0, ball, 3:])), rel=1e-8
+        )
+
+
+def test_pins_that_meet_are_a_cross_joint():
+    """No distance, and the ball as any bearing: torques and forces of the Hooke joint."""
+    drive = single()
+    together = replace(drive, joints=(replace(drive.joints[0], offset=0.0),))
+    plain = loads(
+        SINGLE.format(torque=300.0, pins="", at="output")
+        .replace('kind = "offset_cross"', 'kind = "hooke"')
+        .replace("offset_mm = 15\nreach_mm = 200\n", "")
+        .replace("[duty]", "[[supports]]\nshaft = 2\nposition_mm = 200\n[duty]")
+    )
+    one, other = forces(together), forces(plain)
+    assert one.input_torque == pytest.approx(other.input_torque, rel=1e-13)
+    assert one.reaction == pytest.approx(other.reaction, rel=1e-11, abs=1e-9)
+    assert one.joint_force == pytest.approx(other.joint_force, rel=1e-11, abs=1e-9)
+
+
+def test_its_ball_is_no_bearing_twice():
+    assert assembly(single()).residual < 1e-9
+    own = replace(single(), supports=(*single().supports, Support(shaft=2, position=0.2)))
+    assert forces(own).reaction == pytest.approx(forces(single()).reaction, rel=1e-12, abs=1e-9)
+
+
+def test_what_keeps_the_shaft_from_wobbling_is_told():
+    drive = single()
+    held = replace(drive, supports=(*drive.supports, Support(shaft=2, position=0.4)))
+    with pytest.raises(InputError, match="shaft 2 wobbles about the ball of joint 1, 200 mm behind it"):
+        forces(held)
+    beyond = chain("first")
+    beyond = replace(beyond, joints=(replace(beyond.joints[0], reach=0.3), beyond.joints[1]))
+    with pytest.raises(
+        InputError, match=r"carries joint 2 around by .* 900 mm would put the ball where joint 2 stands"
+    ):
+        forces(beyond)
+    with pytest.raises(InputError, match="supports: missing"):
+        forces(replace(chain("first"), supports=()))
+    with pytest.raises(InputError, match="stands in the frame"):
+        moving_forces(loads(SINGLE.format(torque=300.0, pins="", at="output") + MOVES))
+
+
+MOVES = """[[movements]]
+kind = "harmonic"
+moves = ["output"]
+amplitude_mm = [0, 0, 40]
+frequency_Hz = 2
+"""
