@@ -14,8 +14,17 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf8"))["project"]
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 
 
-def test_the_citation_is_of_this_version():
-    assert yaml.safe_load((ROOT / "CITATION.cff").read_text("utf8"))["version"] == VERSION
+def test_the_citation_and_the_changelog_are_of_this_version():
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf8"))
+    releases = re.findall(r"^## ([\d.]+) \((.+)\)$", (ROOT / "CHANGELOG.md").read_text("utf8"), re.MULTILINE)
+    assert citation["version"] == VERSION
+    assert releases[0] == (VERSION, str(citation["date-released"]))
+
+
+def test_the_changelog_tells_nothing_twice():
+    told = [line for line in (ROOT / "CHANGELOG.md").read_text("utf8").splitlines() if line.startswith("- ")]
+    begins = [line[:60] for line in told]
+    assert {begin for begin in begins if begins.count(begin) > 1} == set()
 
 
 def test_the_recipe_needs_what_the_package_needs():

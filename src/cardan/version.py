@@ -1,3 +1,3 @@
 """Which cardan this is; the package and `CITATION.cff` take it from here."""
 
-VERSION = "0.1.0"
+VERSION = "1.0.0"
