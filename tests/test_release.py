@@ -19,12 +19,26 @@ def test_the_citation_and_the_changelog_are_of_this_version():
     releases = re.findall(r"^## ([\d.]+) \((.+)\)$", (ROOT / "CHANGELOG.md").read_text("utf8"), re.MULTILINE)
     assert citation["version"] == VERSION
     assert releases[0] == (VERSION, str(citation["date-released"]))
+    assert f"version {VERSION}" in (ROOT / "docs" / "cite.md").read_text("utf8")
 
 
 def test_the_changelog_tells_nothing_twice():
     told = [line for line in (ROOT / "CHANGELOG.md").read_text("utf8").splitlines() if line.startswith("- ")]
     begins = [line[:60] for line in told]
     assert {begin for begin in begins if begins.count(begin) > 1} == set()
+
+
+def test_the_paper_is_by_those_who_are_cited_and_has_every_reference():
+    text = (ROOT / "docs" / "paper" / "paper.md").read_text("utf8")
+    head = yaml.safe_load(text.split("---")[1])
+    entries = (ROOT / "docs" / "paper" / "paper.bib").read_text("utf8")
+    bibliography = (ROOT / "docs" / "bibliography.md").read_text("utf8")
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf8"))
+    assert [one["name"] for one in head["authors"]] == [one["name"] for one in citation["authors"]]
+    assert head["title"] == citation["title"]
+    assert set(re.findall(r"@(\w+\d*)\]", text)) == set(re.findall(r"@\w+\{(\w+),", entries))
+    for name in re.findall(r"author = \{+([^,}]+)", entries):
+        assert name in bibliography or name == "International Organization for Standardization", name
 
 
 def test_the_recipe_needs_what_the_package_needs():
