@@ -145,6 +145,15 @@ def test_mass_whirl_twist_and_stress_follow_the_section(tmp_path: Path) -> None:
     assert told.stress.torsion == pytest.approx(told.torque / float(found.modulus), rel=1e-6)
 
 
+def test_buckling_of_a_lobed_wall_says_why_it_is_not_judged(tmp_path: Path) -> None:
+    (lobed,) = cardan.check(drive_of(tmp_path), only=("tube_buckling",))
+    (round_tube,) = cardan.check(drive_of(tmp_path, ""), only=("tube_buckling",))
+    assert lobed.state == "not_run"
+    assert "formula" in lobed.unfit
+    assert lobed.subject == round_tube.subject == "shafts[1]"
+    assert round_tube.state == "passed"
+
+
 def test_sections_vary_with_every_size(tmp_path: Path) -> None:
     vary = {"shafts[1].profile.inscribed_mm": np.asarray([44.0, 50.0])}
     (section,) = sections(design(drive_of(tmp_path), vary=vary), 1)

@@ -54,9 +54,13 @@ def composite_buckling(design: Design, k: int) -> Array | None:
 def _of_metal(design: Design, k: int) -> Iterator[Verdict]:
     """Yield the verdicts of the tubes of a shaft of one material; a solid one has no wall."""
     for section in sections(design, k):
-        if section.profile is not None or not np.any(np.asarray(section.inner) > 0.0):
+        if not np.any(np.asarray(section.inner) > 0.0):
             continue
         title = _("torsional buckling, shaft {number}") + section.words
+        if section.profile is not None:
+            why = _("there is a formula for the wall of round tubes only, and a lobed wall is flatter between its lobes")
+            yield Verdict(title=title, unfit=why)
+            continue
         if design.unloaded:
             yield Verdict(title=title, missing=design.unloaded)
             continue
