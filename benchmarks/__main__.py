@@ -78,7 +78,9 @@ def table() -> str:
     for name, figures in json.loads(STORED.read_text("utf8")).items():
         (says,) = (importlib.import_module(f".{name}", __package__).__doc__ or "").strip().splitlines()[:1]
         rows = [f"### `{name}`", "", says, "", "| what | measured | held against | ratio |", "|---|---|---|---|"]
-        rows += [f"| {one['bench']} | {one['value']:,g} {one['unit']} | {one['yardstick']} | {one['ratio']:.3g} |" for one in figures]
+        for one in figures:
+            measured = f"{one['value']:,g} {one['unit']}"
+            rows.append(f"| {one['bench']} | {measured} | {one['yardstick']} | {one['ratio']:.3g} |")
         parts.append("\n".join(rows) + "\n")
     return "\n".join(parts)
 

@@ -29,7 +29,7 @@ from .audit import answers_agree
 from .check import Check
 from .design import Design, design
 from .moving import stood, stopped, worst_of_poses
-from .practice import layout, length, lubrication, part_accuracy, plunge, runout, spline_overlap
+from .practice import layout, length, lubrication, part_accuracy, plunge, pto_type, runout, spline_overlap
 from .speeds import balance, critical_speed, gap_closure, half_critical, max_speed, rim_speed, whirl_amplitude
 from .strength import (
     bearing_life,
@@ -92,6 +92,7 @@ CHECKS: dict[str, Check] = {
         balance,
         design_torque,
         part_accuracy,
+        pto_type,
         lubrication,
         angle_rule,
         angle_table,

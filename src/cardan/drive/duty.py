@@ -108,6 +108,7 @@ class Duty:
     application: str = plain(
         "automotive", doc="trade whose rules hold, where makers have two", choices=("automotive", "industrial")
     )
+    pto_type: int | None = plain(None, doc="type of the tractor's power take-off at the input, ISO 500", low=1, high=4)
     torque: float | None = quantity(
         "torque",
         None,

@@ -58,7 +58,9 @@ def _of_metal(design: Design, k: int) -> Iterator[Verdict]:
             continue
         title = _("torsional buckling, shaft {number}") + section.words
         if section.profile is not None:
-            why = _("there is a formula for the wall of round tubes only, and a lobed wall is flatter between its lobes")
+            why = _(
+                "there is a formula for the wall of round tubes only, and a lobed wall is flatter between its lobes"
+            )
             yield Verdict(title=title, unfit=why)
             continue
         if design.unloaded:
