@@ -106,11 +106,29 @@ class Unit:
 
 
 @dataclass(frozen=True)
+class Written:
+    """What those who write a file are told, as a key of it, and what those who read a report are told in its place.
+
+    >>> Written("shafts[1].yoke_angle_deg", "shaft 2: yoke angle").told(Reader())
+    'shafts[1].yoke_angle_deg'
+    >>> Written("shafts[1].yoke_angle_deg", "shaft 2: yoke angle").told(Reader(writes=False))
+    'shaft 2: yoke angle'
+    """
+
+    key: str
+    name: str
+
+    def told(self, reader: Reader) -> str:
+        """Return one of both for a reader."""
+        return self.key if reader.writes else self.name
+
+
+@dataclass(frozen=True)
 class Say:
     """A sentence in the language spoken where it was made, with named places that are filled when it is shown.
 
     A place takes a quantity (``{force}``; ``{force:bare}`` its number alone, ``{force:unit}`` its unit alone), another
-    sentence, a word or a whole number.
+    sentence, a key of a file, a word or a whole number.
     """
 
     text: str
@@ -139,7 +157,7 @@ class Joined:
         return between.join(every)
 
 
-Text: TypeAlias = str | Say | Joined | Quantity | Unit
+Text: TypeAlias = str | Say | Joined | Quantity | Unit | Written
 """Anything that is told: words as they stand, or what is written for a reader when it is shown."""
 
 
@@ -169,7 +187,7 @@ def _place(value: Any, reader: Reader) -> Any:
     """Return what fills a place of a sentence."""
     if isinstance(value, Quantity):
         return value.shown(reader)
-    if isinstance(value, Say | Joined):
+    if isinstance(value, Say | Joined | Written):
         return value.told(reader)
     if isinstance(value, float):
         raise TypeError(f"a number in a sentence is a Quantity: {value!r}")

@@ -77,6 +77,7 @@ class Reader:
     # dimension -> unit, as in the keys of a drive file: ``{"length": "in"}``
     units: Mapping[str, str] = field(default_factory=dict)
     decimal: str = ""  # sign between whole and part, ``"."`` or ``","``; empty for that of the language
+    writes: bool = True  # whether they write drive files: keys are told as they stand there, else by what they mean
 
     def __post_init__(self) -> None:
         problems = [*_unknown(self.units)]

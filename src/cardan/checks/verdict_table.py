@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import Cell, Column, KeyFigure, Remark, Table, Tone
-from cardan.answers.quantity import Joined, Quantity, Text, Unit, say
+from cardan.answers.quantity import Joined, Quantity, Text, Unit, Written, say
 from cardan.drive.fields.keys import key_of
+from cardan.drive.fields.paths import in_words
 from cardan.texts import _, plural
 from cardan.units import factor
 
@@ -225,6 +226,11 @@ def verdict_records(
 MISSING = "missing"  # name of the table of checks not run
 
 
+def counting() -> Written:
+    """Return how keys count parts."""
+    return Written(_("Keys count from 0: joints[0] is joint 1, shafts[0] is shaft 1."), "")
+
+
 def missing_table(verdicts: Sequence[Verdict], depth: Any = "full") -> Table:
     """Return what could not be judged for want of which keys, joints and shafts alike in one row."""
     groups: dict[tuple[str, ...], list[Verdict]] = {}
@@ -233,7 +239,6 @@ def missing_table(verdicts: Sequence[Verdict], depth: Any = "full") -> Table:
             own = (path.replace(one.subject, "", 1) if one.subject else path for path in one.missing)
             groups.setdefault((one.check, one.kind, *own), []).append(one)
     counted = any("[" in path for one in verdicts for path in one.missing)
-    note = _("Keys count from 0: joints[0] is joint 1, shafts[0] is shaft 1.")
     return Table(
         name=MISSING,
         title=_("Checks not run, and the keys they need"),
@@ -241,7 +246,10 @@ def missing_table(verdicts: Sequence[Verdict], depth: Any = "full") -> Table:
             Column(
                 key="",
                 heading=_("key to add"),
-                values=[", ".join(key_of(path) for path in group[0].missing) for group in groups.values()],
+                values=[
+                    Joined([Written(key_of(path), in_words(path)) for path in group[0].missing])
+                    for group in groups.values()
+                ],
                 left=True,
             ),
             Column(
@@ -252,7 +260,7 @@ def missing_table(verdicts: Sequence[Verdict], depth: Any = "full") -> Table:
                 wrap=True,
             ),
         ),
-        note=note if counted else "",
+        note=counting() if counted else "",
         depth=depth,
     )
 

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, replace
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table
-from cardan.answers.quantity import Joined, Quantity, Say, Text, say
+from cardan.answers.quantity import Joined, Quantity, Say, Text, Written, say
 from cardan.answers.question import Lacking
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import Catalogue
@@ -24,6 +24,7 @@ from cardan.checks.verdict import Verdict
 from cardan.checks.verdict_table import (
     MOST,
     alike,
+    counting,
     missing_table,
     share,
     title_of,
@@ -304,24 +305,24 @@ def remedy_table(drive: Drive, result: Checked, *, helpful: bool = False) -> Tab
     best = list(most_helpful(found))
     shown = best if helpful else [*best, *_others(found, best)]
     counted = not helpful and any("[" in one.path for one in shown)
-    notes = [_("Keys count from 0: joints[0] is joint 1, shafts[0] is shaft 1.")] if counted else []
+    notes: list[Text] = [counting()] if counted else []
     if 0 < len(best) < len(shown):
         text = plural("The first change helps most.", "The first {count} changes together help most.", len(best))
         notes.insert(0, text.format(count=len(best)))
     if helpful:
         notes.extend(_unremedied(result))
     words = [in_words(bare_path(drive, one.path)) for one in shown]
-    keys = Column(key="", heading=_("key to change"), values=[one.path for one in shown], left=True)
+    keys = [Written(one.path, said) for one, said in zip(shown, words, strict=True)]
+    heading = _("what") if helpful else _("key to change")
     return Table(
         title=_("Changes that help most") if helpful else _("Corrective changes (one parameter each)"),
         columns=(
-            *(() if helpful else (keys,)),
-            Column(key="", heading=_("what"), values=words, left=True, depth="full"),
+            Column(key="", heading=heading, values=words if helpful else keys, left=True),
             Column(key="", heading=_("now"), values=[_value(one, one.now, helpful) for one in shown]),
             Column(key="", heading=_("to"), values=[_value(one, one.value, helpful) for one in shown]),
             Column(key="", heading=_("then passes"), values=[_effect(one) for one in shown], left=True, wrap=True),
         ),
-        note=" ".join(notes),
+        note=Joined(notes, between=" "),
     )
 
 

@@ -39,7 +39,7 @@ from .look import Line, Look, pieces
 from .method import method
 from .subject import Subject, asked
 from .summary import changes, judgement, warnings
-from .title_block import Head, Noting, given, logo_of, rows
+from .title_block import Head, given, logo_of, noting, rows
 from .verdicts import Judged, judged
 
 
@@ -109,7 +109,7 @@ def content(
     look: colours, type, paper, words at head and foot, as of `cardan.report.look.look_of`.
     """
     look = look or Look()
-    logo, who = logo_of(drive.report, folder) or look.picture, Noting(units=reader().units, decimal=reader().decimal)
+    logo, who = logo_of(drive.report, folder) or look.picture, noting(reader())
     with reading(who):
         on = replace(asked(drive, duty, progress), known=known)
         limits = judged(on, whole=full) if on.complete else Judged()

@@ -23,7 +23,7 @@ from .answers import refused
 from .block import Block, Cell, Column, Listing, Page, Table, Tone, Words, key_figures, key_table, page
 from .content import Content, today
 from .look import Look
-from .title_block import Head, Noting, given, logo_of, rows
+from .title_block import Head, given, logo_of, noting, rows
 
 
 def content(
@@ -41,7 +41,7 @@ def content(
     folder: where the logo is looked for; look: colours, type, paper, words at head and foot.
     """
     look = look or Look()
-    logo, who = logo_of(head, folder) or look.picture, Noting(units=reader().units, decimal=reader().decimal)
+    logo, who = logo_of(head, folder) or look.picture, noting(reader())
     with reading(who):
         said = _said(mechanism, whole=full)
         if full and source_text is not None:

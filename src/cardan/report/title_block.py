@@ -71,6 +71,11 @@ class Noting(Reader):
         return _("Units: {units}").format(units=", ".join(used)) if used else ""
 
 
+def noting(who: Reader) -> Noting:
+    """Return a reader of a report, who writes no file, with the units and the decimal sign of another."""
+    return Noting(units=who.units, decimal=who.decimal, writes=False)
+
+
 def given(block: TitleBlock) -> dict[str, str]:
     """Return what a title block gives in words, by its keys."""
     words = {key: getattr(block, key).strip() for key in fields_of(TitleBlock) if key != "logo"}

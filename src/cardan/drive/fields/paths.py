@@ -11,6 +11,7 @@ from copy import copy
 from dataclasses import dataclass, is_dataclass, replace
 from typing import Any, TypeVar, get_args, get_origin
 
+from cardan.answers.quantity import Joined, Written
 from cardan.drive.described import Described
 from cardan.errors import InputError, Problem, check
 from cardan.reading.fields import Field, fields_of, in_unit, spellings_of
@@ -250,6 +251,11 @@ def _first(known: Mapping[str, tuple[str, float]]) -> Iterator[str]:
 CLAUSE = re.compile(r"[;,，；(\[]")  # where the words that name a field end and those on its sign and its form begin
 STEP = re.compile(r"([a-z]+)(?:\[(\d+)\])?")  # part of a drive, with its number from 0 where there are several
 AXES = re.compile(r"\[([012])\]$")  # coordinate of a point
+
+
+def written(*paths: str) -> Joined:
+    """Return keys as they are written, or what they mean where nobody writes them."""
+    return Joined([Written(spelled(path), in_words(path)) for path in paths])
 
 
 def with_key(path: str) -> str:

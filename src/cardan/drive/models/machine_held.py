@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from cardan.answers.answer import Remark
-from cardan.answers.quantity import Joined, say
+from cardan.answers.quantity import Joined, Written, say
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths, spline_place
 from cardan.drive.support import Support
@@ -100,13 +100,14 @@ def held_by_machines(machines: tuple[int, ...]) -> Iterator[Remark]:
     """Yield that machines hold the end shafts on which no support stands."""
     if machines:
         text = plural(
-            "Shaft {which} is held by its machine, at the joint; [[supports]] on it would tell its bearings apart.",
-            "Shafts {which} are held by their machines, at the joints; [[supports]] on them would tell their bearings "
-            "apart.",
+            "Shaft {which} is held by its machine, at the joint; {key} on it would tell its bearings apart.",
+            "Shafts {which} are held by their machines, at the joints; {key} on them would tell their bearings apart.",
             len(machines),
         )
         which = Joined([str(number) for number in machines], last=_(" and "))
-        yield Remark(text=say(text, which=which), code="held_by_machines", once=True)
+        yield Remark(
+            text=say(text, which=which, key=Written("[[supports]]", _("supports"))), code="held_by_machines", once=True
+        )
 
 
 def proposed(drive: Drive) -> tuple[Support, ...]:

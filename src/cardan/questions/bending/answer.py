@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone
-from cardan.answers.quantity import Joined, Quantity, Text, numbered, say
+from cardan.answers.quantity import Joined, Quantity, Text, Written, numbered, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import MODES, OutputColumn, SweepQuestion, each, first
 from cardan.drive.body import pieces
@@ -318,18 +318,29 @@ def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
     light = unweighed(drive)
     if light:
         text = plural(
-            "The yokes of joint {which} count as massless: give mass_kg or size of the joint, or masses of shafts.",
-            "The yokes of joints {which} count as massless: give mass_kg or size of a joint, or masses of shafts.",
+            "The yokes of joint {which} count as massless: give {key} or size of the joint, or masses of shafts.",
+            "The yokes of joints {which} count as massless: give {key} or size of a joint, or masses of shafts.",
             len(light),
         )
-        yield Remark(text=say(text, which=Joined([str(number) for number in light], last=_(" and "))))
+        yield Remark(
+            text=say(
+                text,
+                which=Joined([str(number) for number in light], last=_(" and ")),
+                key=Written("mass_kg", _("mass")),
+            )
+        )
     yield from yokes_estimated(drive)
     worn = [path for path in result.assumed if path.endswith("wear_factor")]
     if worn:
         text = _("With a spline the real speed counts as 0.9 of the computed one; {key} changes that (0.7 when worn).")
-        yield Remark(text=say(text, key=", ".join(map(spelled, worn))))
+        yield Remark(text=say(text, key=Written(", ".join(map(spelled, worn)), _("the wear factor of the shaft"))))
     if result.used is None:
-        yield Remark(text=_("How far the drive stays away needs duty.speed_range_rpm or duty.speed_rpm in the file."))
+        text = _("How far the drive stays away needs {range} or {speed} in the file.")
+        keys = {
+            "range": Written("duty.speed_range_rpm", _("a range of speeds")),
+            "speed": Written("duty.speed_rpm", _("a speed")),
+        }
+        yield Remark(text=say(text, **keys))
     bad = bool(result.missed) or result.residual > MESH
     text = _("Checked: finite elements agree with transfer matrices, and no mode is missed.")
     if bad:
@@ -352,7 +363,7 @@ def _judged(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
             "Advice, a rule of practice of unknown source: the real critical speed should be 60 % above the highest "
             "speed, {limit}."
         ),
-        "limit": _("Failed: limits.critical_speed asks for a real critical speed of at least {limit}."),
+        "limit": _("Failed: {key} asks for a real critical speed of at least {limit}."),
         "catalogue": _("Failed: makers allow {share} of the computed critical speed, {limit}."),
         "supercritical": _("Failed: the drive runs at or above a bending critical speed of a shaft."),
     }
@@ -361,7 +372,8 @@ def _judged(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
     gravest = next((rule for rule in ("supercritical", *margin.failed, PRACTICE) if rule in margin.violated), "")
     for rule in margin.violated:
         limit = _speed(limits.get(rule, 0.0))
-        said = say(texts[rule], limit=limit, share=Quantity(share, "share", trim=True))
+        key = Written("limits.critical_speed", _("the limit of the file"))
+        said = say(texts[rule], limit=limit, share=Quantity(share, "share", trim=True), key=key)
         yield Remark(text=said, tone="failed" if rule in margin.failed else "warning", alarm=rule == gravest)
     if margin.violated and result.bowing is not None:
         number = result.bowing.number

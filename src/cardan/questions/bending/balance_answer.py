@@ -7,14 +7,14 @@ from collections.abc import Iterator
 from typing import Any
 
 from cardan.answers.answer import Answer, Cell, Column, Remark, Table, Tone
-from cardan.answers.quantity import Quantity, Text, listed, say
+from cardan.answers.quantity import Quantity, Text, Written, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.body import body_length, weight
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.parts import known_lengths
+from cardan.drive.fields.paths import written
 from cardan.drive.yokes import with_yokes, yokes_estimated
 from cardan.errors import refuse
 from cardan.maths.ties import foremost_of
@@ -176,8 +176,9 @@ def _remarks(result: Balance) -> Iterator[Remark]:
     if result.grade is not None:
         yield Remark(text=_("Grade {grade}: {source}.").format(grade=result.grade.id, source=result.grade.source))
     if result.assumed:
-        text = _("No balance grade is given (duty.balance_grade); {grade} is usual for these shafts.")
-        yield Remark(text=text.format(grade=result.grade.id if result.grade else ""))
+        text = _("No balance grade is given{key}; {grade} is usual for these shafts.")
+        grade = result.grade.id if result.grade else ""
+        yield Remark(text=say(text, grade=grade, key=Written(" (duty.balance_grade)", "")))
     if result.norm is not None:
         text = _("Vehicle standard: {note}; {source}.")
         yield Remark(text=text.format(note=result.norm.note or result.norm.id, source=result.norm.source))
@@ -187,7 +188,7 @@ def _remarks(result: Balance) -> Iterator[Remark]:
     missing = [path for one in result.shafts for path in one.missing]
     if missing:
         text = _("Warning: some limits could not be told; the file lacks {keys}, or a body.")
-        yield Remark(text=text.format(keys=", ".join(map(spelled, missing))), tone="warning")
+        yield Remark(text=say(text, keys=written(*missing)), tone="warning")
     if not any(one.corrections for one in result.shafts):
         text = _("Measured unbalances go into the file as shafts[…].unbalance: place, amount and angle.")
         yield Remark(text=text, aside=True)

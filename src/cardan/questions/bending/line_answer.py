@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table
-from cardan.answers.quantity import Joined, Quantity, listed, say
+from cardan.answers.quantity import Joined, Quantity, Written, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.conditions import used_speeds
@@ -317,9 +317,14 @@ def _assumptions(drive: Drive, result: LineWhirl) -> Iterator[Remark]:
         text = _(
             "Shafts without a measured unbalance, {keys}, count with what their balance grade allows, in the middle."
         )
-        yield Remark(text=text.format(keys=", ".join(map(spelled, taken))))
+        shaft = _("shaft {number}")
+        keys = [
+            Written(spelled(path), shaft.format(number=int(path.split("[")[1].split("]")[0]) + 1)) for path in taken
+        ]
+        yield Remark(text=say(text, keys=Joined(keys)))
     if "duty.torque" in result.assumed:
-        yield Remark(text=_("Without a torque the secondary couples of the joints do not count; give duty.torque."))
+        text = _("Without a torque the secondary couples of the joints do not count; give {key}.")
+        yield Remark(text=say(text, key=Written("duty.torque", _("a torque of the duty"))))
     if result.worn:
         factors = wear_factors(drive)
         text = _("Splines have play: a shaft with one counts with k_n² of its bending stiffness, {factors}.")

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table
-from cardan.answers.quantity import Quantity, Text, say
+from cardan.answers.quantity import Quantity, Text, Written, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
@@ -264,7 +264,8 @@ def _shaft(rotor: Rotor) -> Iterator[Remark]:
         xi, eta = (Quantity(loss, "share", 3) for loss in rotor.crack.losses)
         yield Remark(text=say(text, xi=xi, eta=eta))
     else:
-        yield Remark(text=_("It has no crack; shafts[{k}].crack in the file gives it one.").format(k=rotor.shaft - 1))
+        how = _("; {key} in the file gives it one").format(key=f"shafts[{rotor.shaft - 1}].crack")
+        yield Remark(text=say(_("It has no crack{how}."), how=Written(how, "")))
 
 
 def _remarks(result: RotorResponse) -> Iterator[Remark]:

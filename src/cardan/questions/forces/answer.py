@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, KeyFigure, Listing, Remark, Table, closely
-from cardan.answers.quantity import Joined, Quantity, Say, Text, say
+from cardan.answers.quantity import Joined, Quantity, Say, Text, Written, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
+from cardan.drive.fields.paths import written
 from cardan.drive.models.kinematics_model import Chain
 from cardan.drive.models.machine_held import held_by_machines, machine_held, machines_of, proposed, tables_of
 from cardan.drive.yokes import yokes_estimated
@@ -382,11 +383,12 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
     bare = [i for i in crossed if not np.all(np.isfinite(found.journals.size[i - 1]))]
     if bare:
         text = plural(
-            "Joint {numbers} gives no cross.span_mm: the loads of its journals are not known.",
-            "Joints {numbers} give no cross.span_mm: the loads of their journals are not known.",
+            "Joint {numbers} gives no {key}: the loads of its journals are not known.",
+            "Joints {numbers} give no {key}: the loads of their journals are not known.",
             len(bare),
         )
-        yield Remark(text=say(text, numbers=together(names, [i - 1 for i in bare])))
+        key = Written("cross.span_mm", _("span of the cross"))
+        yield Remark(text=say(text, key=key, numbers=together(names, [i - 1 for i in bare])))
     elif found.joint_force is None:
         yield Remark(
             text=_("Journals carry the couples alone here; supports would tell the forces between the shafts.")
@@ -395,7 +397,7 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
     lacking = [f"joints[{i - 1}].{one}" for i, keys in short.items() for one in keys]
     if lacking:
         text = _("Warning: friction within joints does not count where the file does not give {keys}.")
-        yield Remark(text=say(text, keys=", ".join(spelled(one) for one in lacking)), tone="warning")
+        yield Remark(text=say(text, keys=written(*lacking)), tone="warning")
     loose = [
         i
         for i, joint in enumerate(drive.joints, 1)
@@ -403,26 +405,31 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
     ]
     if loose:
         text = plural(
-            "Warning: friction of joint {numbers} does not count: cross.span_mm or cross.journal_mm is not given.",
-            "Warning: friction of joints {numbers} does not count: cross.span_mm or cross.journal_mm is not given.",
+            "Warning: friction of joint {numbers} does not count: {span} or {journal} is not given.",
+            "Warning: friction of joints {numbers} does not count: {span} or {journal} is not given.",
             len(loose),
         )
-        yield Remark(text=say(text, numbers=together(names, [i - 1 for i in loose])), tone="warning")
+        keys = {
+            "span": Written("cross.span_mm", _("span of the cross")),
+            "journal": Written("cross.journal_mm", _("diameter of its journals")),
+        }
+        yield Remark(text=say(text, **keys, numbers=together(names, [i - 1 for i in loose])), tone="warning")
     light = [int(path.partition("[")[2].partition("]")[0]) + 1 for path in found.assumed if path.endswith(".inertia")]
     if "duty.speed" in found.assumed:
         yield Remark(text=_("Without a speed inertia does not count; --speed-rpm counts it."))
     elif light:
         text = plural(
-            "Shaft {numbers} counts as without inertia: neither inertia_kg_m2 nor outer_mm is given.",
-            "Shafts {numbers} count as without inertia: neither inertia_kg_m2 nor outer_mm is given.",
+            "Shaft {numbers} counts as without inertia: neither {inertia} nor {outer} is given.",
+            "Shafts {numbers} count as without inertia: neither {inertia} nor {outer} is given.",
             len(light),
         )
         shafts = [shaft.name for shaft in drive.shafts]
-        yield Remark(text=say(text, numbers=together(shafts, [k - 1 for k in light])))
+        keys = {"inertia": Written("inertia_kg_m2", _("inertia")), "outer": Written("outer_mm", _("outer diameter"))}
+        yield Remark(text=say(text, **keys, numbers=together(shafts, [k - 1 for k in light])))
     others = [path for path in found.assumed if path != "duty.speed" and not path.endswith(".inertia")]
     if others:
         text = _("Not given, so assumed: {paths}.")
-        yield Remark(text=say(text, paths=", ".join(map(spelled, others))), depth="full")
+        yield Remark(text=say(text, paths=written(*others)), depth="full")
 
 
 def _moving(drive: Drive, result: Carried) -> Iterator[Remark]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, closely
-from cardan.answers.quantity import Joined, Quantity, Say, listed, say
+from cardan.answers.quantity import Joined, Quantity, Say, Written, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
@@ -193,11 +193,11 @@ def _remarks(drive: Drive, result: AssemblyForces) -> Iterator[Remark]:
         yield _strain(result)
         if result.rigid:
             text = plural(
-                "Shaft {numbers} counts as rigid, as outer_mm is not given: real forces are smaller.",
-                "Shafts {numbers} count as rigid, as outer_mm is not given: real forces are smaller.",
+                "Shaft {numbers} counts as rigid, as {key} is not given: real forces are smaller.",
+                "Shafts {numbers} count as rigid, as {key} is not given: real forces are smaller.",
                 len(result.rigid),
             )
-            yield Remark(text=say(text, numbers=listed(result.rigid)))
+            yield Remark(text=say(text, numbers=listed(result.rigid), key=Written("outer_mm", _("the outer diameter"))))
         yield _release(drive, result)
         yield from _checked(result)
     if drive.duty.torque:
@@ -240,15 +240,22 @@ def _release(drive: Drive, result: AssemblyForces) -> Remark:
     return Remark(text=say(text, keys=keys, kept=result.kept))
 
 
-def _changes(drive: Drive, spare: Sequence[str]) -> Iterator[str]:
+def _changes(drive: Drive, spare: Sequence[str]) -> Iterator[Written]:
     """Yield what to write for holds to release; a support that then holds nothing is omitted."""
+    words = {
+        "radial": _("support {number} free across"),
+        "axial": _("support {number} free along its axis"),
+        "tilt": _("support {number} free to tilt"),
+    }
+    omitted = _("{support} omitted")
     for k, support in enumerate(drive.supports):
         own = [hold for hold in HOLDS if getattr(support, hold)]
         gone = [hold for hold in own if f"supports[{k}].{hold}" in spare]
         if gone and gone == own:
-            yield _("{support} omitted").format(support=f"supports[{k}]")
+            name = omitted.format(support=_("support {number}").format(number=k + 1))
+            yield Written(omitted.format(support=f"supports[{k}]"), name)
         else:
-            yield from (f"supports[{k}].{hold} = false" for hold in gone)
+            yield from (Written(f"supports[{k}].{hold} = false", words[hold].format(number=k + 1)) for hold in gone)
 
 
 def _checked(result: AssemblyForces) -> Iterator[Remark]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, Tone, heads
-from cardan.answers.quantity import Quantity, Say, Text, listed, numbered, say
+from cardan.answers.quantity import Quantity, Say, Text, Written, listed, numbered, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import catalogue, filled
@@ -17,6 +17,7 @@ from cardan.catalogue.provenance import rows_behind, unconfirmed
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
+from cardan.drive.fields.paths import written
 from cardan.drive.torsional_layout import has_torsion
 from cardan.drive.yokes import yokes_estimated
 from cardan.maths.ties import foremost
@@ -259,7 +260,7 @@ def _remarks(drive: Drive, result: Life, loose: tuple[str, ...]) -> Iterator[Rem
         if not one.key:
             yield Remark(text=say(_("Not counted: {message}."), message=one.message))
     if any(one.key for one in result.uncounted):
-        keys = ", ".join(spelled(one.field) for one in result.uncounted if one.key)
+        keys = written(*(one.field for one in result.uncounted if one.key))
         text = _("Warning: some joints are not rated; the file lacks {keys}.")
         yield Remark(text=say(text, keys=keys), tone="warning")
     if len(result.parts) > 1:
@@ -270,10 +271,13 @@ def _remarks(drive: Drive, result: Life, loose: tuple[str, ...]) -> Iterator[Rem
 def _conditions(result: Life) -> Iterator[Remark]:
     """Yield how the life was gathered over poses and movements."""
     if result.worst_pose:
-        text = _(
-            "Warning: no share_percent tells how long each pose lasts; this is the life in the worst of them, {pose}."
+        text = _("Warning: no {key} tells how long each pose lasts; this is the life in the worst of them, {pose}.")
+        yield Remark(
+            text=say(text, pose=result.worst_pose, key=Written("share_percent", _("share of the time"))),
+            tone="warning",
+            code="no_share",
+            alarm=True,
         )
-        yield Remark(text=say(text, pose=result.worst_pose), tone="warning", code="no_share", alarm=True)
     named = [bool(part.name) for part in result.parts]
     if len(named) > 1 and sum(named) >= len(named) - 1:
         damage = result.damage[:, result.governing - 1]

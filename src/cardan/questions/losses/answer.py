@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Value, closely
-from cardan.answers.quantity import Joined, Quantity, Say, listed, say
+from cardan.answers.quantity import Joined, Quantity, Say, Text, Written, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
+from cardan.drive.fields.paths import in_words, written
 from cardan.drive.models.machine_held import held_by_machines, machines_of
 from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
@@ -257,10 +258,13 @@ def _gathered(drive: Drive, result: Losses, over: LossMap | None) -> Iterator[Re
     """Yield how the losses were gathered over conditions."""
     if result.worst:
         text = _(
-            "Warning: no share_percent tells how long each pose lasts; this is the power loss where it is largest, in "
-            "{pose}."
+            "Warning: no {key} tells how long each pose lasts; this is the power loss where it is largest, in {pose}."
         )
-        yield Remark(text=say(text, pose=result.worst), tone="warning", code="no_share")
+        yield Remark(
+            text=say(text, pose=result.worst, key=Written("share_percent", _("share of the time"))),
+            tone="warning",
+            code="no_share",
+        )
     if result.drawn is not None:
         text = _("These are means over the movement; standing as drawn the efficiency is {share}, and {loss} are lost.")
         loss = power(result.drawn.heat)
@@ -277,32 +281,34 @@ def _uncounted(parts: Sequence[Uncounted]) -> Iterator[Remark]:
     for one in parts:
         if not one.missing:
             text = _("Warning: not counted: {field}: {message}")
-            yield Remark(text=say(text, field=spelled(one.field), message=one.message), tone="warning")
+            yield Remark(text=say(text, field=written(one.field), message=one.message), tone="warning")
         elif one.field == "movements":
             text = _(
-                "Warning: the power loss of splines is not counted: they slide while the drive moves, as [[movements]] "
-                "say."
+                "Warning: the power loss of splines is not counted: they slide while the drive moves, as {key} say."
             )
-            yield Remark(text=text, tone="warning")
+            moving = Written("[[movements]]", _("its movements"))
+            yield Remark(text=say(text, key=moving), tone="warning")
         else:
-            key = spelled(one.field).partition("].")[2]
+            key = one.field.partition("].")[2]
             groups.setdefault((one.part, key), []).extend([] if one.number is None else [one.number])
     keys = [_key_of(part, key, numbers) for (part, key), numbers in groups.items()]
     if keys:
         text = _("Warning: some power loss is not counted; the file lacks {keys}.")
-        yield Remark(text=say(text, keys=", ".join(keys)), tone="warning")
+        yield Remark(text=say(text, keys=Joined(keys)), tone="warning")
 
 
-def _key_of(part: str, key: str, numbers: Sequence[int]) -> str:
+def _key_of(part: str, key: str, numbers: Sequence[int]) -> Text:
     """Return a key with the parts that lack it; the table of the parts where there is none."""
     if not numbers:
-        return f"[[{part}]]"
+        return Written(f"[[{part}]]", in_words(part))
     text = {
         "joints": plural("{key} of joint {which}", "{key} of joints {which}", len(numbers)),
         "supports": plural("{key} of support {which}", "{key} of supports {which}", len(numbers)),
         "shafts": plural("{key} of shaft {which}", "{key} of shafts {which}", len(numbers)),
     }[part]
-    return text.format(key=key, which=listed(numbers))
+    path = f"{part}[0].{key}"
+    name = Written(spelled(path).partition("].")[2], in_words(path, inside=f"{part}[0]"))
+    return say(text, key=name, which=listed(numbers))
 
 
 def _keys(result: Losses) -> Iterator[KeyFigure]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, Tone
-from cardan.answers.quantity import Joined, Quantity, Say, say
+from cardan.answers.quantity import Joined, Quantity, Say, Written, say
 from cardan.answers.question import Lacking, all_of
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
@@ -315,7 +315,8 @@ def _remedies(thing: Drive | Mechanism, result: Mobility, remedies: Sequence[Rep
             yield Remark(text=say(_("Or {what}."), what=what))
         else:
             keys = _(" and ").join(_keys(thing, repair))
-            yield Remark(text=say(_("Remedy: {what}."), what=f"{what} ({keys})" if keys else what))
+            told = Joined([what, Written(f" ({keys})", "")], between="") if keys else what
+            yield Remark(text=say(_("Remedy: {what}."), what=told))
 
 
 def _keys(thing: Drive | Mechanism, repair: Repair) -> Iterator[str]:
