@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import fields, replace
+from pathlib import Path
 
 import openpyxl
 import pypdf
@@ -10,9 +11,13 @@ import pytest
 from cardan.drive.drive import Drive
 from cardan.drive.settings import TitleBlock
 from cardan.errors import InputError
+from cardan.mechanisms import load_mechanism
 from cardan.report.look import FIELDS, Colours, Line, Look, look_of, pieces
+from cardan.report.mechanism import content as of_mechanism
+from cardan.report.render.renderer import renderer_for
 from cardan.report.report import report
 
+SLIDER = Path(__file__).parents[2] / "examples" / "mechanisms" / "crank-slider.toml"
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 60"><rect width="200" height="60" fill="#00f"/></svg>'
 TEMPLATE = """format = 1
 paper = "us-letter"
@@ -161,3 +166,27 @@ def test_placeholders_without_a_word_leave_nothing():
     assert {one.name for one in fields(TitleBlock)} - {"logo"} <= set(FIELDS)
     assert Colours().changed() == {}
     assert Line() == Line(left="", middle="", right="")
+
+
+@pytest.mark.slow
+def test_the_report_of_a_mechanism_wears_the_look_in_every_form(firm, tmp_path):
+    said = of_mechanism(load_mechanism(SLIDER), TitleBlock(client="Axle & Co"), look=look_of(firm))
+    made = {}
+    for suffix in (".pdf", ".html", ".xlsx"):
+        made[suffix] = tmp_path / f"m{suffix}"
+        made[suffix].write_bytes(renderer_for(made[suffix], interactive=False)(said))
+    pdf = pypdf.PdfReader(made[".pdf"])
+    count = len(pdf.pages)
+    assert [round(float(one)) for one in pdf.pages[0].mediabox[2:]] == [612, 792]
+    assert "DejaVuSerif-Bold" in fonts_of(pdf)
+    for k, page in enumerate(pdf.pages, start=1):
+        assert squeezed(f"Axle & Sons <Ltd> #1 $sheet {k} of {count}") in squeezed(page.extract_text())
+    text = made[".html"].read_text("utf8")
+    assert ":root { --accent: #aa1111; }" in text
+    assert "h1 { letter-spacing: 1px }" in text
+    assert "data:image/svg+xml" in text
+    book = openpyxl.load_workbook(made[".xlsx"])
+    for sheet in book.worksheets:
+        assert sheet.oddHeader.left.text.strip() == "Axle && Co,"  # without a drawing number
+        assert sheet.oddFooter.right.text.strip() == "sheet &P of &N"
+    assert book.worksheets[1]["A1"].font.color.rgb == "FFAA1111"

@@ -190,8 +190,8 @@ def _remarks(result: Balance) -> Iterator[Remark]:
         text = _("Warning: some limits could not be told; the file lacks {keys}, or a body.")
         yield Remark(text=say(text, keys=written(*missing)), tone="warning")
     if not any(one.corrections for one in result.shafts):
-        text = _("Measured unbalances go into the file as shafts[…].unbalance: place, amount and angle.")
-        yield Remark(text=text, aside=True)
+        text = _("Measured unbalances go into the file{key}: place, amount and angle.")
+        yield Remark(text=say(text, key=Written(" as shafts[…].unbalance", "")), aside=True)
     yield Remark(text=_("Unbalance from clearances cannot be balanced out: mark parts before they come apart."))
 
 
