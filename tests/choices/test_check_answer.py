@@ -7,7 +7,7 @@ import pytest
 
 from cardan.answers.data import data
 from cardan.answers.printed import printed
-from cardan.answers.quantity import told
+from cardan.answers.quantity import Written, told
 from cardan.answers.reader import USUAL, Reader
 from cardan.checks import check
 from cardan.choices.check_answer import COLUMNS, answer, ask, checked, lacking, otherwise, urgent
@@ -57,7 +57,7 @@ def test_each_change_stands_once_and_those_that_help_most_first():
     result = ask(drive)
     keys, *_more = table(answer(drive, result), "Corrective changes").columns
     to = next(one for one in _more if one.heading == "to")
-    assert keys.values[0] == "joints[2].centre_mm[2]"
+    assert keys.values[0] == Written("joints[2].centre_mm[2]", "joint 3: centre, z")
     changes = list(zip(keys.values, to.values, strict=True))
     assert len(set(changes)) == len(changes)
     assert len(data(answer(drive, result), USUAL)["remedies"]) == len(result.remedies)
