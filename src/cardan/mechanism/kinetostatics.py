@@ -31,6 +31,9 @@ NO_SIZE = 1e-12
 NEAR = 1e-6
 """Singular values below this share of the largest leave a motion: a mechanism within rounding of a change point."""
 
+LOCKED = 1e-8
+"""Share of the friction that the last round may have left; more where it grows without end."""
+
 SLOW = 1e-12
 """Speeds below this share of the largest are rounding, and rub nowhere."""
 
@@ -67,6 +70,7 @@ class Carried:
     speed: Array  # (..., n, 6): twist (ω; v) of each link about the origin [rad/s, m/s], for the twist of the input
     rate: Array  # (..., m, 6): of the second link of each pair against the first, v at the pair's point
     reaction: Array  # (..., m, 6): wrench (couple; force) of the first link on the second, about the point [N·m, N]
+    locked: Array  # (...) of bool: whether friction outgrows what drives, so that no forces are found
     input_torque: Array  # (...) [N·m]: what drives the input about its axis
     loss: Array  # (..., m) [W]: rubbed away in each pair
     open: Array  # (...): what keeps the rates of the pairs from closing, over the largest
@@ -290,10 +294,13 @@ def each_carried(
             if np.max(np.abs(rubbed - before)) <= RESTS * np.max(np.abs(amounts)):
                 break
         largest = np.max(np.abs(amounts), axis=-1)
+        again = _friction(replace(placed, friction=friction), rate, reaction, 1.0 if fed else -1.0)[1]
+        rest_of = np.max(np.abs(again - loss), axis=-1)
         return Carried(
             speed=speed if fed else -speed,
             rate=rate if fed else -rate,
             reaction=reaction,
+            locked=~(rest_of <= LOCKED * np.max(np.abs(loss), axis=-1)),
             input_torque=amounts[..., -1] * size,
             loss=loss,
             open=open_,
@@ -361,6 +368,11 @@ def _friction(placed: Placed, rate: Array, reaction: Array, sense: float) -> tup
         force = frames.norm(reaction[..., k, 3:])
         arm = placed.lever[k] if placed.lever else 0.0
         tilt = 2.0 * frames.norm(reaction[..., k, :3]) / placed.spread[k] if placed.spread else 0.0 * force
+        if placed.kinds[k].screw and mu:
+            wrench, power = _thread_friction(placed, k, mu, (turn, slide), reaction[..., k, :])
+            wrenches.append(wrench)
+            losses.append(power)
+            continue
         spin, way = frames.norm(turn), frames.norm(slide)
         turns, moves = spin > SLOW * fastest, way > SLOW * fastest * placed.size
         couple = np.where(turns, mu * arm * (force + tilt), 0.0)
@@ -371,3 +383,25 @@ def _friction(placed: Placed, rate: Array, reaction: Array, sense: float) -> tup
         wrenches.append(np.concatenate((about + frames.cross(point, along), along), axis=-1))
         losses.append(couple * spin + push * way)
     return np.stack(wrenches, axis=-2), np.stack(losses, axis=-1)
+
+
+def _thread_friction(
+    placed: Placed, k: int, mu: float, rate: tuple[Array, Array], reaction: Array
+) -> tuple[Array, Array]:
+    """Return the same of a helical pair, which rubs along its thread of radius r and lead angle λ.
+
+    tan λ = p/r. The thread is pressed by F_a/cos λ, F_a the force along its axis, and by what is held across it.
+    """
+    turn, slide = rate
+    axis, arm, pitch = placed.axis[..., k, :], placed.lever[k], placed.pitch[k]
+    slope = np.hypot(1.0, pitch / arm)
+    along = frames.dot(reaction[..., 3:], axis)
+    aside = frames.norm(reaction[..., 3:] - along[..., None] * axis)
+    across = reaction[..., :3] - frames.dot(reaction[..., :3], axis)[..., None] * axis
+    push = mu * (np.abs(along) * slope + aside + 2.0 * frames.norm(across) / placed.spread[k])
+    spin = frames.dot(turn, axis)
+    way = np.sign(spin) * push / slope
+    force = -(way * pitch / arm)[..., None] * axis
+    point = placed.point[..., k, :] + 0.0 * force
+    wrench = np.concatenate((frames.cross(point, force) - (way * arm)[..., None] * axis, force), axis=-1)
+    return wrench, push * slope * arm * np.abs(spin) + 0.0 * slide[..., 0]

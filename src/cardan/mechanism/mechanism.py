@@ -266,7 +266,14 @@ class Pair:
     carrier: str = plain("", doc="link with which the point of a rolling contact moves; the frame by default")
     traction: float | None = plain(None, doc="coefficient of friction of a rolling contact", above=0.0)
     pressing_force: float | None = quantity("force", None, doc="force that presses a rolling contact", above=0.0)
-    diameter: float | None = quantity("length", None, doc="diameter of its pin or ball, at which it rubs", above=0.0)
+    friction: float | None = plain(
+        None,
+        doc="coefficient of friction of what turns or slides in it; in a joint of a drive instead of that of this",
+        low=0.0,
+    )
+    diameter: float | None = quantity(
+        "length", None, doc="diameter of its pin, ball or thread, at which it rubs", above=0.0
+    )
     bearing_distance: float | None = quantity(
         "length", None, doc="distance of the two bearings of its pin, on which a couple across the pin rests", above=0.0
     )
@@ -347,6 +354,10 @@ def pair_problems(pair: Pair) -> Iterator[Problem]:
     for name in ("carrier", "traction", "pressing_force"):
         if not kind.rolls and getattr(pair, name):
             yield Problem(name, _("of no use: only a rolling contact (RO) has one"), "inconsistent")
+    if pair.friction and kind.rolls:
+        yield Problem("friction", _("of no use: a rolling contact has its traction"), "inconsistent")
+    elif pair.friction and kind.turns and pair.diameter is None:
+        yield Problem("diameter", _("missing: what turns rubs at a diameter"), "missing")
     if kind.rolls and (pair.traction is None) != (pair.pressing_force is None):
         text = _("missing: whether a rolling contact slips takes traction and pressing_force")
         yield Problem("traction" if pair.traction is None else "pressing_force", text, "missing")

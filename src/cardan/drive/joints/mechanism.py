@@ -194,6 +194,7 @@ class MechanismJoint(Joint):
                 axis=axis[..., k, :],
                 second=second[..., k, :] if pair.kind.needs_second else None,
                 rubs=True,
+                friction=pair.friction,
                 lever=0.5 * (pair.diameter or 0.0),
                 spread=pair.bearing_distance or math.inf,
             )

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
-from cardan.mechanism.kinetostatics import carried
+from cardan.mechanism.kinetostatics import each_carried
 from cardan.mechanism.mechanism import Mechanism, Pair
 from cardan.texts import _
+from cardan.units import deg
 
 from .motion import LinkMotion, MechanismMotion, mechanism_motion
 
@@ -34,6 +36,8 @@ class MechanismForces:
         Wrench (couple; force) of the first link of each pair on the second one, about the point of the pair.
     power : array (p,) [W]
         Of all loads, weight and inertia, at the speed of the input, or 1 rad/s where it is not known.
+    loss : array (p, m) [W]
+        What friction takes in each pair, at the same speed.
     unbalanced : float
         What is left of power and balance of every link, over the largest of each.
     """
@@ -43,6 +47,7 @@ class MechanismForces:
     still_torque: Array
     reaction: Array
     power: Array
+    loss: Array
     unbalanced: float
 
     @property
@@ -54,6 +59,14 @@ class MechanismForces:
     def angle(self) -> Array:
         """Angles of the input link from where it is drawn, array (p,) [rad]."""
         return self.motion.angle
+
+    @property
+    def efficiency(self) -> float | None:
+        """Share of the work of the input that friction leaves over its range; None where nothing rubs or drives."""
+        told = np.isfinite(self.input_torque)
+        given = float(np.mean((self.mechanism.speed or 1.0) * self.input_torque[told]))
+        lost = float(np.mean(np.sum(self.loss[told], axis=-1)))
+        return 1.0 - lost / given if 0.0 < lost < given else None
 
     @property
     def force(self) -> Array:
@@ -96,7 +109,8 @@ def mechanism_forces(mechanism: Mechanism, angle: Array | None = None) -> Mechan
     Notes
     -----
     Every link is balanced by Newton and Euler: loads, weight, -m a of its centre of mass and -(I dω/dt + ω × I ω), and
-    the wrenches that its pairs hold. What is held too often shares so that the sum of squares is least.
+    the wrenches that its pairs hold. What is held too often shares so that the sum of squares is least. Pairs with a
+    coefficient of friction rub by Coulomb's law against their motion, with the forces that friction itself makes.
 
     Examples
     --------
@@ -115,25 +129,45 @@ def mechanism_forces(mechanism: Mechanism, angle: Array | None = None) -> Mechan
     twist, rate = speed * rates.speed, speed * speed * rates.acceleration
     still = _loads(motion)
     moving = still + _inertia(motion, twist, rate)
+    pairs = mechanism.joints
+    placed = replace(
+        turned.placed,
+        lever=tuple(0.5 * (one.diameter or 0.0) for one in pairs),
+        spread=tuple(one.bearing_distance or math.inf for one in pairs),
+    )
+    rubbing = tuple(one.friction or 0.0 for one in pairs), speed >= 0.0
     rows = [
-        carried(turned.placed, input_link=turned.input_link, about=turned.about, load=one) for one in (still, moving)
+        each_carried(placed, [rubbing], input_link=turned.input_link, about=turned.about, load=one)[0]
+        for one in (still, moving)
     ]
     here = rows[1]
-    blank = np.where(turned.special | (here.unbalanced > BALANCED), np.nan, 1.0)
+    told = ~(turned.special | (here.unbalanced > BALANCED))
+    _check_turns(mechanism, turned.angle, here.locked & told & any(rubbing[0]))
+    blank = np.where(told, 1.0, np.nan)
     pace = abs(speed) or 1.0
+    loss = pace * here.loss
     power = pace * np.sum(rates.speed * moving, axis=(-2, -1))
     driven = pace * here.input_torque
-    told = np.isfinite(blank)
     largest = float(np.max(np.abs(driven[told]), initial=0.0))
-    gap = float(np.max(np.abs((driven + power)[told]), initial=0.0)) / (largest or 1.0)
+    sense = 1.0 if speed >= 0.0 else -1.0
+    gap = float(np.max(np.abs((driven + power - sense * np.sum(loss, axis=-1))[told]), initial=0.0)) / (largest or 1.0)
     return MechanismForces(
         motion=motion,
         input_torque=here.input_torque * blank,
         still_torque=rows[0].input_torque * blank,
         reaction=here.reaction * blank[:, None, None],
         power=power,
+        loss=loss * blank[:, None],
         unbalanced=max(gap, float(np.max(here.unbalanced[told], initial=0.0))),
     )
+
+
+def _check_turns(mechanism: Mechanism, angle: Array, locked: Array) -> None:
+    """Refuse a mechanism that friction locks."""
+    if np.any(locked):
+        text = _("friction locks the mechanism with {input} turned by {angle:.4g}°: no torque turns it on")
+        where = float(angle[int(np.argmax(locked))])
+        raise refuse("joints", text.format(input=repr(mechanism.input_link), angle=where / deg), "out_of_range")
 
 
 def _loads(motion: MechanismMotion) -> Array:
@@ -162,7 +196,8 @@ def _loads(motion: MechanismMotion) -> Array:
             if amount is None:
                 continue
             _check_way(name, output, ways)
-            against = -amount * np.sign(np.nan_to_num(told))[:, None] * output.axis
+            sense = -1.0 if (mechanism.speed or 0.0) < 0.0 else 1.0
+            against = -sense * amount * np.sign(np.nan_to_num(told))[:, None] * output.axis
             if name == "output_torque":
                 found[:, k, :3] += against
             else:

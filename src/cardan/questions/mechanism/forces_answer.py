@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone, closely
-from cardan.answers.quantity import Quantity, Say, say
+from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
@@ -133,6 +133,18 @@ def _tables(result: MechanismForces, held: Mobility) -> Iterator[Table]:
             *(
                 (
                     Column(
+                        key="power_loss",
+                        heading=_("power loss, mean"),
+                        values=[float(one) if one else None for one in np.nanmean(result.loss, axis=0)],
+                        dimension="power",
+                    ),
+                )
+                if np.any(result.loss > 0.0) and result.mechanism.speed
+                else ()
+            ),
+            *(
+                (
+                    Column(
                         key="determinate",
                         heading=_("determinate"),
                         values=[_("shares") if pair.id in tight else _("yes") for pair in pairs],
@@ -251,6 +263,7 @@ def _remarks(result: MechanismForces, held: Mobility) -> Iterator[Remark]:
         yield Remark(
             text=say(text, angle=Quantity(float(angle[int(np.argmax(missing))]), "angle", decimals=0)), tone="warning"
         )
+    yield from _rubbing(result)
     if mechanism.masses and mechanism.speed is None:
         yield Remark(text=_("--speed-rpm, or speed_rpm in the file, adds inertia."), tone="next")
     if not mechanism.masses:
@@ -260,7 +273,37 @@ def _remarks(result: MechanismForces, held: Mobility) -> Iterator[Remark]:
     yield Remark(text=_("How it moves:"), command=("cardan", "motion", FILE), tone="next")
 
 
+def _rubbing(result: MechanismForces) -> Iterator[Remark]:
+    """Yield what friction takes, and what of it is not known."""
+    if result.efficiency is not None:
+        text = _("Friction takes {lost} of what drives it: efficiency {share}, by Coulomb's law in each joint.")
+        lost = Quantity(1.0 - result.efficiency, "share")
+        yield Remark(text=say(text, lost=lost, share=Quantity(result.efficiency, "share")))
+    most = ROUNDING * float(np.nanmax(result.force)) * result.motion.turned.placed.size
+    bare = [
+        pair.id
+        for k, pair in enumerate(result.mechanism.joints)
+        if pair.friction
+        and pair.kind.turns == "axis"
+        and pair.bearing_distance is None
+        and peak(_tilting(result, k)) > most
+    ]
+    if bare:
+        text = _("The couple across the pin of {pairs} rubs too: bearing_distance_mm would say how much.")
+        yield Remark(text=say(text, pairs=Joined(bare, last=_(" and "))))
+
+
+def _tilting(result: MechanismForces, k: int) -> Array:
+    """Return the couple across the axis of a pair, array (p,) [N·m]."""
+    axis = result.motion.turned.placed.axis[:, k]
+    couple = result.reaction[:, k, :3]
+    found: Array = np.linalg.norm(couple - np.sum(couple * axis, axis=-1, keepdims=True) * axis, axis=-1)
+    return found
+
+
 def _keys(result: MechanismForces) -> Iterator[KeyFigure]:
+    if result.efficiency is not None:
+        yield KeyFigure(name="efficiency", title=_("efficiency"), value=Quantity(result.efficiency, "share"))
     torque = Quantity(peak(result.input_torque), "torque")
     yield KeyFigure(name="input_torque", title=_("largest input torque"), value=torque)
     k = int(foremost(np.nanmax(result.force, axis=0)))
@@ -275,6 +318,7 @@ def _facts(result: MechanismForces, held: Mobility) -> dict[str, Any]:
         "name": result.mechanism.name,
         "speed": Quantity(result.mechanism.speed, "angular_speed"),
         "redundant": held.redundant,
+        "efficiency": result.efficiency,
         "residual": result.unbalanced,
     }
 
@@ -286,6 +330,8 @@ def _trace(found: MechanismForces) -> Table:
         Column(key="input_torque", values=found.input_torque, dimension="torque"),
         Column(key="input_torque_without_inertia", values=found.still_torque, dimension="torque"),
     ]
+    if np.any(found.loss > 0.0) and found.mechanism.speed:
+        columns.append(Column(key="power_loss", values=np.sum(found.loss, axis=-1), dimension="power"))
     for k, pair in enumerate(found.mechanism.joints):
         name = pair.id.replace(" ", "_")
         for j, axis in enumerate("xyz"):

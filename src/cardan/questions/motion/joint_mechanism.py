@@ -136,11 +136,16 @@ def each_carried_in(
     load = np.zeros((wide[0], len(moving), 6))
     load[:, 1, :3] = -axis
     about = np.concatenate((BEFORE, np.zeros(3)))
-    ways = [(tuple(mu * one.rubs for one in pairs), fed) for mu, fed in asked]
+    ways = [(tuple(_rubs(one, mu) for one in pairs), fed) for mu, fed in asked]
     return [
         JointCarried(pairs=pairs, inner=len(own), placed=placed, found=found, axis=axis)
         for found in each_carried(placed, ways, input_link=0, about=about, load=load)
     ]
+
+
+def _rubs(pair: InnerPair, friction: float) -> float:
+    """Return the coefficient of friction of a pair in a joint with such a one, none where this has none."""
+    return 0.0 if not (pair.rubs and friction) else friction if pair.friction is None else pair.friction
 
 
 def link_of(pair: InnerPair, end: int) -> str:

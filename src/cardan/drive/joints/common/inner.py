@@ -84,6 +84,7 @@ class InnerPair:
     count: int = 1  # which of several pairs and links alike, from 1
     repeats: bool = False  # whether it holds what others alike hold already, but for play or give
     rubs: bool = False  # whether it rubs where the joint has a coefficient of friction
+    friction: float | None = None  # its own coefficient of friction, else that of the joint
     lever: float = 0.0  # [m]: at which what turns in it rubs
     spread: float = math.inf  # [m]: between its two bearings, where it has two
     contact: Contact | None = None  # what touches in it, where its sizes are given
