@@ -252,6 +252,8 @@ def test_edits_go_on_while_a_heavy_file_of_another_window_is_worked_on(
         assert mark(large, "judgement").inner_text() == judged
         assert "not saved" not in mark(large, "file-name").inner_text()
     state(large, "not saved")
+    mark(large, "way-geometry").click()  # its table comes in pieces, and all of it
+    large.wait_for_function("document.querySelectorAll('.centres .key').length >= 180")
     large.wait_for_function(
         "before => document.querySelector('[data-mark=judgement]').innerText !== before", arg=judged
     )

@@ -109,8 +109,8 @@ class Start:
             self._choices(_("Start from"), "note_add", uses, self._begin, "template")
             ui.label(_("Examples")).classes("head").props("role=heading aria-level=2")
             with ui.element("div").classes("cards"):
-                for name in (*FIRST, *(one for one in example_names() if one not in FIRST)):
-                    self._card(name)
+                for card in cards():
+                    self._card(*card)
 
     def _choices(
         self, title: str, icon: str, named: Mapping[str, str], chosen: Callable[[str], object], mark: str
@@ -127,13 +127,11 @@ class Start:
         with self.session.speaking():
             self.session.open(template(use, ""), saved=False)
 
-    def _card(self, name: str) -> None:
-        drive = example(name)
+    def _card(self, name: str, title: str, count: int) -> None:
         with ui.element("button").classes("card").props(f'data-mark="example-{name}"') as card:
             ui.element("img").props(f'src="/cardan-examples/{name}.svg" loading=lazy alt=""')
-            ui.label(drive.name or name).classes("head")
+            ui.label(title).classes("head")
             ui.label(about(name)).classes("about")
-            count = len(drive.joints)
             ui.label(_("joints: {count}").format(count=count)).classes("hint")
         card.on("click", lambda: open_example(self.session, name))
 
@@ -180,6 +178,14 @@ def _picture(name: str) -> Any:
     text = example_picture(name)
     head = {"Cache-Control": "max-age=86400"}
     return Response(text, 200 if text else 404, head, media_type="image/svg+xml")
+
+
+@cache
+def cards() -> tuple[tuple[str, str, int], ...]:
+    """Return the shipped examples in the order in which they are offered: name, what they are called, joints."""
+    names = (*FIRST, *(one for one in example_names() if one not in FIRST))
+    drives = {name: example(name) for name in names}
+    return tuple((name, drive.name or name, len(drive.joints)) for name, drive in drives.items())
 
 
 @cache

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+import gc
 import hashlib
 import logging
 import secrets
@@ -64,6 +66,7 @@ def start(how: Start) -> None:
         Workspace(how.folder).read(how.file)
     port, token = _port(how), secrets.token_urlsafe(24)
     jobs = Jobs()
+    app.on_startup(gc.freeze)  # what every page needs is looked through no more, which would hold all of them up
     app.on_shutdown(jobs.close)
     app.on_shutdown(close_all)
     page.serve_files(app)
@@ -75,6 +78,8 @@ def start(how: Start) -> None:
         page.dress()
         await client.connected(CONNECT)
         session, window = await _session(how, client, keeper, jobs)
+        if session.empty:
+            await asyncio.to_thread(page.cards)  # once for all visitors; others need not wait for it
         with session.speaking():
             page.build(session, jobs, lambda kept: keeper.keep(window, kept))
 

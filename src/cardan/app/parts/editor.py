@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Any
 
-from nicegui import events, ui
+from nicegui import background_tasks, events, ui
 from nicegui.element import Element
 
 from cardan.app.state.form import Entry, geometry_form, parts, section
@@ -20,7 +21,7 @@ from cardan.io.amend import amend
 from cardan.texts import _
 from cardan.units import DIMENSIONS
 
-from .form import Form, KeyField, attempt
+from .form import PAUSE, SLICE, Form, KeyField, attempt
 from .widgets import Timer, first, refused
 
 
@@ -182,22 +183,33 @@ class Centres:
         found = list(_geometry(tree))
         shape = tuple(entry.key() for _title, entry in found)
         if shape != self._shape:
-            self._build(found)
             self._shape = shape
+            self.fields = {}
+            self.body.clear()
+            self._build(found[:SLICE])
+            if found[SLICE:]:
+                background_tasks.create(self._rest(shape, found), name="numbers of a long geometry")
         for _title, entry in found:
-            self.fields[entry.key()].show(entry)
+            if entry.key() in self.fields:
+                self.fields[entry.key()].show(entry)
         self._draw()
 
-    def _build(self, found: list[tuple[str, Entry]]) -> None:
-        self.fields = {}
-        self.body.clear()
+    def _build(self, found: list[tuple[str, Entry]], before: str = "") -> None:
         with self.body:
-            before = ""
             for title, entry in found:
                 if title != before:
                     ui.label(title).classes("of")
                 before = title
                 self.fields[entry.key()] = KeyField(self.session, entry, removable=False)
+
+    async def _rest(self, shape: tuple[str, ...], found: list[tuple[str, Entry]]) -> None:
+        """Build the rest of a long table a few numbers at a time, so that other windows need not wait for it."""
+        for k in range(SLICE, len(found), SLICE):
+            await asyncio.sleep(PAUSE)
+            if self.body.is_deleted or self._shape is not shape:
+                return
+            with self.session.speaking():
+                self._build(found[k : k + SLICE], found[k - 1][0])
 
     def _draw(self) -> None:
         if not self._awake:
