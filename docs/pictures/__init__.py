@@ -29,6 +29,7 @@ MODULES = (
     "sweeps",
     "bending",
     "gallery",
+    "answers",
 )
 
 
@@ -55,6 +56,9 @@ def draw(folder: Path, module: str, name: str) -> Path:
     file = folder / f"{name}.svg"
     with matplotlib.rc_context(STYLE):
         figure = import_module(f".{module}", __name__).PICTURES[name]()
+        if isinstance(figure, bytes):  # drawn already, by the program itself
+            file.write_bytes(figure)
+            return file
         figure.savefig(file, metadata={"Date": None}, dpi=200, bbox_inches="tight", pad_inches=0.06)
     return file
 

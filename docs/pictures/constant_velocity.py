@@ -66,7 +66,7 @@ def lever() -> Figure:
         axes.text(36.4, error[-1] + shift, name, color=colour, va="center", size=11)
     axes.axhline(0, color=PALE, lw=0.8)
     axes.set_xlim(0, 36)
-    axes.set_xlabel("bend [°]")
+    axes.set_xlabel("joint angle [°]")
     axes.set_ylabel("error of the cage [°]")
     return figure
 

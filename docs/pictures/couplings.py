@@ -59,7 +59,7 @@ def speed_fluctuation() -> Figure:
         axes.plot(joint_angles, left, color=colour, lw=2, label=rf"{name}, $\lambda$ = {share:.4f}")
     axes.set_xlim(0, 42)
     axes.set_ylim(0, 1.5)
-    axes.set_xlabel("bend [°]")
+    axes.set_xlabel("joint angle [°]")
     axes.set_ylabel("speed fluctuation [%]")
     axes.legend(loc="upper left")
     return figure
@@ -86,4 +86,4 @@ def pin_lead() -> Figure:
     return figure
 
 
-PICTURES = {"centring-triangle": triangle, "centring-irregularity": speed_fluctuation, "pin-lead": pin_lead}
+PICTURES = {"centring-triangle": triangle, "centring-fluctuation": speed_fluctuation, "pin-lead": pin_lead}

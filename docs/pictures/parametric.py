@@ -85,7 +85,7 @@ def zone() -> Figure:
                 1.0 / np.sqrt(edge(drive(joint_angle), side)), joint_angle, "o", color=SERIES[1], ms=5, label=label
             )
     axes.set_xlabel(r"speed over the natural frequency, $\omega_1/\omega_e$")
-    axes.set_ylabel("bend [°]")
+    axes.set_ylabel("joint angle [°]")
     axes.set_ylim(0.0, 31.0)
     axes.legend(loc="lower right")
     return figure

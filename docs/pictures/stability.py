@@ -54,7 +54,7 @@ def tongues() -> Figure:
         axes.axvline(where / rpm, color=PALE, lw=0.8, ls=(0, (2, 3)), zorder=0)
         axes.annotate(name, (where / rpm, 40.0), xytext=(0, 3), textcoords="offset points", ha=side, va="bottom")
     axes.set_xlabel("speed [rpm]")
-    axes.set_ylabel("bend [°]")
+    axes.set_ylabel("joint angle [°]")
     axes.set_xlim(speeds[0] / rpm, speeds[-1] / rpm)
     return figure
 

@@ -151,7 +151,7 @@ def triangle() -> Figure:
                 x += length
         note(each, (lengths[longest] / 2, 1), f"{joint_angles[longest]}°", halo=False, color="white", size=11)
         verdict = "closes: exactly even" if x >= lengths[longest] else "cannot close"
-        each.set_title(f"bends {', '.join(f'{b}°' for b in joint_angles)}: {verdict}", size=12)
+        each.set_title(f"joint angles {', '.join(f'{b}°' for b in joint_angles)}: {verdict}", size=12)
         each.set_yticks([0, 1], ["the others", "the longest"])
         each.set_xlabel(r"$L = -\ln\cos\alpha$")
     return figure
@@ -165,7 +165,7 @@ def errors() -> Figure:
     first = np.deg2rad(alpha) ** 2
     axes.plot(alpha, 100 * exact, color=SERIES[0], lw=2.2, label=r"exact: $\sin\alpha\,\tan\alpha$")
     axes.plot(alpha, 100 * first, color=SERIES[1], lw=2.2, ls="--", label=r"first order: $\alpha^2$")
-    axes.set_xlabel("bend [°]")
+    axes.set_xlabel("joint angle [°]")
     axes.set_ylabel("speed fluctuation [%]")
     axes.set_xlim(0, 45)
     axes.set_ylim(0, 72)

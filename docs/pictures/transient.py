@@ -38,7 +38,7 @@ def hang() -> Figure:
         turned = found.coordinate[:, 0] / (2.0 * np.pi)
         edges = np.interp(np.arange(0.0, turned[-1], 1.0), turned, found.times)
         axes.plot(0.5 * (edges[1:] + edges[:-1]), 2.0 * np.pi / np.diff(edges) / rpm, color=color, lw=2)
-        axes.text(10.0, 600.0 if joint_angle < 30 else 150.0, f"joint bent by {joint_angle:.0f}°", color=color, size=11)
+        axes.text(10.0, 600.0 if joint_angle < 30 else 150.0, f"joint angle {joint_angle:.0f}°", color=color, size=11)
         for one in sommerfeld(line, found):
             axes.plot([one.start, one.end], [one.speed / rpm] * 2, color=ACCENT, lw=1.5, ls=":")
     axes.set_xlabel("time [s]")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -73,3 +74,18 @@ def test_every_picture_is_drawn(module: str, tmp_path: Path, monkeypatch: pytest
     )
     for name in [name for name in sys.modules if name.split(".")[0] == "pictures"]:
         del sys.modules[name]
+
+
+@pytest.mark.slow
+def test_every_picture_of_a_page_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(DOCS))
+    import pictures  # type: ignore[import-not-found]
+
+    pages = "\n".join(page.read_text("utf8") for page in DOCS.rglob("*.md") if "_build" not in page.parts)
+    used = set(re.findall(r"/_build/pictures/([^)]*?)\.svg", pages))
+    known = {name for _module, name in pictures.names()}
+    for name in [name for name in sys.modules if name.split(".")[0] == "pictures"]:
+        del sys.modules[name]
+    assert len(used) > 50
+    assert used - known == set()
+    assert not any(" " in name for name in used)  # a blank ends an address in Markdown
