@@ -8,13 +8,17 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError, forces, losses, moving_forces
+from cardan.drive.cross import Cross
+from cardan.drive.duty import Duty
+from cardan.drive.joints import Hooke, MechanismJoint, OffsetCross
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.wobble import course
 from cardan.drive.support import Support
 from cardan.io.drive_file import loads
 from cardan.mechanism.load import LinkMass, Load
-from cardan.mechanism.mechanism import Mechanism
+from cardan.mechanism.mechanism import Mechanism, Pair
 from cardan.questions.forces.assembly import assembly
+from cardan.questions.forces.inner_loads import inner_loads
 from cardan.questions.mechanism.forces import mechanism_forces
 from cardan.questions.mobility.drive_mechanism import mechanism_of
 from cardan.questions.motion.joint_mechanism import joint_carried
@@ -221,3 +225,32 @@ moves = ["output"]
 amplitude_mm = [0, 0, 40]
 frequency_Hz = 2
 """
+
+
+def test_pins_of_an_own_joint_carry_what_journals_do():
+    """A cross as a mechanism file against the journals of the Hooke joint; and the offset cross without distance."""
+    pins = [
+        Pair(id="in", type="R", links=("one", "cross"), point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)),
+        Pair(id="out", type="R", links=("cross", "two"), point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0)),
+    ]
+    ends = [
+        Pair(id="a", type="R", links=("frame", "one"), point=(-0.1, 0.0, 0.0), axis=(1.0, 0.0, 0.0)),
+        Pair(id="b", type="R", links=("frame", "two"), point=(0.08, 0.06, 0.0), axis=(4.0, 3.0, 0.0)),
+    ]
+    joints = (*ends, *(replace(one, diameter=0.012, bearing_distance=0.05) for one in pins))
+    cross = Mechanism(frame="frame", input_link="one", output_link="two", joints=joints)
+    bent = {"joint_angle": 0.3}
+    duty = Duty(torque=100.0)
+    plain = forces(Drive(joints=(Hooke(**bent, cross=Cross(span=0.05, journal=0.012)),)), duty)
+    journals = np.asarray(plain.journals.size)[0]
+    own = Drive(joints=(MechanismJoint(**bent, file="cross.toml").with_drawing(cross),))
+    offset = Drive(
+        joints=(OffsetCross(**bent, offset=0.0, reach=0.3, journal_span=0.05, journal_diameter=0.012),),
+        supports=(Support(shaft=1, position=-0.1, axial=True, tilt=True),),
+    )
+    for drive in (own, offset):
+        high = [one.high for one in inner_loads(drive, forces(drive, duty))]
+        if drive is own:
+            assert high == pytest.approx([journals[:, :2].max(), journals[:, 2:].max()], rel=1e-6)
+        else:  # its ball pushes the pins too
+            assert min(high) > journals.max()

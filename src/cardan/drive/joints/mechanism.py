@@ -199,6 +199,11 @@ class MechanismJoint(Joint):
                 spread=pair.bearing_distance or math.inf,
             )
 
+    def loaded(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield all its pairs, where it is known what it passes on."""
+        if self.drawing is not None and self.told:
+            yield from self.mechanism(stance)
+
     def push(self, angle: Array, joint_angle: Array) -> Array | None:
         """Return the force of what touches between its shafts."""
         if not self.loose:

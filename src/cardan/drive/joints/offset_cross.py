@@ -72,6 +72,11 @@ class OffsetCross(Joint):
         journal, span = self.journal_diameter or 0.0, self.journal_span or math.inf
         return crossed(stance, offset=self._aside, journal=journal, span=span)
 
+    def loaded(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield the same, where the sizes of its pins are given."""
+        if self.journal_span is not None:
+            yield from self.mechanism(stance)
+
     def carried(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the bearing of its driving shaft, and the sliding ball that holds the driven one."""
         yield next(iter(carried(stance)))
