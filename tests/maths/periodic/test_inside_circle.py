@@ -110,3 +110,21 @@ def test_what_was_stopped_is_unproved() -> None:
     found = inside_circle(everywhere, 0.55, 3.0, largest=largest, progress=lambda _share: "stop")
     assert found.stopped
     assert len(found.unproved)
+
+
+def test_work_that_is_limited_leaves_the_rest_unfinished() -> None:
+    """A number that jumps everywhere would be halved for ever; what was not reached is told."""
+    jumps = np.random.default_rng(7).uniform(1.0, 3.0, 40)
+
+    def sample(places):
+        damping = 3e-4 * (1.0 + 0.5 * (np.searchsorted(np.sort(jumps), places) % 2))
+        return meissner(places, damping), np.ones(places.shape, dtype=bool), np.zeros(places.shape)
+
+    found = inside_circle(sample, 0.55, 3.0, largest=largest, most=800)
+    assert found.samples <= 800
+    assert len(found.unfinished)
+    middle = found.unfinished.mean(axis=-1)[:, None]
+    assert np.all(np.any((found.unproved[:, 0] < middle) & (middle < found.unproved[:, 1]), axis=-1))
+    whole = inside_circle(sample, 0.55, 3.0, largest=largest)
+    assert not len(whole.unfinished)
+    assert whole.samples > 800

@@ -161,10 +161,14 @@ def _proved(proof: ProvedSpeeds, between: Sequence[tuple[float, float]], zone: M
         low, high = (Quantity(float(one), "angular_speed", 5) for one in (proof.lowest[k], proof.highest[k]))
         away = Quantity(_away(proof, k, between), "share", 3)
         return say(text, low=low, high=high, zone=proof.zone.name((k,)), away=away)
-    text = _("not proved throughout: backlash opens or the motion jumps; the zone of mode {mode} lies about {zone}")
-    if shown:
-        text = _("proved stable; the zone of mode {mode} lies about {zone}; loss factors 2ζ")
-    return say(text, **zone)
+    if shown or not len(proof.unsettled):
+        text = _("not proved throughout: backlash opens or the motion jumps; the zone of mode {mode} lies about {zone}")
+        if shown:
+            text = _("proved stable; the zone of mode {mode} lies about {zone}; loss factors 2ζ")
+        return say(text, **zone)
+    low, high = (Quantity(float(one), "angular_speed", 5) for one in (proof.unsettled[0, 0], proof.unsettled[-1, 1]))
+    text = _("not settled from {low:bare} to {high}: it takes too long; the zone of mode {mode} lies about {zone}")
+    return say(text, low=low, high=high, **zone)
 
 
 def _away(proof: ProvedSpeeds, k: int, between: Sequence[tuple[float, float]]) -> float:

@@ -34,11 +34,11 @@ COARSE = 1e-3
 FRINGE = 1e-4
 """Share of the number that a stretch beside an edge may have and still counts as that edge."""
 
-MOST, PANELS = 60_000, 2000
-"""Stretches and polynomials at most; what is left then stays unproved."""
+MOST, MATRICES, UNKNOWNS = 60_000, 32_000, 2_500_000
+"""Stretches, matrices, and squares of the size of all stretches at most; what is left then stays unproved."""
 
-BATCH = 1024
-"""Stretches looked at together."""
+BATCH, PANELS = 1024, 32
+"""Stretches looked at, and polynomials sampled, together."""
 
 DOUBLINGS = 26
 """Of the sum that gives Lyapunov's norm: 2^26 periods."""
@@ -62,6 +62,7 @@ class Proof:
     outside: Array
     unproved: Array  # neither was shown; an end of what is outside is not counted
     unsampled: Array  # those among them that no polynomial holds: the matrix is missing there, or not smooth
+    unfinished: Array  # those among them of which more matrices would have had to be taken than may be
     samples: int  # matrices taken
     stopped: bool = False  # whether the work was stopped
 
@@ -103,6 +104,7 @@ def inside_circle(
     first: int = 8,
     width: float = 1e-6,
     slack: float = 0.0,
+    most: int = MATRICES,
     progress: Callable[[float], object] | None = None,
 ) -> Proof:
     """Return where on an interval no eigenvalue is outside the unit circle, and where that is not so or not shown.
@@ -113,14 +115,22 @@ def inside_circle(
     breaks: places at which the matrix is not smooth, as far as known.
     first: polynomials to begin with; width: share of the number at which halving ends.
     slack: by which a modulus may exceed 1 where nothing else is seen: of matrices whose moduli all are 1.
+    most: matrices at most, the widest stretches first.
     progress: told the share done; when it answers "stop" what is left stays unproved.
     A zone of instability within what is proved is impossible, but for what the polynomials miss (1e-9), the error of
     the matrices themselves, and moduli within 5e-7 of 1, which are not called inside.
     """
-    held, lost, samples = _polynomials(sample, low, high, breaks, first, width)
+    stopped = False
+
+    def told(share: float) -> bool:
+        nonlocal stopped
+        stopped = stopped or (progress is not None and progress(min(share, 1.0)) == "stop")
+        return stopped
+
+    held, lost, left, samples = _polynomials(sample, low, high, breaks, first, width, most, told)
     outside: list[tuple[float, float]] = []
     short: list[tuple[float, float]] = []
-    looked, settled, stopped = 0, 0.0, False
+    looked, settled, enough = 0, 0.0, min(MOST, UNKNOWNS // max(held.control.shape[-1] ** 2, 1))
     while len(held.low):
         looked += len(held.low)
         parts = [held.some(np.arange(k, min(k + BATCH, len(held.low)))) for k in range(0, len(held.low), BATCH)]
@@ -128,18 +138,18 @@ def inside_circle(
         inside, beyond, ended, edge = (np.concatenate([one[k] for one in judged]) for k in range(4))
         outside += _pairs(held, beyond | (ended & edge))
         settled += float(np.sum((held.high - held.low)[inside | beyond | ended]))
-        stopped = progress is not None and progress(min(settled / (high - low), 1.0)) == "stop"
-        ended = ~(inside | beyond) if stopped or looked >= MOST else ended
+        ended = ~(inside | beyond) if told(0.5 + 0.5 * settled / (high - low)) or looked >= enough else ended
         short += _pairs(held, ended & ~edge)
         held = held.some(np.flatnonzero(~(inside | beyond | ended))).halves()
     beyond = _runs(outside)
-    fringe = _beside(_runs(short + lost), beyond)
-    unproved = _runs([one for one in short + lost if not _within(one, fringe)])
+    fringe = _beside(_runs(short + lost + left), beyond)
+    unproved = _runs([one for one in short + lost + left if not _within(one, fringe)])
     between = np.isin(unproved[:, 0], beyond[:, 1]) & np.isin(unproved[:, 1], beyond[:, 0])
     return Proof(
         outside=_runs([*beyond.tolist(), *unproved[between].tolist()]),
         unproved=unproved[~between],
         unsampled=_runs([one for one in lost if not _within(one, fringe)]),
+        unfinished=_runs([one for one in left if not _within(one, fringe)]),
         samples=samples,
         stopped=stopped,
     )
@@ -205,20 +215,31 @@ def _tables() -> _Tables:
 
 
 def _polynomials(
-    sample: Sample, low: float, high: float, breaks: Array | tuple[float, ...], first: int, width: float
-) -> tuple[_Stretches, list[tuple[float, float]], int]:
-    """Return polynomials that hold the matrix, the stretches that none holds, and how many matrices that took."""
+    sample: Sample,
+    low: float,
+    high: float,
+    breaks: Array | tuple[float, ...],
+    first: int,
+    width: float,
+    most: int,
+    stops: Callable[[float], bool],
+) -> tuple[_Stretches, list[tuple[float, float]], list[tuple[float, float]], int]:
+    """Return polynomials that hold the matrix, stretches that none holds, those not done, and matrices taken."""
     table = _tables()
     cuts = np.unique([low, *(one for one in breaks if low < one < high), high])
     ends = [np.linspace(a, b, max(1, round(first * (b - a) / (high - low))) + 1) for a, b in itertools.pairwise(cuts)]
-    todo = np.concatenate([np.stack([one[:-1], one[1:]], axis=-1) for one in ends])
+    queue = np.concatenate([np.stack([one[:-1], one[1:]], axis=-1) for one in ends])
     parts: list[_Stretches] = []
     lost: list[tuple[float, float]] = []
-    samples = panels = 0
-    while len(todo):
+    samples, done = 0, 0.0
+    while len(queue) and not stops(0.5 * done):
+        room = min(PANELS, (most - samples) // len(table.nodes))
+        if room < 1:
+            break
+        todo, queue = queue[:room], queue[room:]
         places = todo[:, :1] + (todo[:, 1:] - todo[:, :1]) * table.nodes
         matrix, there, number = sample(places)
-        samples, panels = samples + places.size, panels + len(todo)
+        samples += places.size
         values = np.where(there[..., None, None], matrix, 0.0)
         tail = np.sqrt(np.sum(np.einsum("ij,njab->niab", table.tail, values) ** 2, axis=(-1, -2))).sum(axis=-1)
         good = there.all(axis=-1) & (tail <= TOLERANCE * np.maximum(1.0, np.max(np.abs(values), axis=(1, 2, 3))))
@@ -229,17 +250,19 @@ def _polynomials(
             low_high = {"low": todo[rows, 0], "high": todo[rows, 1]}
             parts.append(_Stretches(**low_high, control=control, number=beside, missed=tail[rows]))
         shortest = np.where(there.any(axis=-1), max(width, LEAST), MISSING) * np.abs(todo[:, 1])
-        short = ~good & ((todo[:, 1] - todo[:, 0] <= shortest) | (panels >= PANELS))
+        short = ~good & (todo[:, 1] - todo[:, 0] <= shortest)
         lost += [(float(a), float(b)) for a, b in todo[short]]
         todo = todo[~good & ~short]
         middle = todo.mean(axis=-1)
-        todo = np.concatenate([np.stack([todo[:, 0], middle], -1), np.stack([middle, todo[:, 1]], -1)])
+        queue = np.concatenate([queue, np.stack([todo[:, 0], middle], -1), np.stack([middle, todo[:, 1]], -1)])
+        done = 1.0 - float(np.sum(queue[:, 1] - queue[:, 0])) / (high - low)
+    left = [(float(a), float(b)) for a, b in queue]
     if not parts:
         nothing, control = np.zeros(0), np.zeros((0, DEGREE + 1, 1, 1))
         empty = _Stretches(low=nothing, high=nothing, control=control, number=control[..., 0, 0], missed=nothing)
-        return empty, lost, samples
+        return empty, lost, left, samples
     whole = {one.name: np.concatenate([getattr(part, one.name) for part in parts]) for one in fields(_Stretches)}
-    return _Stretches(**whole), lost, samples
+    return _Stretches(**whole), lost, left, samples
 
 
 LEAST, MISSING = 1e-5, 0.02

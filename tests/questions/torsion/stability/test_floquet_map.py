@@ -50,6 +50,20 @@ def test_the_kernel_finds_what_array_expressions_find(how: dict) -> None:
     np.testing.assert_allclose(fast.orbit.coefficient[..., :kept], slow.orbit.coefficient[..., :kept], atol=1e-5)
 
 
+@pytest.mark.parametrize("how", [{"order": 1.0}, {"free": True, "motor": True, "order": 2.0}], ids=["forced", "motor"])
+def test_the_kernel_knows_what_turns_backwards(how: dict) -> None:
+    """Mirrored inside; array expressions follow the drive as it turns."""
+    model = replace(over(drive(damping=0.3, **how)), input_speed=None if how.get("free") else -SPEEDS)
+    fast = floquet_map(model, speed=-SPEEDS, method=Compiled())
+    slow = floquet_map(model, speed=-SPEEDS, method=Plain())
+    ahead = floquet_map(over(drive(damping=0.3, **how)), speed=SPEEDS, method=Plain())
+    np.testing.assert_allclose(fast.floquet.modulus, slow.floquet.modulus, atol=1e-5, rtol=1e-6)
+    np.testing.assert_allclose(fast.orbit.force, slow.orbit.force, rtol=1e-5, atol=1e-9)
+    kept = min(fast.orbit.coefficient.shape[-1], slow.orbit.coefficient.shape[-1])
+    np.testing.assert_allclose(fast.orbit.coefficient[..., :kept], slow.orbit.coefficient[..., :kept], atol=1e-5)
+    assert not np.allclose(fast.orbit.coefficient[..., :kept], ahead.orbit.coefficient[..., :kept], atol=1e-4)
+
+
 def test_the_map_equals_its_points() -> None:
     model = over(drive(damping=0.3))
     found = floquet_map(model, method=Compiled()).floquet

@@ -104,6 +104,21 @@ def test_a_line_that_takes_too_long_says_that_points_are_points() -> None:
     assert any("points 10 rpm apart" in told(one.text, USUAL) for one in said.remarks)
 
 
+@pytest.mark.slow
+def test_what_takes_too_long_is_left_unsettled_and_told() -> None:
+    """The stand again, with too little work for the edges of its zones."""
+    stand = example("unstable-drive")
+    found = stability(stand, over={SPEEDS: np.linspace(500.0, 3000.0, 5)})
+    proof = proved_speeds(found.train.model, 500.0 * rpm, 3000.0 * rpm, work=60_000.0)
+    assert proof.looked_at
+    assert proof.samples <= 60_000.0 / 500.0
+    assert len(proof.unsettled)
+    assert not proof.proved
+    said = answer(stand, replace(found, proof=proof))
+    assert any("Not settled at" in told(one.text, USUAL) for one in said.remarks)
+    assert len(data(said, USUAL)["proof"]["unsettled_rpm"]) == len(proof.unsettled)
+
+
 def test_a_stable_range_is_a_statement() -> None:
     found = stability(example("two-piece-rubber-bearing"), over={SPEEDS: np.linspace(700.0, 900.0, 5)})
     said = answer(example("two-piece-rubber-bearing"), found)

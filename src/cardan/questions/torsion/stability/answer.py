@@ -188,16 +188,17 @@ def _unproved(found: Stability, over: MapAxis) -> Iterator[Remark]:
         )
         yield Remark(text=say(text, step=step), tone="warning")
         return
+    rest = _within(proof.unproved, proof.unsettled, inside=False)
+    late = _("Not settled at {where}: the motion changes so often with the speed there that it takes too long.")
     for kind, text in (
-        (
-            _within(proof.unproved, proof.open),
-            _("Not proved at {where}: backlash opens there, or the steady motion jumps."),
-        ),
-        (_within(proof.unproved, proof.open, inside=False), _("Not proved at {where}: the margin is too small there.")),
+        (_within(proof.unproved, proof.unsettled), late),
+        (_within(rest, proof.open), _("Not proved at {where}: backlash opens there, or the steady motion jumps.")),
+        (_within(rest, proof.open, inside=False), _("Not proved at {where}: the margin is too small there.")),
     ):
         if len(kind):
             where = [say(_("{low:bare} to {high}"), low=_edge(a, over), high=_edge(b, over)) for a, b in kind[:NAMED]]
-            yield Remark(text=say(text, where=Joined(where)), tone="warning")
+            others = _(" and others") if len(kind) > NAMED else ""
+            yield Remark(text=say(text, where=Joined([Joined(where), others], between="")), tone="warning")
 
 
 def _as_drawn(proof: ProvedSpeeds, over: MapAxis) -> Remark:
@@ -374,6 +375,7 @@ def _proof_facts(proof: ProvedSpeeds) -> dict[str, Any]:
             for k in range(len(proof.lowest))
         ],
         "unproved": Quantity(proof.unproved, "angular_speed"),
+        "unsettled": Quantity(proof.unsettled, "angular_speed"),
         "widest_zone_hidden": Quantity(proof.hidden, "angular_speed"),
     }
 

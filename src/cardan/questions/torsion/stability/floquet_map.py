@@ -95,16 +95,18 @@ def floquet_map(
     speed: ArrayLike | None = None,
     method: Method | None = None,
     harmonics: int | None = None,
+    opened: Shooting = LONG,
     progress: Progress | None = None,
 ) -> FloquetMap:
     """Return whether steady running is stable at every point of a map.
 
     model (...): any of its numbers may vary along its leading axes.
     speed (...) [rad/s]: of the input, or mean speed of free drives; by default the input speed of the model.
-    method: Compiled for more than a few points by default. The kernel does not know open play, tables of torques
-    and backward turning: they go the plain way, as do points whose motion it does not find.
+    method: Compiled for more than a few points by default. The kernel does not know open play and tables of
+    torques: they go the plain way, as do points whose motion it does not find.
     harmonics: harmonics of the motion in the kernel, for half a turn each; as many as the joint angles ask for by
     default.
+    opened: how motions are found that are no Fourier sums.
     progress: told the share done; when it answers "stop" the points not yet done stay unknown.
     The same equations as `run_stability.floquet`, eight drives at a time: motion by harmonic balance,
     monodromy matrix by collocation of order 10.
@@ -122,7 +124,7 @@ def floquet_map(
     way = chosen(method, np, count >= WORTH)
     compiled = isinstance(way, Compiled) and fits(replace(model, backlash=np.zeros_like(model.backlash)), omega)
     waves = (harmonics * round(turning.period / np.pi)) if harmonics else harmonics_for(model, turning.period)
-    table = _Table(turning, waves)
+    table = _Table(turning, waves, opened)
     done, stopped = 0, False
     while done < count and not stopped:
         rows = np.arange(done, min(done + (CHUNK if compiled else FEW), count))
@@ -137,8 +139,8 @@ def floquet_map(
 class _Table:
     """What is known of the points, in one axis; the rest is blank."""
 
-    def __init__(self, turning: Turning, harmonics: int) -> None:
-        self.turning, self.harmonics = turning, harmonics
+    def __init__(self, turning: Turning, harmonics: int, opened: Shooting) -> None:
+        self.turning, self.harmonics, self.opened = turning, harmonics, opened
         self.count = len(turning.speed)
         self.columns: dict[str, Array] = {}
 
@@ -174,7 +176,7 @@ class _Table:
             some = rows[first : first + FEW]
             part, last = self.turning.part(some), first + len(some)
             told = within(progress, first / len(rows), last / len(rows))
-            orbit, status = steady_orbits(part.model, speed=part.speed, opened=LONG, progress=told)
+            orbit, status = steady_orbits(part.model, speed=part.speed, opened=self.opened, progress=told)
             self.put(some, floquet(orbit), orbit.coefficient, orbit.force, status)
             if np.any(status == Status.CANCELLED):
                 return True

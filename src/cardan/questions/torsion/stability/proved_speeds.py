@@ -14,7 +14,8 @@ from cardan.maths.compiled.method import Compiled, Method
 from cardan.maths.compiled.method import chosen as chosen_method
 from cardan.maths.periodic.floquet import monodromy
 from cardan.maths.periodic.harmonics import HarmonicBalance, Status
-from cardan.maths.periodic.inside_circle import DEGREE, Proof, inside_circle
+from cardan.maths.periodic.inside_circle import DEGREE, MATRICES, Proof, inside_circle
+from cardan.maths.periodic.switching_orbit import Shooting
 from cardan.questions.torsion.model.torsional_layouts import Turning, leading, period_of
 from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
@@ -52,8 +53,12 @@ PHASE, FADED = 5.0, 12.0
 """Phase of the fastest oscillation that a polynomial in the speed is to hold, to begin with; what has died out by e to
 the second power within a period does not count."""
 
-WORK = 6e7
-"""Steps of all samples times the cube of their unknowns, in thousands, that are taken on: half a minute, about."""
+WORK, PLAIN, LEAST = 6e7, 20.0, 500.0
+"""Steps of all samples times the cube of their unknowns that are taken on: a minute, about; by what factor each takes
+longer without the kernel, and what each takes at least."""
+
+NO_SEARCH = Shooting(work=0)
+"""Where there is no smooth motion, none is searched for: no polynomial in the speed could hold it."""
 
 SLACK = 1e-4
 """Growth within a period that counts as none where nothing damps: in zone m that of one of the width 2 Ω/(πm) times it.
@@ -79,6 +84,7 @@ class ProvedSpeeds:
     zone: Zone  # (k,)
     unproved: Array  # (j, 2) [rad/s]: stretches of which nothing was shown
     open: Array  # (i, 2) [rad/s]: those among them without a smooth steady motion: open backlash, jumps
+    unsettled: Array  # (i, 2) [rad/s]: those among them that would take more work than is taken on
     looked: tuple[float, float]  # [rad/s]: from where to where
     samples: int  # monodromy matrices taken
     # whether nothing damps the drive, so that nothing decays: zones are then found down to a width, see `SLACK`
@@ -167,7 +173,8 @@ def proved_speeds(
     build: the drive at speeds, or one that is alike at all; its own input speed does not count.
     lowest, highest [rad/s]: where to look; both negative for a drive that turns backwards.
     breaks (k,) [rad/s]: speeds at which the drive jumps.
-    work: how much is taken on, see `WORK`; what takes more is not looked at and unproved as a whole.
+    work: how much is taken on, see `WORK`. What takes more from the beginning is not looked at and unproved as a whole;
+    where motions change so wildly with the speed that more is needed on the way, the rest is left unsettled.
     The monodromy matrix about the steady motion as a polynomial of the speed, and a norm in which it is below 1: see
     `cardan.maths.periodic.inside_circle`. Its coordinates are those of the energy of the straight drive, in which
     vibration turns without growing. Of a drive that no torque governs the drift of the mean speed is left out.
@@ -177,9 +184,10 @@ def proved_speeds(
     first = max(4, round(abs(1.0 / lowest - 1.0 / highest) * drive.period * drive.fastest / PHASE))
     sense = 1.0 if lowest > 0.0 else -1.0
     near, far = sorted((abs(lowest), abs(highest)))
-    if drive.work(first, near, far) > work:
+    most = int(work / drive.work(near, far))
+    if (DEGREE + 1) * first > most:
         whole, nothing = np.asarray([[near, far]]), np.zeros((0, 2))
-        proof = Proof(outside=nothing, unproved=whole, unsampled=nothing, samples=0)
+        proof = Proof(outside=nothing, unproved=whole, unsampled=nothing, unfinished=nothing, samples=0)
         return _described(drive, proof, (near, far), sense)
     proof = inside_circle(
         lambda speeds: drive.at(sense * speeds),
@@ -191,6 +199,7 @@ def proved_speeds(
         first=first,
         width=WIDTH,
         slack=SLACK if drive.neutral else 0.0,
+        most=min(most, MATRICES),
         progress=None if progress is None else (lambda share: progress(0.9 * share)),
     )
     return _described(drive, proof, (near, far), sense)
@@ -201,7 +210,7 @@ def _described(drive: _Drive, proof: Proof, looked: tuple[float, float], sense: 
     low, high = proof.outside.T
     inner = low[:, None] + (high - low)[:, None] * (np.arange(INNER) + 0.5) / INNER
     flat = sense * inner.reshape(-1)
-    found = floquet_map(drive.model(flat), speed=flat).floquet if len(flat) else None
+    found = floquet_map(drive.model(flat), speed=flat, opened=NO_SEARCH).floquet if len(flat) else None
     growth = (
         np.zeros(inner.shape) if found is None else np.nan_to_num(found.growth_rate, nan=-np.inf).reshape(inner.shape)
     )
@@ -218,6 +227,7 @@ def _described(drive: _Drive, proof: Proof, looked: tuple[float, float], sense: 
         zone=nearest_zone(np.repeat(drive.frequencies, len(worst), axis=0), worst, kinds),
         unproved=proof.unproved,
         open=proof.unsampled,
+        unsettled=proof.unfinished,
         looked=looked,
         samples=proof.samples,
         neutral=drive.neutral,
@@ -240,13 +250,16 @@ class _Drive:
     """Monodromy matrices of a drive by its speed, in coordinates of its energy, without its shift in time."""
 
     def __init__(self, build: Build | TorsionalModel, middle: float, method: Method | None) -> None:
-        self.build, self.method = build, method
+        self.build = build
         here = np.asarray([middle])
         model = self.model(here)
         one = some_of(replace(model, input_speed=None if model.free else here), (1,), np.zeros(1, dtype=int))
         self.free, self.period = model.free, period_of(model)
         self.harmonics = harmonics_for(model, self.period)
         self.heavy = heavy_of(one)
+        how = chosen_method(method, np, large=True)
+        shut = replace(one, backlash=np.zeros_like(one.backlash))
+        self.kernel = how if isinstance(how, Compiled) and fits(shut, here) else None
         self.frequencies = straight_frequencies(one)[:, 1 if self.free else 0 :]
         self.fastest, self.steepest = self._fastest(one, middle)
         self.neutral = not np.any(straight_damping(one, here))
@@ -289,11 +302,12 @@ class _Drive:
         lasting = decay * self.period / abs(middle) < FADED
         return float(np.max(omega[lasting], initial=0.0)), float(np.max(omega, initial=0.0))
 
-    def work(self, first: int, near: float, far: float) -> float:
-        """Return what so many polynomials between two speeds take, about; see `WORK`."""
+    def work(self, near: float, far: float) -> float:
+        """Return what a matrix between two speeds takes, about; see `WORK`."""
         samples = np.linspace(near, far, 9)
         steps = np.maximum(self.steepest * self.period / samples / 2.0, 16.0)
-        return float(np.mean(np.minimum(steps, 2048.0))) * (DEGREE + 1) * first * 0.125 * len(self.heavy) ** 3
+        each = LEAST + float(np.mean(np.minimum(steps, 2048.0))) * 0.125 * len(self.heavy) ** 3
+        return PLAIN * each if self.kernel is None else each
 
     def at(self, places: Array) -> tuple[Array, Array, Array]:
         """Return the matrices at speeds (n, p), whether there is a smooth motion to have one, and its torque.
@@ -304,12 +318,12 @@ class _Drive:
         model = self.model(speeds)
         whole = Turning(model, (len(speeds),), speeds, self.period).part(np.arange(len(speeds)))
         smooth = closed(whole)
-        how = chosen_method(self.method, np, large=True)
-        if isinstance(how, Compiled) and fits(smooth.model, speeds):
-            matrix, coefficient, force, there = self._compiled(smooth, places.shape[-1], how.threads)
+        if self.kernel is not None:
+            matrix, coefficient, force, there = self._compiled(smooth, places.shape[-1], self.kernel.threads)
         else:
-            orbit, status = steady_orbits(smooth.model, speed=speeds, method=HarmonicBalance(most=96))
-            there = (status == Status.CONVERGED) & np.asarray([k not in orbit.pieces for k in range(len(speeds))])
+            how = HarmonicBalance(most=96)
+            orbit, status = steady_orbits(smooth.model, speed=speeds, method=how, opened=NO_SEARCH)
+            there = status == Status.CONVERGED
             coefficient, force = orbit.coefficient[:, smooth.first :], orbit.force
             rows = np.flatnonzero(there)
             size = len(self.energy)

@@ -55,13 +55,13 @@ class Mapped:
 
 
 def fits(model: TorsionalModel, speed: Array) -> bool:
-    """Tell whether the kernel can take drives: turning forwards, without backlash, alike in what has no inertia."""
+    """Tell whether the kernel can take drives: all one way, without backlash, alike in what has no inertia."""
     heavy = _inertia(model) > 0.0
     alike = np.all(heavy == heavy.reshape(-1, heavy.shape[-1])[:1])
     return (
         bool(np.any(heavy))
         and bool(alike)
-        and bool(np.all(speed > 0.0))
+        and bool(np.all(speed > 0.0) or np.all(speed < 0.0))
         and not np.any(model.backlash > 0.0)
         and all(type(torque.law) in KINDS for torque in model.torques)
     )
@@ -87,14 +87,16 @@ def mapped(turning: Turning, harmonics: int, *, alike: int = 1, threads: int | N
     turning: drives for which `fits` holds; harmonics: H.
     alike: how many drives behind each other get as many steps, so that their matrices err alike; 1 or a multiple of 8.
     Where a coordinate has no inertia the points are those of Radau: its speed at the beginning of a step then has no
-    share in the end, so it is carried along as a state and left out of the matrices.
+    share in the end, so it is carried along as a state and left out of the matrices. What turns backwards is seen from
+    the other side, where it turns forwards.
     """
     count = len(turning.speed)
+    sense = 1.0 if turning.speed[0] > 0.0 else -1.0
     padded = -(-count // LANES) * LANES
     drives = _numbers(turning)
     n, states = 2 * harmonics + 1, 2 * turning.coordinates
     known = np.zeros((padded, turning.coordinates * n + 1))
-    known[:count, : turning.coordinates * n : n] = at_rest(turning)[:, :, 0].real
+    known[:count, : turning.coordinates * n : n] = sense * at_rest(turning)[:, :, 0].real
     drives, known = (
         np.concatenate([one, np.repeat(one[-1:], padded - count, axis=0)]) for one in (drives, known[:count])
     )
@@ -125,8 +127,8 @@ def mapped(turning: Turning, harmonics: int, *, alike: int = 1, threads: int | N
     kept = np.append(np.ones(len(heavy), dtype=bool), heavy)
     return Mapped(
         matrix=matrix.reshape(padded, states, states)[:count][:, kept][:, :, kept],
-        coefficient=coefficient,
-        force=flat.reshape(padded, -1)[:count, -1].copy(),
+        coefficient=coefficient if sense > 0.0 else -coefficient.conj(),
+        force=sense * flat.reshape(padded, -1)[:count, -1],
         moved=moved[:count],
     )
 
@@ -168,32 +170,33 @@ def _plan(model: TorsionalModel, n: int, width: int) -> Array:
 
 
 def _numbers(turning: Turning) -> Array:
-    """Return the numbers of each drive, array (B, width)."""
+    """Return the numbers of each drive, of one that turns backwards as seen from the other side: array (B, width)."""
     model = turning.part(np.arange(len(turning.speed))).model
-    count = len(turning.speed)
+    count, sense = len(turning.speed), np.sign(turning.speed)[:, None]
     tau = np.tan(0.5 * model.joint_angle) ** 2
     start = joint_law(model.phase, model.joint_angle)[0] - model.phase
-    joints = np.stack([model.phase, start, tau, np.cos(model.joint_angle), np.sin(model.joint_angle) ** 2], axis=-1)
-    rest = np.zeros_like(model.stiffness) if model.rest is None else model.rest
-    values = [np.broadcast_to(one, (count,)) for torque in model.torques for one in _values(torque.law)]
-    omega = turning.frequency
+    cosine, square = np.cos(model.joint_angle), np.sin(model.joint_angle) ** 2
+    joints = np.stack([sense * model.phase, sense * start, tau, cosine, square], axis=-1)
+    rest = np.zeros_like(model.stiffness) if model.rest is None else sense * model.rest
+    values = [np.broadcast_to(one, (count,)) for torque in model.torques for one in _values(torque.law, sense[:, 0])]
     columns = [
         *(model.inertia, model.ground_damping, model.stiffness, model.damping, rest, joints.reshape(count, -1)),
-        np.stack([*values, turning.speed, omega], axis=-1),
+        np.stack([*values, np.abs(turning.speed), np.abs(turning.frequency)], axis=-1),
     ]
     return np.ascontiguousarray(np.concatenate(columns, axis=-1))
 
 
-def _values(law: object) -> tuple[Array, Array, Array]:
+def _values(law: object, sense: Array) -> tuple[Array, Array, Array]:
+    """Return the numbers of a law, backwards (sense -1) as seen from the other side: -M(-angle, -speed)."""
     nothing = np.zeros(())
     if isinstance(law, Constant):
-        return law.value, nothing, nothing
+        return sense * law.value, nothing, nothing
     if isinstance(law, Falling):
-        return law.standstill, law.slope, nothing
+        return sense * law.standstill, law.slope, nothing
     if isinstance(law, Swinging):
-        return law.amplitude, law.phase, np.asarray(0.5 * law.frequency)
+        return law.amplitude, sense * law.phase, np.asarray(0.5 * law.frequency)
     assert isinstance(law, Asynchronous)
-    return law.synchronous_speed, law.pullout_torque, law.pullout_slip
+    return sense * law.synchronous_speed, sense * law.pullout_torque, law.pullout_slip
 
 
 def _waves(phase: Array, harmonics: int) -> Array:
@@ -239,7 +242,7 @@ def _steps(turning: Turning) -> Array:
     model = turning.part(np.arange(len(turning.speed))).model
     fastest = straight_frequencies(model)[:, -1]
     steepest = np.max(1.0 / np.cos(model.joint_angle), axis=-1, initial=1.0)
-    phase = fastest * steepest * turning.period / turning.speed
+    phase = fastest * steepest * turning.period / np.abs(turning.speed)
     near = np.sqrt(
         np.max(np.tan(0.5 * model.joint_angle) ** 2, axis=-1, initial=1e-9)
     )  # how near a joint comes to a pole
