@@ -17,6 +17,8 @@ from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import tops
 from cardan.questions.motion.moving_points import default_times
 from cardan.questions.motion.standing import still, worst_instants
+from cardan.questions.torsion.road.answer import lacking
+from cardan.questions.torsion.road.road import standing_torques
 from cardan.texts import _
 
 from .design import Design
@@ -97,8 +99,13 @@ def stopped(
 
 
 def _course(design: Design, judge: Callable[[Design], Sequence[Verdict]], *, slides: bool) -> Callable[[Array], Array]:
-    """Return how much of their limits verdicts use: from instants (t,) [s], all of the movement first, to (v, t)."""
+    """Return how much of their limits verdicts use: from instants (t,) [s], all of the movement first, to (v, t).
+
+    Beside them the torques of torsional vibration where it stands so, which the verdicts of all instants know but as
+    drawn.
+    """
     rows: list[tuple[str, str]] = []
+    vibrates = not slides and not lacking(design.drive)
 
     def used(times: Array) -> Array:
         here = along(design, times)
@@ -107,7 +114,8 @@ def _course(design: Design, judge: Callable[[Design], Sequence[Verdict]], *, sli
         none = np.full(times.shape, -np.inf)
         ends = [np.asarray(here.length(k), dtype=float) for k in range(1, design.joints)] if slides else []
         each = (found.get(row, none) for row in rows)
-        table: Array = np.stack(np.broadcast_arrays(none, *each, *ends, *(-one for one in ends)))[1:]
+        swung = standing_torques(design.drive, times) if vibrates else []
+        table: Array = np.stack(np.broadcast_arrays(none, *each, *ends, *(-one for one in ends), *swung))[1:]
         return table
 
     return used

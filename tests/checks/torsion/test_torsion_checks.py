@@ -21,6 +21,7 @@ from cardan.drive.station import Station
 from cardan.questions.motion.standing import still
 from cardan.questions.torsion.road.road import road_torsion
 from cardan.units import deg, mm, rpm
+from tests.builders.any_drive import any_drive
 
 STEEL = Material(yield_strength=355e6, ultimate_strength=600e6)
 NAMES = ("torsional_resonance", "parametric_stability", "torque_reversal")
@@ -177,6 +178,16 @@ def test_every_surface_tells(tmp_path, capsys):
     capsys.readouterr()
     main(["check", str(tmp_path / "car.toml")])
     assert "Torsional vibration was not looked at" in " ".join(capsys.readouterr().out.split())
+
+
+@pytest.mark.slow
+def test_the_worst_instant_is_that_of_the_vibration_there_and_not_as_drawn():
+    """A drive at random whose torque reverses at some instants of its movement, though hardly more bent than as drawn."""
+    drive = any_drive(229)
+    lowest = float(np.nanmin(road_torsion(drive).standing.low))
+    assert lowest < 0.0 < float(torsion_response(replace(drive, movements=())).torque_lowest[0])
+    worst = max(check(drive, only=["torque_reversal"]), key=lambda one: one.value)
+    assert worst.bound - worst.value == pytest.approx(lowest, rel=1e-3)
 
 
 def test_a_torque_that_a_movement_turns_about_is_judged_along_it():

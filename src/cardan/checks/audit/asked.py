@@ -10,6 +10,7 @@ from typing import TypeVar
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.load_case import Case
+from cardan.checks.moving import stopped, worst_of_poses
 from cardan.checks.verdict import Verdict
 from cardan.drive.drive import Drive
 from cardan.drive.models.dynamics_model import Train, train
@@ -29,6 +30,8 @@ from cardan.questions.motion.motion import Motion, motion
 from cardan.questions.motion.turning import Evenness, each_shaft
 from cardan.questions.phases.phases import Phasing, phases
 from cardan.questions.torsion.model.answer import lacking
+from cardan.questions.torsion.road.answer import lacking as road_lacking
+from cardan.questions.torsion.road.road import RoadTorsion, road_torsion
 from cardan.questions.torsion.steady.torsion_response import TorsionResponse, torsion_response
 
 T = TypeVar("T")
@@ -61,9 +64,13 @@ class Asked:
         """The drive as drawn: without poses and movements."""
         return self.here.drive
 
-    def verdicts(self, check: Check) -> Sequence[Verdict]:
-        """Return those of the verdicts of a check on the drive as drawn that were reached."""
-        return [one for one in check.verdicts(self.here) if one.run]
+    def verdicts(self, check: Check, *, moving: bool = False) -> Sequence[Verdict]:
+        """Return those of the verdicts of a check on the drive as drawn, or where it moves, that were reached."""
+        found = tuple(check.verdicts(self.here))
+        if moving:
+            moves = replace(self.design, drive=replace(self.design.drive, poses=()))
+            found = worst_of_poses(found, stopped(moves, lambda one: tuple(check.verdicts(one))))
+        return [one for one in found if one.run]
 
     @property
     def case(self) -> Case | None:
@@ -117,6 +124,12 @@ class Asked:
         if lacking(self.drive) or not self.drive.duty.speed:
             return None
         return _told(lambda: torsion_response(self.drive))
+
+    @cached_property
+    def road(self) -> RoadTorsion | None:
+        """How it vibrates in torsion at every instant of its movement; None where it does not move."""
+        moving = replace(self.design.drive, poses=())
+        return None if road_lacking(moving) else _told(lambda: road_torsion(moving, progress=lambda _share: "stop"))
 
     @cached_property
     def bending(self) -> CriticalSpeeds | None:

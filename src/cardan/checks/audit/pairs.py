@@ -21,6 +21,7 @@ from cardan.checks.strength import bearing_life
 from cardan.checks.strength.section import sections
 from cardan.checks.strength.shaft_life import STRENGTHS, fatigue, fatigue_life, lasting
 from cardan.checks.torsion.parametric_stability import CHECK as PARAMETRIC
+from cardan.checks.torsion.torque_reversal import CHECK as REVERSAL
 from cardan.drive.models.kinematics_model import mixed, unmapped
 from cardan.drive.models.wobble import wobbling
 from cardan.maths.arrays import Array
@@ -46,6 +47,9 @@ Sense: TypeAlias = Literal["same", "at_most"]
 
 FOLLOWS = 1e-9
 """Both ways are exact: rounding, amplified by joints that bend steeply."""
+
+DRAWN = 1e-2
+"""One way takes stiffness and masses as drawn: a thousandth of them, amplified by resonance."""
 
 SAMPLED = 1e-4
 """One way looks at places of a turn, and meets a kink of friction or the top of a curve between them so closely."""
@@ -378,6 +382,34 @@ def _damped(asked: Asked) -> Values:
     return {"": float(not all(one.met for one in found))} if found else {}
 
 
+def _dip_along(asked: Asked) -> Values:
+    """Return by how much torques that reverse along the movement fall below that of the duty."""
+    found, torque = asked.road, abs(asked.drive.duty.torque or 0.0)
+    if found is None or not torque or found.standing.times is None or np.any(found.train.model.backlash > 0.0):
+        return {}  # a distribution has no instants, and open backlash is told at some of them
+    told: dict[str, float] = {}
+    places, model = found.standing, found.train.model
+    length = np.linalg.norm(np.diff(places.points, axis=-2), axis=-1)[:, 1:-1]
+    if not places.found.any() or np.any(np.abs(length / found.drawn - 1.0) > FOUND):
+        return {}  # its masses and stiffness count as drawn
+    for e in found.line:
+        path = f"shafts[{model.shaft[model.elements[e][0]]}]"
+        back = np.where(places.mean[:, e] < 0.0, places.high[:, e], -places.low[:, e])
+        if np.nanmax(back) > FOUND * np.nanmax(places.largest[:, e]):
+            told[path] = max(told.get(path, 0.0), torque + float(np.nanmax(back)))
+    return told
+
+
+def _dip_judged(asked: Asked) -> Values:
+    """Return the same as judged, 0 of a shaft whose torque does not reverse."""
+    if asked.case is None:
+        return {}
+    torque, told = abs(asked.drive.duty.torque or 0.0), {f"shafts[{k}]": 0.0 for k in range(len(asked.drive.shafts))}
+    for one in asked.verdicts(REVERSAL, moving=True):
+        told[one.subject] = torque + float(np.max(one.value)) - one.bound
+    return told
+
+
 # Bending.
 
 
@@ -675,6 +707,17 @@ PAIRS: tuple[Pair, ...] = (
         read=(_grows, _damped),
         tolerance=0.5,
         why=COUNTED,
+        sense="at_most",
+        quick=False,
+    ),
+    Pair(
+        quantity=mark("dip of a torque that reverses along the movement"),
+        first="road",
+        second="torque_reversal",
+        read=(_dip_along, _dip_judged),
+        tolerance=DRAWN,
+        why=mark("stiffness and masses of one are as drawn, and resonance amplifies that"),
+        dimension="torque",
         sense="at_most",
         quick=False,
     ),

@@ -263,16 +263,8 @@ def road_torsion(drive: Drive, *, progress: Progress | None = None) -> RoadTorsi
     """
     if not drive.movements:
         raise refuse("movements", _("missing; torsion along a movement needs one"), "missing")
-    drive = with_yokes(drive, at_joint=True)
-    still = replace(drive, movements=())
-    speed = np.asarray(drive.duty.speed or 0.0)
-    train, whole = loaded_model(still, drive.duty, speed)
-    model, loose = parted(replace(whole, backlash=np.zeros_like(whole.backlash)))
-    slow = None
-    if np.any(train.model.loss_factor):
-        disturbed = loaded_model(still, drive.duty, speed, disturbed=True)[1]
-        slow = parted(replace(disturbed, backlash=np.zeros_like(disturbed.backlash)))[0]
-    standing, modes = Standing(drive, model, slow, loose, float(speed)), torsion_modes(still)
+    train, whole, standing = _stood(drive)
+    speed, modes = standing.speed, torsion_modes(replace(standing.drive, movements=()))
     random = [one for one in drive.movements if isinstance(one, Random)]
     if len(random) == len(drive.movements):
         places, risk = _at_random(standing, random)
@@ -285,15 +277,15 @@ def road_torsion(drive: Drive, *, progress: Progress | None = None) -> RoadTorsi
         places = replace(places, times=times, share=_shares(times))
         span, periodic = float(times[-1] - times[0]), all(isinstance(one, Oscillation) for one in drive.movements)
     orders = (2.0, 4.0) if np.nanmax(places.joint_angle) > STEEP else (2.0,)
-    lag = _lag(modes, float(speed), max(map(_rate, drive.movements)), orders)
+    lag = _lag(modes, speed, max(map(_rate, drive.movements)), orders)
     found = RoadTorsion(
         train=train,
-        speed=float(speed),
+        speed=speed,
         drawn=np.linalg.norm(np.diff(standing.base, axis=0), axis=-1)[1:-1],
         standing=places,
         lag=lag,
         order=standing.order,
-        meets=tuple(_meets(modes, float(speed))),
+        meets=tuple(_meets(modes, speed)),
         span=span,
         peak=(math.nan, 0, math.nan),
         chance=risk,
@@ -311,6 +303,30 @@ def road_torsion(drive: Drive, *, progress: Progress | None = None) -> RoadTorsi
             found = replace(found, moving=moving, chance=None, span=float(times[-1] - times[0]))
     found = replace(found, peak=_peak(found, standing))
     return found if found.moving is not None else _with_play(found, standing, parted(whole)[0])
+
+
+def _stood(drive: Drive) -> tuple[TorsionalTrain, TorsionalModel, Standing]:
+    """Return the torsional model of a drive as drawn, with its play, and what tells its torques elsewhere, closed."""
+    drive = with_yokes(drive, at_joint=True)
+    still = replace(drive, movements=())
+    speed = np.asarray(drive.duty.speed or 0.0)
+    train, whole = loaded_model(still, drive.duty, speed)
+    model, loose = parted(replace(whole, backlash=np.zeros_like(whole.backlash)))
+    slow = None
+    if np.any(train.model.loss_factor):
+        disturbed = loaded_model(still, drive.duty, speed, disturbed=True)[1]
+        slow = parted(replace(disturbed, backlash=np.zeros_like(disturbed.backlash)))[0]
+    return train, whole, Standing(drive, model, slow, loose, float(speed))
+
+
+def standing_torques(drive: Drive, times: Array) -> Array:
+    """Return the largest and the negative least torques of the elements at instants (t,) of a movement, (2E, t) [N·m].
+
+    Backlash counts as closed; nan where no motion is found. Raises InputError: what the torsional model misses.
+    """
+    _train, _whole, standing = _stood(drive)
+    found = standing.at(moving_points(standing.base, drive.movements, times)[0])
+    return np.concatenate([found.high, -found.low], axis=-1).T
 
 
 def _with_play(found: RoadTorsion, standing: Standing, loose: TorsionalModel) -> RoadTorsion:
