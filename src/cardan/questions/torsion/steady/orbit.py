@@ -93,6 +93,9 @@ TRIALS = 6
 WIDE = 0.8
 """Largest phase in a step of drives without play: what swings fast in them is hardly excited."""
 
+NEXT = Shooting(work=20_000)
+"""How the motion next to one that repeats in time is found: that takes some hundreds of this work."""
+
 SLACKS = (1.0, 0.5, 0.2, 0.05, 0.0)
 """Shares of its damping that an element keeps amid its play, on the way to none."""
 
@@ -189,8 +192,7 @@ def pieces_of(
     Without a start, or where that leads nowhere, the joint angles grow from 0: the straight drive rests under its mean
     torques, and each motion begins the search for the next.
     """
-    loose = bool(np.any(turning.model.backlash > 0.0))
-    search = _Search(turning, method or (Shooting() if loose else Shooting(reach=WIDE)))
+    search = _Search(turning, method or usual(turning))
     if start is not None and np.isfinite(start).all():
         curve = search.near(_Sum(start, force))
         if curve is not None:
@@ -212,9 +214,14 @@ def pieces_of(
     return None
 
 
+def usual(turning: Turning) -> Shooting:
+    """Return how the motion of one drive is searched by shooting where nobody says."""
+    return Shooting() if bool(np.any(turning.model.backlash > 0.0)) else Shooting(reach=WIDE)
+
+
 def pieces_near(turning: Turning, start: Array) -> Pieces | None:
     """Return the steady running of one drive next to a Fourier sum (R, H+1) by shooting, or None."""
-    return _Search(turning, Shooting()).near(_Sum(start, 0.0))
+    return _Search(turning, NEXT).near(_Sum(start, 0.0))
 
 
 class _Search:

@@ -18,7 +18,7 @@ from cardan.questions.torsion.model.torsional_layouts import Turning, leading, p
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.texts import _
 
-from .orbit import Orbit, at_rest, pieces_of
+from .orbit import Orbit, at_rest, pieces_of, usual
 from .steady_result import Orders, SteadyResponse, read_off
 
 ORDERS = 10.0
@@ -41,6 +41,10 @@ WAY = ((0.33, 1.0), (0.66, 1.0), (1.0, 1.0), (1.0, 0.55), (1.0, 0.3), (1.0, 0.17
 
 CHUNK = 256
 """Drives solved at once: their matrices stay in the caches, and progress is told after each chunk."""
+
+FRUITLESS = 5_000
+"""What each search by shooting may take at least after others found nothing, each of which halves what the next may;
+those that find something take some hundreds."""
 
 LOWER = 25
 """Harmonics kept of motions in pieces, beside the pieces themselves."""
@@ -153,7 +157,7 @@ def _solved(
     count = len(turning.speed)
     parts: list[Waves] = []
     pieces: dict[int, Pieces] = {}
-    stopped = False
+    stopped, fruitless = False, 0
     for first in range(0, count, CHUNK):
         rows = np.arange(first, min(first + CHUNK, count))
         if stopped:
@@ -170,11 +174,14 @@ def _solved(
                 waves.status[k] = Status.CANCELLED
                 continue
             alone = part.part(np.asarray([k]))
+            how = method if isinstance(method, Shooting) else opened or usual(alone)
+            how = replace(how, work=min(how.work, max(how.work >> fruitless, FRUITLESS)))
             if isinstance(method, Shooting):
-                found = pieces_of(alone, method=method)
+                found = pieces_of(alone, method=how)
             else:
-                found = pieces_of(alone, near.coefficient[k], float(near.force[k]), method=opened)
+                found = pieces_of(alone, near.coefficient[k], float(near.force[k]), method=how)
             if found is None:
+                fruitless += 1
                 lost.append(k)
             else:
                 own[k] = found
