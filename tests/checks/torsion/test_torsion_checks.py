@@ -182,7 +182,7 @@ def test_every_surface_tells(tmp_path, capsys):
 
 @pytest.mark.slow
 def test_the_worst_instant_is_that_of_the_vibration_there_and_not_as_drawn():
-    """A drive at random whose torque reverses at some instants of its movement, though hardly more bent than as drawn."""
+    """A drive at random whose torque reverses at some instants of its movement, hardly more bent than as drawn."""
     drive = any_drive(229)
     lowest = float(np.nanmin(road_torsion(drive).standing.low))
     assert lowest < 0.0 < float(torsion_response(replace(drive, movements=())).torque_lowest[0])
