@@ -38,8 +38,20 @@ SEVERAL = "with open backlash stable motions are found where none was; told is t
 
 GUIDES = "limits and factors of practice stand beside the other tables"
 
+DIGITS = "joint angles at a speed have the digits of Spicer's table, in twelfths of a degree, and no longer tenths"
+
+GREASES = "intervals of lubrication of industrial shafts and of power take-offs stand beside those of the book"
+
 NUMBERS: tuple[tuple[str, str, str], ...] = (
     (r"catalogue$", r"tables\.rows", GUIDES),
+    (r"catalogue (max_bends|max_joint_angles)", r"rows\.max_(bend|joint_angle)_deg", DIGITS),
+    (
+        r"check examples/(composite-propshaft|six-joints|truck-(duty-cycle|rear-axle|supports)|two-piece-rear-drive"
+        r"|w-arrangement)\.toml",
+        r"verdicts\.(limit|utilisation)",
+        DIGITS,
+    ),
+    (r"catalogue lubrication", r"rows\.(hours_h|years|distance_km)", GREASES),
     (r"torsion response examples/pto-flywheel\.toml --speeds", r".*", SEVERAL),
     (
         r"select examples/(pto-hitch|rolling-mill-(lower|upper)-spindle|truck-rear-axle)\.toml --torque-Nm",

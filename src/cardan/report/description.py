@@ -10,6 +10,7 @@ from cardan.answers import answer
 from cardan.answers.answer import Cell, Column
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.reader import half_turn
+from cardan.catalogue.given import inputs, sources
 from cardan.drive.body import body_length
 from cardan.drive.conditions import held_speeds, used_speeds
 from cardan.drive.joints.joint import Inside
@@ -21,7 +22,6 @@ from cardan.texts import _, plural
 from cardan.units import deg
 
 from .block import Block, Page, Picture, Points, Table, Words, table
-from .inputs import inputs, sources
 from .subject import Subject
 
 

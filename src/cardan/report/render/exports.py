@@ -6,17 +6,15 @@ import csv
 import io
 import json
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import zip_longest
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import numpy as np
-
 from cardan.errors import refuse
 from cardan.figures import SUFFIXES, Figure, drawn
-from cardan.figures.figure import Bars, Curve, Mesh, Panel, Shape, called
+from cardan.figures.columns import drawn_from, named, section
+from cardan.figures.figure import Mesh
 from cardan.files import write_bytes
 from cardan.io.formats.json import plain
 from cardan.report.block import Block, Cell, Page, Picture, Table
@@ -232,7 +230,7 @@ def csv_of(tables: Sequence[Table]) -> str:
     return _plain_csv(
         [
             table.title,
-            [_named(column.heading, column.unit) for column in table.columns],
+            [named(column.heading, column.unit) for column in table.columns],
             [[_value(cell) for cell in row] for row in table.rows],
         ]
         for table in tables
@@ -245,46 +243,7 @@ def _value(cell: Cell) -> float | str:
 
 def figure_csv(figure: Figure) -> str:
     """Return the curves and bars of a figure as one CSV: the columns of each panel under its heading."""
-    return _plain_csv(_section(figure, panel) for panel in figure.panels if drawn_from(panel))
-
-
-def drawn_from(panel: Panel) -> bool:
-    """Tell whether a panel has curves, bars or areas that a table can hold."""
-    return any(isinstance(one, Curve | Bars | Shape) for one in panel.series)
-
-
-def _section(figure: Figure, panel: Panel) -> list[Any]:
-    columns: dict[tuple[str, bytes], list[Any]] = {}
-    panel = called(figure, panel)
-    for name, values in (column for one in panel.series for column in _columns(panel, one)):
-        columns.setdefault((name, str(values).encode()), values)
-    names = [name for name, _values in columns]
-    return [panel.heading or figure.title, names, list(zip_longest(*columns.values(), fillvalue=""))]
-
-
-def _columns(panel: Panel, one: object) -> Iterator[tuple[str, list[Any]]]:
-    if isinstance(one, Curve | Shape):
-        yield _named(panel.x.label or "x", panel.x.unit), _numbers(one.x)
-        name = one.label or (one.text if isinstance(one, Curve) else "") or panel.y.label or "y"
-        yield _named(name, panel.y.unit), _numbers(one.y)
-        if isinstance(one, Curve) and one.z is not None:
-            yield "z", _numbers(one.z)
-    elif isinstance(one, Bars):
-        upon, along = (panel.y, panel.x) if one.lying else (panel.x, panel.y)
-        ticks = np.asarray(upon.ticks, dtype=float)
-        if len(upon.texts):
-            yield upon.label or _("what"), [upon.texts[int(np.argmin(np.abs(ticks - float(at))))] for at in one.at]
-        else:
-            yield _named(upon.label or "x", upon.unit), _numbers(one.at)
-        yield _named(one.label or along.label or panel.heading, along.unit), _numbers(one.size)
-
-
-def _named(name: str, unit: str) -> str:
-    return f"{name} [{unit}]" if unit else name
-
-
-def _numbers(values: Any) -> list[Any]:
-    return [value if np.isfinite(value) else "" for value in np.asarray(values, dtype=float).tolist()]
+    return _plain_csv(section(figure, panel) for panel in figure.panels if drawn_from(panel))
 
 
 def _plain_csv(sections: Any) -> str:

@@ -7,8 +7,8 @@ import pytest
 from cardan import example
 from cardan.answers.printed import printed
 from cardan.answers.reader import USUAL, Reader
+from cardan.catalogue.given import inputs, sources
 from cardan.io.examples import example_names, example_text
-from cardan.report.inputs import inputs, sources
 
 TITLES = {"supports": "Supports", "stations": "Masses that turn with the shafts", "limits": "Limits set in the file"}
 

@@ -9,15 +9,17 @@ from typing import Any
 from cardan.answers import answer
 from cardan.answers.answer import Column, Value
 from cardan.answers.quantity import Joined, Quantity, Text, say
-from cardan.catalogue import Catalogue, catalogue, filled, shortened
-from cardan.catalogue.answer import SURE
-from cardan.catalogue.provenance import rows_behind
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import in_words
 from cardan.drive.joint_parts import Rating
 from cardan.drive.joints.hooke import Hooke
 from cardan.reading.fields import fields_of
 from cardan.texts import _
+
+from .answer import SURE
+from .catalogue import Catalogue, catalogue
+from .completion import filled, shortened
+from .provenance import rows_behind
 
 SHOWN = {
     "shafts": ("number", "name", "length", "side_slope", "plan_slope", "yoke_angle", "yoke_fixed", "weight"),
