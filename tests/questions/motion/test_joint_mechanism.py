@@ -33,8 +33,9 @@ from cardan.mechanism.kinetostatics import influence
 from cardan.questions.forces.kinetostatics import kind_arms
 from cardan.questions.losses.chain_friction import chain_friction
 from cardan.questions.losses.loss_model import torque_flow
-from cardan.questions.motion.joint_mechanism import joint_carried
+from cardan.questions.motion.joint_mechanism import joint_carried, rubbed_share, stance_of
 from cardan.questions.motion.motion import motion
+from cardan.units import deg
 
 BEND = 0.35
 
@@ -191,3 +192,42 @@ def test_the_exact_device_of_a_double_cardan_holds_its_middle_piece():
     crosses = chain_friction(Drive.from_angles([0.5 * BEND] * 2), [1e-4 * 14.0 / 60.0] * 2)
     rubs = joint_carried(joint, BEND, ANGLE, friction=1e-4)
     assert np.mean(rubs.loss) > 1.0 - float(crosses.efficiency)  # the force of the ball goes through the pins, too
+
+
+RZEPPA = {
+    "driving_offset": 0.005,
+    "driven_offset": 0.005,
+    "groove_radius": 0.032,
+    "pressure_angle": 42 * deg,
+    "friction": 0.05,
+}
+
+
+@pytest.mark.parametrize("joint_angle", [6 * deg, 30 * deg])
+def test_the_cage_of_a_rzeppa_joint_rubs(joint_angle):
+    """In bell and inner race with its force at their radii, 2 sin(α/4) fast; in its windows as the balls go."""
+    turn = np.arange(72) * 5 * deg
+    windows, caged = Rzeppa(**RZEPPA), Rzeppa(**RZEPPA, cage_outer_diameter=0.062, cage_inner_diameter=0.052)
+    carried = joint_carried(caged, joint_angle, turn, loads=True)
+    force = np.linalg.norm(carried.found.reaction[..., 3:], axis=-1)
+    names = [pair.name for pair in carried.pairs]
+    rubbed = force[:, names.index("cage in the bell")] * 0.031 + force[:, names.index("cage on the inner race")] * 0.026
+    rubbed = 0.05 * rubbed * 2.0 * np.sin(0.25 * joint_angle)
+
+    def power(joint):
+        return 1.0 / (1.0 - rubbed_share(joint, joint_angle, turn)[0]) - 1.0  # over that of the driven shaft
+
+    assert power(caged) - power(windows) == pytest.approx(rubbed, rel=1e-9)
+    step = 1e-5
+
+    def balls(angle):
+        return np.stack(
+            [one.point for one in windows.loaded(stance_of(windows, joint_angle, angle)) if "window" in one.name]
+        )
+
+    middle = stance_of(windows, joint_angle, turn).middle
+    fast = (balls(turn + step) - balls(turn - step)) / (2.0 * step) - np.cross(middle, balls(turn))
+    pressed = force[:, [k for k, name in enumerate(names) if "window" in name]].T
+    slid = 0.05 * np.sum(pressed * np.linalg.norm(fast, axis=-1), axis=0)
+    grooves = joint_carried(windows, joint_angle, turn, friction=0.05)
+    assert power(windows) == pytest.approx(np.sum(grooves.found.loss, axis=-1) + slid, rel=1e-6)

@@ -33,6 +33,7 @@ from .weiss import (
 
 LEVER = ("lever_b", "lever_c")
 GROOVES = ("driving_offset", "driven_offset", "groove_radius")
+SMALL = 1e-4  # [rad]: step of a turn over which speeds of balls are taken, right to some 1e-9 of them
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -65,6 +66,12 @@ class Rzeppa(Joint):
     groove_conformity: float | None = plain(
         None, doc="radius of the section of a groove over the diameter of the balls", above=0.5
     )
+    cage_outer_diameter: float | None = quantity(
+        "length", None, doc="diameter of the sphere in which the bell centres the cage", above=0.0
+    )
+    cage_inner_diameter: float | None = quantity(
+        "length", None, doc="diameter of the sphere on which the cage sits on the inner race", above=0.0
+    )
     pressure_angle: float | None = quantity(
         "angle",
         None,
@@ -77,6 +84,7 @@ class Rzeppa(Joint):
         """Yield a lever or grooves that are half given, and both at once."""
         yield from both_or_none(self, *LEVER)
         yield from both_or_none(self, *GROOVES)
+        yield from both_or_none(self, "cage_outer_diameter", "cage_inner_diameter")
         if self.lever_b is not None and self.groove_radius is not None:
             yield Problem("lever_b", _("the offset grooves place the balls already"), "inconsistent")
 
@@ -147,6 +155,8 @@ class Rzeppa(Joint):
 # What its balls carry. A ball touches the groove of the bell, that of the inner race and the window of the cage. Both
 # grooves press on it at the pressure angle from the middle of the groove; what the two forces leave, as the grooves
 # lean against each other, pushes it along the axis of the cage. Bell and inner race hold the cage by its spheres.
+# The normals depend on each other, as offset grooves are alike, so these contacts do not tell how fast it slides: the
+# balls go as their grooves lead them, and the cage turns evenly about the normal of their plane.
 
 
 def _contacts(joint: Rzeppa, stance: Stance) -> Iterator[InnerPair]:
@@ -179,14 +189,36 @@ def _contacts(joint: Rzeppa, stance: Stance) -> Iterator[InnerPair]:
             aside = at - stance.centre
             beyond = frames.unit(aside - frames.dot(aside, axis)[..., None] * axis)
             rows.append(steep * frames.cross(axis, beyond) - flat * (at - centre) / radius)
-        for name, links, normal, contact in (
-            (names[0], (DRIVING, ball), rows[0], touching[0]),
-            (names[1], (ball, DRIVEN), rows[1], touching[1]),
-            (window, (cage, ball), stance.middle + 0.0 * way, None),
+        shift = _shift(joint, stance, turn, way)
+        slip = frames.norm(shift - frames.cross(stance.middle + 0.0 * at, at - stance.centre))
+        for name, links, normal, contact, fast in (
+            (names[0], (DRIVING, ball), rows[0], touching[0], 0.0),
+            (names[1], (ball, DRIVEN), rows[1], touching[1], 0.0),
+            (window, (cage, ball), stance.middle + 0.0 * way, None, slip),
         ):
-            yield InnerPair(name=name, type="PT", links=links, point=at, axis=normal, count=k + 1, contact=contact)
-    for name, links in ((mark("cage in the bell"), (DRIVING, cage)), (mark("cage on the inner race"), (cage, DRIVEN))):
-        yield InnerPair(name=name, type="S", links=links, point=stance.centre, axis=stance.middle)
+            yield InnerPair(
+                name=name, type="PT", links=links, point=at, axis=normal, count=k + 1, contact=contact, slip=fast
+            )
+    swung = 2.0 * np.sin(0.25 * stance.joint_angle)  # of the cage against either shaft, which stands α/2 aside
+    for name, links, sphere in (
+        (mark("cage in the bell"), (DRIVING, cage), joint.cage_outer_diameter),
+        (mark("cage on the inner race"), (cage, DRIVEN), joint.cage_inner_diameter),
+    ):
+        fast = 0.5 * (sphere or 0.0) * swung
+        yield InnerPair(name=name, type="S", links=links, point=stance.centre, axis=stance.middle, slip=fast)
+
+
+def _shift(joint: Rzeppa, stance: Stance, turn: float, way: Array) -> Array:
+    """Return how fast the centre of a ball moves over the speed of the driving shaft, array (..., 3) [m]."""
+    offset, radius = joint.driving_offset or 0.0, joint.groove_radius or 0.0
+    near = [
+        ball_centre(stance.theta + turn + side * SMALL, stance.joint_angle, offset, offset, radius)
+        for side in (1.0, 0.0, -1.0)
+    ]
+    along, out = ((near[0][k] - near[2][k]) / (2.0 * SMALL) for k in (0, 1))
+    about = frames.cross(stance.before + 0.0 * way, way)
+    found: Array = -along[..., None] * stance.before + out[..., None] * way + near[1][1][..., None] * about
+    return found
 
 
 # The lever that holds the cage of a Rzeppa joint in the bisecting plane, exactly at one angle and nearly beside it.

@@ -248,8 +248,30 @@ def over(values: Array, angle: Array) -> Array:
 @lru_cache(maxsize=512)
 def _shares(joint: Joint, joint_angle: float, places: int) -> Array:
     """Return both shares of `rubbed_share` at even places of a turn, array (2, 1, places)."""
-    found = [one.loss for one in _turned(joint, joint_angle, places)]
+    turned = _turned(joint, joint_angle, places)
+    more = (
+        (joint.friction or 0.0) * _slipping(joint, joint_angle, turned[0].placed.point.shape[0], places)
+        if turned
+        else 0
+    )
+    found = []
+    for one, sense in zip(turned, (1.0, -1.0), strict=False):
+        power = np.abs(one.input_torque * one.found.speed[:, 0, 0])
+        found.append((one.loss * power + more) / (power + sense * more))
     return _all_round(joint, np.reshape(np.stack(found), (2, 1, -1)) if found else np.zeros((2, 1, places)), places)
+
+
+def _slipping(joint: Joint, joint_angle: float, count: int, places: int) -> Array:
+    """Return the sum of forces times speeds of sliding that a joint tells beside its mechanism, array (count,).
+
+    For 1 N·m on its driven shaft and 1 rad/s of its driving one, without friction, at places of a turn from 0.
+    """
+    angle = np.arange(count) * (2.0 * np.pi / places)
+    if not any(np.any(pair.slip) for pair in joint.loaded(stance_of(joint, joint_angle, angle[:1]))):
+        return np.zeros(count)
+    found = joint_carried(joint, joint_angle, angle, loads=True)
+    force = frames.norm(found.found.reaction[..., 3:])
+    return np.asarray(sum(force[:, k] * pair.slip for k, pair in enumerate(found.pairs)))
 
 
 @lru_cache(maxsize=512)

@@ -89,6 +89,8 @@ class InnerPair:
     spread: float = math.inf  # [m]: between its two bearings, where it has two
     contact: Contact | None = None  # what touches in it, where its sizes are given
     area: float = 0.0  # [m²]: of one of its bearings, seen along the load; 0 where it is not given
+    # [m]: how fast it slides over the speed of the driving shaft, told by its kind where its links leave that open
+    slip: float | Array = 0.0
     rolls: float = 0.0  # [m]: radius at which what slides in it rolls on its bearing
     told: bool = True  # whether what it carries is told, of pairs by which a joint is `Joint.loaded`
 
