@@ -82,6 +82,12 @@ CUT = """() => [...document.querySelectorAll('.pane.file input:not([type=file], 
   .map((one) => `${one.ariaLabel}: ${one.value}`)"""
 """Fields that do not show all of their number."""
 
+BESIDE = """() => [...document.querySelectorAll('.lights summary .value span')]
+  .filter((one) => one.checkVisibility())
+  .filter((one) => one.getBoundingClientRect().right > one.closest('.lights').getBoundingClientRect().right + 1)
+  .map((one) => one.textContent)"""
+"""Limits of verdicts that reach beyond their pane."""
+
 WIDER = "() => document.documentElement.scrollWidth - innerWidth"
 """By how much the page is wider than the window."""
 
@@ -126,7 +132,7 @@ def judge(page: Any, where: str, **how: Any) -> None:
     assert not told, f"{where}:\n" + "\n".join(told)
 
 
-LOOKS = {"letters": LETTERS, "targets": TARGETS, "cut": CUT, "charts": CHARTS}
+LOOKS = {"letters": LETTERS, "targets": TARGETS, "cut": CUT, "beside": BESIDE, "charts": CHARTS}
 
 
 @pytest.mark.slow

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from cardan import figures
+from cardan.answers.reader import Reader, reading
 from cardan.batch.answering.asking import Formula
 from cardan.batch.figures.sweep import curve_figure, heat_figure, histogram_figure, parallel_figure, pareto_figure
 from cardan.batch.points.distributions import Uniform
@@ -83,6 +84,8 @@ def test_a_curve_has_the_values_in_the_order_of_its_field():
     assert "Least is 1.00 at −100 mm, greatest 3.00 at 90.0 mm." in figure.sentence
     assert drawn(curve_figure(HEIGHT, SPEED_FLUCTUATION, x, y * 0.0)).sentence == "It is 0 at every point."
     assert drawn(curve_figure(HEIGHT, SPEED_FLUCTUATION, x, y * np.nan)).sentence == "No point has an answer."
+    with reading(Reader(decimal=",")):
+        assert "Least is 1,00 at" in curve_figure(HEIGHT, SPEED_FLUCTUATION, x, y).sentence
     words = drawn(curve_figure(SUPPLIER, SPEED_FLUCTUATION, np.asarray(["Alpha", "Beta", "Alpha"]), y))
     assert words.panels[0].x.texts == ("Alpha", "Beta")
 

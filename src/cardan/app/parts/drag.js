@@ -13,7 +13,7 @@ export default {
           <polyline :points="line(view)" fill="none" class="axis" vector-effect="non-scaling-stroke" />
           <g v-for="point in points" :key="point.path">
             <circle :cx="point.at[0]" :cy="-point.at[view.up]" :r="grip(view)" :tabindex="point.fixed ? -1 : 0" :role="point.fixed ? 'img' : 'slider'" :class="{ fixed: point.fixed }"
-              :aria-label="point.name" :aria-valuetext="told(point)" :data-path="point.path"
+              :aria-label="point.name" :aria-valuetext="point.fixed ? null : told(point)" :data-path="point.path"
               @pointerdown.prevent="grab($event, point, view)" @pointermove="drag($event, view)"
               @pointerup="drop" @pointercancel="drop" @keydown="key($event, point, view)"
               ><title>{{ point.name }} {{ told(point) }}</title></circle>

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.answers.reader import significant
+from cardan.answers.reader import reader, significant
 from cardan.batch.search.goals import Goal
 from cardan.batch.work import Column, Rows
 from cardan.figures.axes import axis, written
@@ -252,7 +252,7 @@ def amount(column: Column, value: Any, digits: int = 3) -> str:
         return value or "–"
     unit = unit_of(column)
     told = float(value) if unit else tidied(float(value))
-    return f"{significant(told, digits)}{'' if unit in ('', '°', '′') else ' '}{unit}"
+    return f"{reader().number(told, digits)}{'' if unit in ('', '°', '′') else ' '}{unit}"
 
 
 def levels(values: Array) -> tuple[Array, tuple[str, ...]]:
@@ -309,7 +309,7 @@ def curve_figure(across: Column, value: Column, x: Array, y: Array) -> Figure:
     order = np.argsort(numbers, kind="stable")
     dots = 4.0 if len(x) <= DOTS or words else 0.0
     curve = Curve(x=numbers[order], y=y[order], role="accent", marker=dots)
-    panel = Panel(series=(curve,), x=axis_of(across, x, margin=0.0, count=8), y=axis_of(value, y))
+    panel = Panel(series=(curve,), x=axis_of(across, x, margin=0.02, count=8), y=axis_of(value, y))
     return Figure(
         name="sweep-curve",
         title=_("{value} over {across}").format(value=_capital(name_of(value)), across=name_of(across)),
@@ -454,7 +454,7 @@ def histogram_figure(
     panel = Panel(series=(bars, *rules), x=axis(title_of(column), "", [edges], margin=0.0, count=8), y=y)
     peak = int(np.argmax(counts))
     text = _("Most points, {share} % of {total}, lie between {low} and {high}.")
-    share = significant(100.0 * float(counts[peak]) / max(total, 1), 3)
+    share = reader().number(100.0 * float(counts[peak]) / max(total, 1), 3)
     high = amount(column, float(edges[peak + 1]))
     said = text.format(share=share, total=counted(total), low=amount(column, float(edges[peak])), high=high)
     source = _("all points with an answer")
