@@ -52,8 +52,8 @@ def judged(on: Subject, *, whole: bool = True) -> Judged:
     lacking = [table(one) for one in said.tables if one.name == MISSING]
     count = sum(bool(one.missing) for one in result.verdicts)
     text = plural(
-        "One check was not run for want of keys; cardan check --missing names them.",
-        "{count} checks were not run for want of keys; cardan check --missing names them.",
+        "One check was not run, as the drive file does not say enough for it.",
+        "{count} checks were not run, as the drive file does not say enough for them.",
         count,
     ).format(count=count)
     sources: list[Text] = []
