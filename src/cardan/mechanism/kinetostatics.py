@@ -294,7 +294,9 @@ def each_carried(
             if np.max(np.abs(rubbed - before)) <= RESTS * np.max(np.abs(amounts)):
                 break
         largest = np.max(np.abs(amounts), axis=-1)
-        again = _friction(replace(placed, friction=friction), rate, reaction, 1.0 if fed else -1.0)[1]
+        again = loss
+        if any(friction):
+            again = _friction(replace(placed, friction=friction), rate, reaction, 1.0 if fed else -1.0)[1]
         rest_of = np.max(np.abs(again - loss), axis=-1)
         return Carried(
             speed=speed if fed else -speed,

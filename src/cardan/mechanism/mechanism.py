@@ -277,6 +277,10 @@ class Pair:
     bearing_distance: float | None = quantity(
         "length", None, doc="distance of the two bearings of its pin, on which a couple across the pin rests", above=0.0
     )
+    tolerance: float | None = quantity("length", None, doc="how far its second half may be off, any way", low=0.0)
+    tolerance_turn: float | None = quantity(
+        "angle", None, doc="how far its second half may be turned off, about any axis", low=0.0
+    )
     misalignment: Point = quantity("length", (0.0, 0.0, 0.0), doc="how far its second half is off as built [x, y, z]")
     misalignment_turn: Point = quantity("angle", (0.0, 0.0, 0.0), doc="how far its second half is turned off [x, y, z]")
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 import numpy as np
 
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
+from cardan.mechanism.kinetostatics import carried
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.turning import Turned, turned
 from cardan.texts import mark
@@ -78,6 +79,28 @@ class LinkMotion:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class PartErrors:
+    """How far the tolerances of joints move the output while the input rests, to first order; nan at change points.
+
+    An error of a joint works with what the joint carries as the load on the output does with the error of this: by
+    virtual power the output goes F·d + M·δ for a shift d and a turn δ of the second half, F and M for a load of one.
+    """
+
+    each: Array  # (p, m) [rad or m]: largest by each joint
+    turns: bool  # whether the output turns, else it slides
+
+    @property
+    def worst(self) -> Array:
+        """All at the end of their tolerances and adding up, array (p,)."""
+        return np.asarray(np.sum(self.each, axis=-1))
+
+    @property
+    def likely(self) -> Array:
+        """Root of the sum of squares, array (p,)."""
+        return np.asarray(np.sqrt(np.sum(self.each**2, axis=-1)))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class MechanismMotion:
     """How every link of a mechanism moves while its input link turns.
 
@@ -87,10 +110,13 @@ class MechanismMotion:
         Where links and pairs stand.
     links : tuple of LinkMotion
         The moving links, in the order of the file.
+    errors : PartErrors or None
+        What the tolerances of the joints do to the output; None without any, or where it neither turns nor slides.
     """
 
     turned: Turned
     links: tuple[LinkMotion, ...]
+    errors: PartErrors | None = None
 
     @property
     def mechanism(self) -> Mechanism:
@@ -145,7 +171,27 @@ def mechanism_motion(mechanism: Mechanism, angle: Array | None = None) -> Mechan
     found = turned(mechanism, angle)
     size = found.placed.size
     links = tuple(_moved(found, k, size) for k in range(len(mechanism.links)))
-    return MechanismMotion(turned=found, links=links)
+    whole = MechanismMotion(turned=found, links=links)
+    return replace(whole, errors=_part_errors(whole))
+
+
+def _part_errors(motion: MechanismMotion) -> PartErrors | None:
+    """Return what the tolerances of the joints do to the output."""
+    turned_, output = motion.turned, motion.output
+    ways = np.asarray([[one.tolerance_turn or 0.0, one.tolerance or 0.0] for one in motion.mechanism.joints])
+    if output is None or output.way not in ("turns", "slides") or not np.any(ways):
+        return None
+    load = np.zeros((*turned_.displacement.shape[:2], 6))
+    k = motion.mechanism.links.index(output.link)
+    turns = output.way == "turns"
+    if turns:
+        load[:, k, :3] = output.axis
+    else:
+        load[:, k, :3], load[:, k, 3:] = frames.cross(output.point, output.axis + 0.0 * output.point), output.axis
+    found = carried(turned_.placed, input_link=turned_.input_link, about=turned_.about, load=load)
+    held = np.stack((frames.norm(found.reaction[..., :3]), frames.norm(found.reaction[..., 3:])), axis=-1)
+    each = np.sum(held * ways, axis=-1)
+    return PartErrors(each=np.where(turned_.special[:, None], np.nan, each), turns=turns)
 
 
 def _moved(found: Turned, k: int, size: float) -> LinkMotion:

@@ -17,7 +17,7 @@ from cardan.texts import _
 from cardan.units import deg
 
 from .figure import motion_figures
-from .motion import WAYS, LinkMotion, MechanismMotion, peak
+from .motion import WAYS, LinkMotion, MechanismMotion, PartErrors, peak
 from .motion import mechanism_motion as ask
 
 __all__ = ["answer", "ask", "lacking", "sentence"]
@@ -174,8 +174,59 @@ def _tables(result: MechanismMotion, listed: MechanismMotion | None) -> Iterator
             ),
             note=_("Of the centre of mass where the file has one, else of the middle of the pairs of the link."),
         )
+    if result.errors is not None:
+        yield _errors(result, result.errors)
     if listed is not None:
         yield _listed(listed)
+
+
+def _errors(result: MechanismMotion, errors: PartErrors) -> Table:
+    """Return what the tolerance of each joint does to the output."""
+    joints = result.mechanism.joints
+    shown = [k for k, one in enumerate(joints) if one.tolerance or one.tolerance_turn]
+    worst = [int(np.nanargmax(errors.each[:, k])) for k in shown]
+    return Table(
+        name="tolerances",
+        title=_("Output error by the tolerance of each joint"),
+        records=True,
+        columns=(
+            Column(key="joint", heading=_("joint"), values=[joints[k].id for k in shown], left=True),
+            Column(
+                key="tolerance", heading=_("shift ±"), values=[joints[k].tolerance for k in shown], dimension="length"
+            ),
+            Column(
+                key="tolerance_turn",
+                heading=_("turn ±"),
+                values=[joints[k].tolerance_turn for k in shown],
+                dimension="angle",
+            ),
+            Column(
+                key="output_error",
+                heading=_("output ±"),
+                values=[float(errors.each[at, k]) for at, k in zip(worst, shown, strict=True)],
+                dimension="angle" if errors.turns else "length",
+                digits=3,
+            ),
+            Column(
+                key="output_error_at",
+                heading=_("at"),
+                values=[float(result.angle[at]) for at in worst],
+                dimension="angle",
+                decimals=0,
+            ),
+        ),
+        note=_("To first order, the input at rest; what is held more than once shares an error as equal springs do."),
+    )
+
+
+def _error_of(result: MechanismMotion, errors: PartErrors) -> Say:
+    """Return how far the output may be off."""
+    dimension = "angle" if errors.turns else "length"
+    text = _(
+        "By the tolerances of its joints {output} may be off by ±{likely} (root sum of squares), ±{worst} at worst."
+    )
+    likely, worst = (Quantity(float(np.nanmax(one)), dimension, 3) for one in (errors.likely, errors.worst))
+    return say(text, output=result.mechanism.output_link, likely=likely, worst=worst)
 
 
 def _tidy(values: Array, size: float) -> Array:
@@ -246,6 +297,13 @@ def _remarks(result: MechanismMotion) -> Iterator[Remark]:
             "Warning: in a change point at {angles}: it could go on in two ways, and its speeds are not told there."
         )
         yield Remark(text=say(text, angles=Joined(places)), tone="warning")
+    if result.errors is not None:
+        yield Remark(text=_error_of(result, result.errors))
+    elif any(one.tolerance or one.tolerance_turn for one in result.mechanism.joints):
+        text = _(
+            "The tolerances of its joints are not told: no output_link that turns about an axis or slides along one."
+        )
+        yield Remark(text=text)
     told = float(np.max(turned.rates.open[~turned.special], initial=0.0))
     yield Remark(text=say(_("Loops closed at every position; rates checked in all pairs, {size}."), size=closely(told)))
     if result.mechanism.speed is None:
@@ -257,6 +315,9 @@ def _keys(result: MechanismMotion) -> Iterator[KeyFigure]:
     output = result.output
     if output is None:
         return
+    if result.errors is not None:
+        off = Quantity(peak(result.errors.likely), "angle" if result.errors.turns else "length")
+        yield KeyFigure(name="output_error", title=_("output error by the tolerances"), value=off)
     if output.turns:
         share = fluctuation(output, result.angle)
         if share is not None:
