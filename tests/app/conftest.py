@@ -14,7 +14,7 @@ import subprocess
 import time
 import urllib.error
 import urllib.request
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
@@ -96,12 +96,19 @@ def pages(chromium: Any) -> Iterator[tuple[Opener, list[Complaints]]]:
     complaints: list[Complaints] = []
 
     def open_page(
-        url: str, *, allow: tuple[str, ...] = (), script: str = "", browser: Any = None, **options: Any
+        url: str,
+        *,
+        allow: tuple[str, ...] = (),
+        script: str = "",
+        browser: Any = None,
+        cookies: Mapping[str, str] | None = None,
+        **options: Any,
     ) -> Any:
         context = (browser or chromium).new_context(**{"viewport": {"width": 1280, "height": 720}, **options})
         context.set_default_timeout(PATIENCE)
         contexts.append(context)
         admitted(context, url)
+        context.add_cookies([{"name": name, "value": value, "url": url} for name, value in (cookies or {}).items()])
         page = context.new_page()
         if script:
             page.add_init_script(script)
@@ -126,7 +133,7 @@ def refuse_complaints(complaints: list[Complaints]) -> None:
 def page_of(chromium: Any) -> Iterator[Opener]:
     """Return a function that opens a page.
 
-    ``page_of(url, allow=("part of a message",), script="run before the page", browser=None, **context)``
+    ``page_of(url, allow=("part of a message",), script="run before the page", cookies={name: value}, **context)``
     """
     with pages(chromium) as (open_page, complaints):
         yield open_page

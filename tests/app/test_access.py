@@ -36,10 +36,8 @@ def opened(page_of: Open, url: str) -> Open:
             f"{url}{where}",
             reduced_motion="reduce",
             viewport={"width": width, "height": height},
-            script=f"document.cookie = 'cardan_choices={cookie}; path=/'",
+            cookies={"cardan_choices": cookie},
         )
-        page.context.add_cookies([{"name": "cardan_choices", "value": cookie, "url": url}])
-        page.reload()
         page.wait_for_selector(".start .card" if where == "/" else '[data-mark="answer"]:visible')
         if where != "/":
             page.wait_for_function("document.querySelector('[data-mark=judgement]')?.textContent.length > 3")
@@ -117,10 +115,16 @@ ALL = ("minor", "moderate", "serious", "critical")
 
 def refused(page: Any, impacts: Sequence[str] = ALL, within: str | None = None) -> list[str]:
     """Return what axe-core has to say, of a part of the page where that is named: the rest was asked before."""
-    options = {"runOnly": {"type": "tag", "values": TAGS}}
-    found = axe.Axe().run(page, context=within, options=options).response["violations"]
+    if not page.evaluate("'axe' in window"):
+        page.evaluate(axe.Axe().axe_script)
+    found = page.evaluate(AXE, [within, TAGS])
     some = [one for one in found if one["impact"] in impacts]
     return [f"{one['id']}: {node['target']} {node['html'][:160]}" for one in some for node in one["nodes"]]
+
+
+AXE = """async ([within, values]) => (await axe.run(within ?? document,
+  {runOnly: {type: 'tag', values}, resultTypes: ['violations']})).violations"""
+"""Asks axe-core for what it refuses and nothing else: to bring all that is good across takes longer than to look."""
 
 
 def judge(page: Any, where: str, **how: Any) -> None:
