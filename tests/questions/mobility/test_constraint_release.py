@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cardan import Drive
+from cardan import Drive, example
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 from cardan.io import example_mechanism, mechanism_names
@@ -66,6 +66,26 @@ def test_one_change_cures_the_maize_harvester():
     assert [len(one.changes) for one in found] == [1] * 5
 
 
+@pytest.mark.parametrize("joint", ["sleeve hinge", "shackle hinge"])
+def test_the_link_of_the_book_cures_the_maize_harvester(joint):
+    """Link 11 between sleeve and shackle, or between shackle and frame: one link and one hinge more, Book p. 78."""
+    mechanism = example_mechanism("maize-drive-offset")
+    (added,) = [
+        one for one in repairs(mechanism, most=12) if [(c.joint, c.gain) for c in one.changes] == [(joint, "link")]
+    ]
+    made = repaired(mechanism, added)
+    assert (len(made.links), len(made.joints)) == (len(mechanism.links) + 1, len(mechanism.joints) + 1)
+    keeps_its_word(mechanism, added)
+    assert finite_mobility(made).closes
+    hinges = [pair.along for pair in made.joints if joint in pair.id]
+    assert abs(hinges[0] @ hinges[1]) < 1e-12
+
+
+def test_a_drive_gets_no_links():
+    drive = example("overconstrained-pump")
+    assert all(change.gain != "link" for one in repairs(drive, most=20) for change in one.changes)
+
+
 def test_where_no_bearing_cures_all_the_best_part_is_told():
     # Two hinges and a slide between the same links: with only the slide to change, one may still turn.
     mechanism = anyhow(np.random.default_rng(5), links=2, loops=6)
@@ -98,7 +118,7 @@ def test_nothing_to_repair_is_nothing():
 @pytest.mark.slow
 def test_only_changes_with_which_it_turns_all_round_are_told():
     mechanism = example_mechanism("maize-drive-offset")
-    tried, found = repairs(mechanism, most=12), working(mechanism)
+    tried, found = repairs(mechanism, most=12), working(mechanism, most=12)
     assert found
     assert set(found) < set(tried)
     for one in tried:

@@ -87,7 +87,7 @@ def answer(thing: Drive | Mechanism, result: Mobility, around: Turned | None = N
 
     around: over a turn of the input.
     """
-    return _answer(thing, result, working(result.mechanism, most=SHOWN), around)
+    return _answer(thing, result, working(result.mechanism, most=SHOWN, links=isinstance(thing, Mechanism)), around)
 
 
 def brief(thing: Drive | Mechanism, result: Mobility) -> Answer:

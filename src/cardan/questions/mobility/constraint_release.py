@@ -17,7 +17,7 @@ from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames, screws
 from cardan.mechanism.constraints import Constraints, constraints
-from cardan.mechanism.mechanism import LENGTHS, Mechanism, Pair, Way, axes
+from cardan.mechanism.mechanism import LENGTHS, Mechanism, Pair, Point, Way, axes
 from cardan.texts import _
 from cardan.units import nearest
 
@@ -25,19 +25,22 @@ from .drive_mechanism import mechanism_of
 from .finite_mobility import locks_at
 from .mobility import TAKES_PART, JointHold, stresses
 
-Gain: TypeAlias = Literal["slide", "align", "align_slide", "turn", "drop"]
+Gain: TypeAlias = Literal["slide", "align", "align_slide", "turn", "link", "drop"]
 
 CHANGES: dict[str, tuple[tuple[str, Gain], ...]] = {
-    "R": (("C", "slide"), ("S", "align"), ("SG", "align_slide"), ("", "drop")),
+    "R": (("C", "slide"), ("S", "align"), ("SG", "align_slide"), ("RR", "link"), ("", "drop")),
     "C": (("SG", "align"), ("", "drop")),
     "S": (("SG", "slide"), ("", "drop")),
     "P": (("C", "turn"),),
     "U": (("S", "turn"),),
     "SG": (("", "drop"),),
 }
-"""Kind of pair -> kinds that leave more, and what they add; none: a bearing that is left out."""
+"""Kind of pair -> kinds that leave more, and what they add; none: a bearing that is left out.
 
-TROUBLE: dict[Gain, float] = {"slide": 1.0, "align": 1.1, "align_slide": 1.6, "turn": 2.5, "drop": 2.0}
+RR: a group in the place of the hinge, two hinges with a link between them, Book p. 78, link 11.
+"""
+
+TROUBLE: dict[Gain, float] = {"slide": 1.0, "align": 1.1, "align_slide": 1.6, "turn": 2.5, "link": 3.0, "drop": 2.0}
 """How much work each change is: a floating bearing is the cheapest, then a self-aligning one."""
 
 FIRM = 1.5
@@ -48,6 +51,9 @@ PIN = 2.5
 
 DRIVEN = 1.5
 """A change at the bearing of the input link, which is to be driven, is so many times the work of one elsewhere."""
+
+PLAIN = 12
+"""Decimals of the direction of an added hinge; what is beyond is rounding."""
 
 EXPANSIONS = 4000
 """Sets of changes looked at; in order of their cost, so that the first found are the best."""
@@ -70,6 +76,7 @@ class Change:
     after: str
     gain: Gain  # what it adds
     freedoms: int  # how many freedoms that are
+    axis: Point | None = None  # of the hinge between an added link and the second one of ``links``
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -92,7 +99,7 @@ class Repair:
     trouble: float
 
 
-def repairs(thing: Drive | Mechanism, *, most: int = MOST) -> tuple[Repair, ...]:
+def repairs(thing: Drive | Mechanism, *, most: int = MOST, links: bool = True) -> tuple[Repair, ...]:
     """Return changes after which a mechanism is held just enough, the simplest first.
 
     Parameters
@@ -100,6 +107,8 @@ def repairs(thing: Drive | Mechanism, *, most: int = MOST) -> tuple[Repair, ...]
     thing : Drive or Mechanism
     most : int
         So many at most.
+    links : bool
+        Whether links may be added to a mechanism.
 
     Returns
     -------
@@ -135,11 +144,12 @@ def repairs(thing: Drive | Mechanism, *, most: int = MOST) -> tuple[Repair, ...]
     ([('A', 'SG')], 0)
     """
     if not isinstance(thing, Mechanism):
-        thing = mechanism_of(thing)
+        thing, links = mechanism_of(thing), False
     system = constraints(thing)
     stress = stresses(system)
     redundant = len(stress)
     options = [option for j, pair in enumerate(thing.joints) for option in _options(thing, system, stress, j, pair)]
+    options = [one for one in options if links or one.change.gain != "link"]
     if not redundant or not options:
         return ()
     found = [
@@ -155,14 +165,14 @@ def repairs(thing: Drive | Mechanism, *, most: int = MOST) -> tuple[Repair, ...]
     return tuple(sorted((one for one in found if one.after == least), key=lambda one: one.trouble))
 
 
-def working(mechanism: Mechanism, *, most: int = MOST) -> tuple[Repair, ...]:
+def working(mechanism: Mechanism, *, most: int = MOST, links: bool = True) -> tuple[Repair, ...]:
     """Return those `repairs` with which a mechanism turns all round, the simplest first.
 
     Each is made, and the loops of what comes out are followed over a turn of the input; where no input is named that
     could be turned, what holds in the position given has to do.
     """
     found: list[Repair] = []
-    for one in repairs(mechanism, most=TRIED):
+    for one in repairs(mechanism, most=TRIED, links=links):
         if not mechanism.input_link or _turns(repaired(mechanism, one)):
             found.append(one)
         if len(found) == most:
@@ -181,10 +191,17 @@ def _turns(mechanism: Mechanism) -> bool:
 def repaired(mechanism: Mechanism, repair: Repair) -> Mechanism:
     """Return a mechanism with the changes of a repair made."""
     kinds = {change.joint: change.after for change in repair.changes}
+    hinged = {change.joint: change.axis for change in repair.changes if change.gain == "link"}
+    taken = {pair.id for pair in mechanism.joints} | {*mechanism.links, mechanism.frame}
     joints = []
     for pair in mechanism.joints:
         kind = kinds.get(pair.id, pair.type)
         if not kind:
+            continue
+        if pair.id in hinged:
+            new = next(f"{pair.id} {k}" for k in count(2) if f"{pair.id} {k}" not in taken)
+            joints.append(replace(pair, links=(pair.links[0], new)))
+            joints.append(Pair(id=new, type="R", links=(new, pair.links[1]), point=pair.point, axis=hinged[pair.id]))
             continue
         joints.append(replace(pair, type=kind, axis2=None if kind != pair.type else pair.axis2))
     return replace(mechanism, joints=tuple(joints))
@@ -205,16 +222,23 @@ def advice(change: Change, mechanism: Mechanism) -> str:
             "align": _("make {where} self-aligning"),
             "align_slide": _("make {where} self-aligning and axially free"),
             "turn": _("let {where} turn about its axis too"),
+            "link": _("add a link at {joint}, hinged to {other} about {axis} too"),
             "drop": _("omit {joint}"),
         }[change.gain]
-        return text.format(where=where, joint=change.joint)
+        return text.format(where=where, joint=change.joint, other=change.links[1], axis=_direction(change))
     text = {
         "slide": _("let {joint}, between {one} and {other}, slide along its axis"),
         "align": _("make {joint}, between {one} and {other}, a ball joint"),
         "align_slide": _("make {joint}, between {one} and {other}, a ball that slides along its axis"),
         "turn": _("let {joint}, between {one} and {other}, turn one way more"),
+        "link": _("add a link at {joint}, between {one} and {other}, hinged to {other} about {axis} too"),
     }[change.gain]
-    return text.format(joint=change.joint, one=change.links[0], other=change.links[1])
+    return text.format(joint=change.joint, one=change.links[0], other=change.links[1], axis=_direction(change))
+
+
+def _direction(change: Change) -> str:
+    """Return the axis of an added hinge as a file writes it."""
+    return "[{}]".format(", ".join(f"{one:.3g}" for one in change.axis or ()))
 
 
 def strain(hold: JointHold) -> str:
@@ -259,8 +283,14 @@ def _options(mechanism: Mechanism, system: Constraints, stress: Array, j: int, p
     for after, gain in CHANGES.get(pair.type, ()):
         if pair.axis is None or (gain == "drop" and not bearing):
             continue
+        if gain == "link" and bearing and mechanism.input_link in pair.links:
+            continue  # the bearing of the input tells about which axis it turns
         added = _added(pair, gain, system)
-        work = added @ stress[:, j].T
+        work, axis = added @ stress[:, j].T, None
+        if gain == "link":  # one hinge, about the direction across the pin that does most work
+            best = np.linalg.svd(work)[0][:, 0]
+            axis = tuple((np.round(best @ axes(pair)[1:], PLAIN) + 0.0).tolist())
+            added, work = best[None] @ added, best[None] @ work
         if _rank(work) < len(added):
             continue
         change = Change(
@@ -271,8 +301,9 @@ def _options(mechanism: Mechanism, system: Constraints, stress: Array, j: int, p
             after=after,
             gain=gain,
             freedoms=len(added),
+            axis=axis,
         )
-        place = PIN if not bearing else DRIVEN if mechanism.input_link in pair.links else 1.0
+        place = 1.0 if gain == "link" else PIN if not bearing else DRIVEN if mechanism.input_link in pair.links else 1.0
         trouble = TROUBLE[gain] + (FIRM if gain == "drop" and len(added) > 2 else 0.0)
         yield _Option(change=change, joint=j, work=work, cost=trouble * place)
 
@@ -293,7 +324,7 @@ def _added(pair: Pair, gain: Gain, system: Constraints) -> Array:
     if gain == "drop":
         held = {"SG": (), "S": (slide,), "C": (tilts,), "R": (slide, tilts)}[pair.type]
         return np.concatenate((screws.translation(across), *held))
-    return tilts if gain == "align" else np.concatenate((tilts, slide))
+    return tilts if gain in ("align", "link") else np.concatenate((tilts, slide))
 
 
 def _rank(work: Array) -> int:
