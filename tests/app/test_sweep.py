@@ -90,6 +90,8 @@ def test_a_sweep_is_drawn_taken_along_and_run_again_by_the_command(page_of: Open
     page.keyboard.press("Escape")
     page.get_by_label("values 1", exact=True).fill("5000")
     mark(page, "sweep-run").click()
+    mark(page, "tab-motion").click()  # nobody looks: it is given up, and begun again once somebody does
+    mark(page, "tab-sweep").click()
     sheet.locator('[data-mark="cancel"]').click()
     sheet.locator('[data-mark="again"]').wait_for()
 

@@ -71,12 +71,12 @@ class Sweep(Sheet):
         """Wait for the user to ask: what he wants is not known before."""
         if set(self._known) != set(self._numbers()):
             self._offer_keys_to_vary()
-        if self._found is not None:
+        if self.job is not None:
             super().wake()
 
     def follow(self) -> None:
-        """Follow an edit once a sweep was made."""
-        if self._found is not None:
+        """Follow an edit once a sweep was asked for."""
+        if self.job is not None:
             super().follow()
 
     def run(self) -> None:
