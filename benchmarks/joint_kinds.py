@@ -13,24 +13,12 @@ from pathlib import Path
 import numpy as np
 
 from cardan import example
-from cardan.drive.joints.clemens import Profile
-from cardan.joints import (
-    Clemens,
-    DoubleCardan,
-    ElasticHalfCardan,
-    HalfCardan,
-    Hooke,
-    Joint,
-    OffsetCross,
-    PinCoupling,
-    Rzeppa,
-    Tracta,
-    Tripod,
-    Weiss,
-)
+from cardan.io.drive_file import loads
+from cardan.joints import Hooke, Joint, Rzeppa
 from cardan.questions.forces.forces import forces
 from cardan.questions.losses.losses import losses
 from cardan.questions.motion.moving_chain import law
+from tests.fixtures.joint_keys import KEYS
 
 from .harness import Figure
 
@@ -39,28 +27,20 @@ HALF_SHAFT = Path(__file__).parent.parent / "examples" / "front-halfshaft.toml"
 CLOSED, OPEN = 5.0, 40.0
 """Times the law of the Hooke joint that a law with a closed form and one without may take."""
 
+PLAIN, BY_LOOPS = ("hooke", "constant_velocity"), ("weiss", "clemens", "mechanism")
+"""Kinds that are not measured, and kinds whose law has no closed form."""
+
 REPORT = 4.0
 """Seconds of processor time that the report of the half shaft may take from the prompt."""
 
 
 def kinds() -> dict[str, tuple[Joint, bool]]:
-    """Return joints with sizes that make them uneven, and whether their law is a closed form."""
-    profiles = [Profile(axial=0.05, radial=radial, radius=0.06) for radial in (0.02, 0.021)]
-    grooves = {"driving_offset": 0.004, "driven_offset": 0.0044, "groove_radius": 0.03}
-    return {
-        "double cardan": (DoubleCardan(centring_ratio=0.45), True),
-        "Tracta": (Tracta(driving_distance=0.03, driven_distance=0.033), True),
-        "tripod": (Tripod(track_radius=0.02), True),
-        "half joint": (HalfCardan(), True),
-        "offset cross": (OffsetCross(offset=0.02, reach=0.2), True),
-        "flexible coupling": (ElasticHalfCardan(pairs=3), True),
-        "Rzeppa with a lever": (Rzeppa(lever_b=0.35, lever_c=0.65), True),
-        "Rzeppa with grooves": (Rzeppa(**grooves), False),
-        "Weiss": (Weiss(**grooves), False),
-        "pin coupling": (PinCoupling(driving_distance=0.05, driven_distance=0.06), True),
-        "Clemens": (Clemens(driving=profiles[0], driven=profiles[1]), False),
-        "own mechanism": (example("thompson-drive").joints[0], False),
-    }
+    """Return joints with the sizes by which tests know them, and whether their law is a closed form."""
+    text = "format = 1\n[[joints]]\njoint_angle_deg = 10\n"
+    made = {kind: loads(f'{text}kind = "{kind}"\n{keys}\n').joints[0] for kind, keys in KEYS.items()}
+    found = {joint.in_words(): (joint, kind not in BY_LOOPS) for kind, joint in made.items() if kind not in PLAIN}
+    grooves = Rzeppa(driving_offset=0.004, driven_offset=0.0044, groove_radius=0.03)
+    return {**found, "Rzeppa with grooves": (grooves, False)}
 
 
 def spent(job: Callable[[], object], rounds: int) -> float:
