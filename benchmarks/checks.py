@@ -24,7 +24,7 @@ def figures(quick: bool) -> Iterator[Figure]:
         f"all checks of {many} places of an axle": lambda: check(
             drive, vary={"joints[1].centre_mm[2]": -sizes, "output.point_mm[2]": -sizes}
         ),
-        "cures of a truck": lambda: remedies(example("truck-duty-cycle")),
+        "remedies of a truck": lambda: remedies(example("truck-duty-cycle")),
     }
     for name, seconds in fastest(jobs, rounds=2 if quick else 5).items():
         yield Figure(

@@ -29,6 +29,7 @@ def write(folder: Path) -> None:
         "joint-types.md": joint_types(),
         "faults.md": faults(),
         "validation.md": validation(),
+        "performance.md": performance(),
     }
     for name, text in pages.items():
         file = folder / name
@@ -55,6 +56,13 @@ def drive_file() -> str:
 def validation() -> str:
     """Return the table of how far every formula is from its independent computations."""
     from tests.reference.residuals import table
+
+    return table()
+
+
+def performance() -> str:
+    """Return what the benchmarks measured last."""
+    from benchmarks.__main__ import table
 
     return table()
 
