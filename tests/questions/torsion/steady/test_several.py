@@ -7,14 +7,23 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
+from cardan import example
+from cardan.answers.data import data
+from cardan.answers.quantity import told as told_text
+from cardan.answers.reader import USUAL
 from cardan.maths.periodic.harmonics import Status
 from cardan.questions.torsion.model.inputs import Constant, Swinging
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
+from cardan.questions.torsion.steady.answer import answer
+from cardan.questions.torsion.steady.dynamic_torque import dynamic_torque
 from cardan.questions.torsion.steady.run_stability import Kind, Verdict, floquet
 from cardan.questions.torsion.steady.several import stable_motions
 from cardan.questions.torsion.steady.steady import steady_orbits
 from cardan.questions.torsion.steady.steady_result import read_off
+from cardan.questions.torsion.steady.torsion_response import loaded_model, torsion_response
+from cardan.units import rpm
 from tests.builders.torsion_in_time import flow
 
 STIFFNESS, INERTIA = 1000.0, 0.1
@@ -126,3 +135,83 @@ def test_of_three_motions_of_a_steep_joint_the_unstable_middle_one_is_left_for_t
         np.testing.assert_allclose(flow(model, 49.5, np.pi / 49.5, start) - start, turned, atol=1e-6)
         pushed = flow(model, 49.5, 40 * np.pi / 49.5, start * [1.002, 1.002, 1.0, 1.0])
         np.testing.assert_allclose(pushed - start, 40 * turned, atol=5e-3)  # it comes back
+
+
+def shaken(
+    stand: TorsionalModel, speed: float, start: float, load: float, periods: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the shaft that rattles at the end of some half turns [rad], and its torque over the last four [N·m].
+
+    One mass between two joints, whose law is tan F' = tan F/cos α, integrated by SciPy from a start [rad].
+    """
+    (first, last), half = stand.joint_angle, 0.5 * float(stand.backlash[0])
+    stiffness, damping = float(stand.stiffness[0]), float(stand.damping[0])
+    near, far = float(stand.inertia[2]), float(stand.inertia[3])
+
+    def law(angle: float, alpha: float) -> tuple[float, float, float]:
+        ratio = 1.0 / np.cos(alpha)
+        turned = np.arctan2(ratio * np.sin(angle), np.cos(angle))
+        turned += 2.0 * np.pi * np.round((angle - turned) / (2.0 * np.pi))
+        below = np.cos(angle) ** 2 + (ratio * np.sin(angle)) ** 2
+        return turned, ratio / below, -ratio * (ratio**2 - 1.0) * np.sin(2.0 * angle) / below**2
+
+    def torque(t: float, q: float, v: float) -> float:
+        angle, rate, _more = law(speed * t, first)
+        twist = angle - q
+        over = twist - np.clip(twist, -half, half)
+        return stiffness * over + damping * (rate * speed - v) * (over != 0.0)
+
+    def pushed(t: float, state: np.ndarray) -> tuple[float, float]:
+        q, v = state
+        _angle, rate, more = law(q + 0.5 * np.pi, last)
+        return v, (torque(t, q, v) - rate * (load + far * more * v * v)) / (near + far * rate**2)
+
+    end = periods * np.pi / speed
+    ends = np.arange(periods + 1) * np.pi / speed
+    fine = np.linspace(ends[-5], end, 1601)
+    found = solve_ivp(
+        pushed,
+        (0.0, end),
+        (-0.01, speed),
+        method="DOP853",
+        rtol=1e-8,
+        atol=1e-10,
+        dense_output=True,
+        max_step=end / 3e3,
+    )
+    q, v = found.sol(fine)
+    return found.sol(ends)[0] - speed * ends, np.asarray([torque(*one) for one in zip(fine, q, v, strict=True)])
+
+
+@pytest.mark.slow
+def test_a_motion_whose_period_has_doubled_is_told() -> None:
+    """The flywheel at a third of its torque: the motion of a half turn is unstable, that of a whole turn runs."""
+    drive = example("pto-flywheel")
+    drive = replace(drive, duty=replace(drive.duty, torque=100.0))
+    found = torsion_response(drive, speed=450.0 * rpm)
+    assert found.floquet.verdict == Verdict.UNSTABLE
+    assert found.floquet.kind == Kind.DOUBLING
+    (longer,) = found.beside
+    assert longer.periods == 2
+    stand = loaded_model(drive, drive.duty, np.asarray(450.0 * rpm))[1]
+    place, torque = shaken(stand, 450.0 * rpm, -0.01, 100.0, 160)
+    assert abs(place[-1] - place[-3]) < 1e-4 < 1e-2 < abs(place[-1] - place[-2])
+    np.testing.assert_allclose([longer.lowest[0], longer.highest[0]], [torque.min(), torque.max()], rtol=2e-3)
+    assert (found.torque_lowest[0], found.torque_highest[0]) == (longer.lowest[0], longer.highest[0])
+    counted = dynamic_torque(drive, speed=[450.0 * rpm])
+    assert counted.low[0, 1] == pytest.approx(torque.min(), rel=2e-3)
+    said = answer(drive, found)
+    assert "but every 2 periods" in told_text(said.sentence, USUAL)
+    assert [one["periods"] for one in data(said, USUAL)["other_motions"]] == [2]
+
+
+@pytest.mark.slow
+def test_motions_of_several_periods_beside_a_stable_one_are_told_and_do_not_count() -> None:
+    drive = example("pto-flywheel")
+    found = torsion_response(drive)
+    assert found.floquet.verdict == Verdict.STABLE
+    assert [one for one in found.beside if one.periods != 1]
+    assert not any(one.runs for one in found.beside)
+    assert found.torque_lowest[0] > 0.0
+    assert min(float(one.lowest[0]) for one in found.beside) < 0.0
+    assert any("may repeat" in told_text(one.text, USUAL) for one in answer(drive, found).remarks)

@@ -28,7 +28,7 @@ from cardan.questions.motion.random_motion import SURE
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
-from cardan.questions.torsion.steady.several import stable_motions
+from cardan.questions.torsion.steady.several import stable_motions, widened
 from cardan.questions.torsion.steady.steady import steady_orbits
 from cardan.questions.torsion.steady.steady_result import read_off
 from cardan.questions.torsion.steady.torsion_response import loaded_model, parted
@@ -345,8 +345,10 @@ def _with_play(found: RoadTorsion, standing: Standing, loose: TorsionalModel) ->
     joint_angle, phase, _turns = standing.turned(places.points[rows])
     speeds = np.full(len(rows), found.speed)
     motions = steady_orbits(replace(loose, joint_angle=joint_angle, phase=phase), speed=speeds)
-    torque = read_off(stable_motions(*motions)[0], 1)
-    opened = Opened(row=rows, low=torque.lowest, high=torque.highest)
+    orbit, _status, beside = stable_motions(*motions)
+    torque = read_off(orbit, 1)
+    low, high = widened(torque.lowest, torque.highest, beside)
+    opened = Opened(row=rows, low=low, high=high)
     largest = np.nan_to_num(opened.largest[:, line])
     k, e = (int(one) for one in np.unravel_index(int(np.argmax(largest)), largest.shape))
     if largest[k, e] > found.peak[0]:

@@ -25,6 +25,7 @@ from cardan.texts import _, mark, plural
 
 from .figure import response_figures
 from .run_stability import Verdict, verdict_words
+from .several import LONGEST
 from .torsion_response import TorsionResponse, level, peak_refined, torsion_response
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "worst"]
@@ -113,6 +114,11 @@ def _state(found: TorsionResponse) -> tuple[Tone, Text]:
     """Return whether the motion at one speed lasts."""
     verdict = int(found.floquet.verdict)
     if verdict == Verdict.UNSTABLE:
+        longer = [one.periods for one in found.beside if one.runs]
+        if longer:
+            text = _("it does not repeat with every {turns} of a turn, {how}.")
+            turns = Quantity(found.steady.orbit.period / (2.0 * np.pi), trim=True)
+            return "failed", say(text, turns=turns, how=_how(longer[0]))
         text = _("the motion is unstable and grows at a rate of {rate} ({zone}).")
         rate = Quantity(float(found.floquet.growth_rate), "rate", 3)
         return "failed", say(text, rate=rate, zone=found.floquet.zone.name())
@@ -279,8 +285,10 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
         pair = _("{order} (±{torque})")
         bands = [say(pair, order=_order(order), torque=_torque(size)) for order, size in beside]
         yield Remark(text=say(text, bands=Joined(bands)))
-    if found.beside:
+    if any(one.periods == 1 for one in found.beside):
         yield _beside(found)
+    if any(one.periods != 1 for one in found.beside):
+        yield _longer(found)
     if drive.duty.engine is not None and drive.duty.engine.mean_pressure is not None:
         yield _engine(drive.duty.engine, found)
     if found.train.model.free and not swept and bool(steady.found):
@@ -301,22 +309,52 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
         yield Remark(text=_("The same over a range of speeds, in rpm:"), command=command, tone="next")
 
 
+def _how(periods: int) -> Text:
+    """Return after how many periods a motion repeats."""
+    if periods:
+        return say(_("but every {periods} periods"), periods=periods)
+    return say(_("nor within {longest} periods"), longest=LONGEST)
+
+
+def _longer(found: TorsionResponse) -> Remark:
+    """Return which motions repeat after several periods only, or not at all."""
+    longer = [one for one in found.beside if one.periods != 1]
+    swings: list[Text] = []
+    for periods in sorted({one.periods for one in longer}, reverse=True):
+        own = [one for one in longer if one.periods == periods]
+        text = _("every {periods} periods (up to ±{torque}{where})")
+        if not periods:
+            text = _("not within {longest} periods (up to ±{torque} over a long run{where})")
+        where: Text = ""
+        if found.speed.ndim:
+            rows = np.isin(np.arange(len(found.speed)), [one.row for one in own])
+            where = say(_(", at {speeds}"), speeds=ranges(np.abs(found.speed), rows, "angular_speed"))
+        torque = _torque(max(float(np.max(one.swing)) for one in own))
+        swings.append(say(text, periods=periods, longest=LONGEST, torque=torque, where=where))
+    text = _(
+        "Where backlash opens the motion may repeat {how}; that counts in lowest and highest torques where the motion "
+        "of one period is unstable, and orders are of that one."
+    )
+    return Remark(text=say(text, how=Joined(swings)), tone="warning")
+
+
 def _beside(found: TorsionResponse) -> Remark:
     """Return that there are further stable motions: at one speed their torque, over many where they are."""
+    beside = [one for one in found.beside if one.periods == 1]
     if not found.speed.ndim:
         text = _(
             "Other stable motions at this speed: {torques}; which one runs depends on how the speed was reached, and "
             "told is the one with the largest alternating torque."
         )
-        torques = [say("±{torque}", torque=_torque(float(np.max(one.swing)))) for one in found.beside]
+        torques = [say("±{torque}", torque=_torque(float(np.max(one.swing)))) for one in beside]
         return Remark(text=say(text, torques=Joined(torques)), tone="warning")
     text = _(
         "Several stable motions at {where}, down to ±{torque}: the torque jumps on the way up and down; told is the "
         "one with the largest alternating torque."
     )
-    several = np.isin(np.arange(len(found.speed)), [one.row for one in found.beside])
+    several = np.isin(np.arange(len(found.speed)), [one.row for one in beside])
     where = ranges(np.abs(found.speed), several, "angular_speed")
-    least = min(float(np.max(one.swing)) for one in found.beside)
+    least = min(float(np.max(one.swing)) for one in beside)
     return Remark(text=say(text, where=where, torque=_torque(least)), tone="warning")
 
 
@@ -433,7 +471,9 @@ def _facts(found: TorsionResponse) -> dict[str, Any]:
         "side_bands": [{"order": order, "torque": Quantity(size, "torque")} for order, size in found.side_orders(0.0)],
         "other_motions": [
             {
-                "speed": Quantity(np.abs(one.orbit.speed[0]), "angular_speed"),
+                "speed": Quantity(float(np.abs(found.speed.reshape(-1)[one.row])), "angular_speed"),
+                "periods": one.periods or None,
+                "runs": one.runs,
                 "min": Quantity(one.lowest, "torque"),
                 "max": Quantity(one.highest, "torque"),
             }

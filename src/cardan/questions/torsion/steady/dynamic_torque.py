@@ -21,7 +21,7 @@ from cardan.questions.torsion.model.torsional_model import Torque, TorsionalMode
 from cardan.questions.torsion.model.torsional_modes import straight_waves
 
 from .orbit import Orbit
-from .several import stable_motions
+from .several import stable_motions, widened
 from .steady import steady_orbits
 from .torsion_response import loaded_model, parted
 from .two_frequencies import grouped, side_bands
@@ -38,7 +38,7 @@ class DynamicTorque:
     found: Array  # (s,) of bool: whether a motion was found
     low: Array  # low, high (s, n+1) [N·m]: least and largest torque of every shaft; nan where no motion was found
     high: Array
-    # (s, n) [N·m]: by how much torques that do not repeat within two turns raise or lower those at every joint
+    # (s, n) [N·m]: by how much torques and motions of other periods raise or lower those at every joint
     beside: Array
 
     @property
@@ -101,7 +101,7 @@ class _Vibrating:
 def _torques(asked: _Vibrating) -> DynamicTorque:
     """Return the torques of a model."""
     model, speeds, shafts = asked.model, asked.speeds, asked.shafts
-    orbit, status, _others = stable_motions(*steady_orbits(model, speed=speeds))
+    orbit, status, others = stable_motions(*steady_orbits(model, speed=speeds))
     found = (status == Status.CONVERGED) | (status == Status.COARSE)
     nothing = np.zeros((len(speeds), len(model.elements)))
     part = DynamicTorque(orbit=orbit, found=found, low=nothing, high=nothing, beside=nothing)
@@ -109,7 +109,7 @@ def _torques(asked: _Vibrating) -> DynamicTorque:
     drives = orbit.drives(np.arange(orbit.count))
     torque = np.moveaxis(element_torques(drives, q, rate), -1, -2)
     alone = -peak(-torque), peak(torque)
-    lowest, highest = _with_bands(orbit, asked.loose, *alone)
+    lowest, highest = widened(*_with_bands(orbit, asked.loose, *alone), others)
     beside: Array = np.maximum(alone[0] - lowest, highest - alone[1])
     at_joints = np.stack([_of_shafts(model, beside, k, shafts) for k in range(shafts)], axis=-1)
     at_ends = np.maximum(at_joints[:, :-1], at_joints[:, 1:])

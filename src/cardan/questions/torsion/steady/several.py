@@ -1,9 +1,9 @@
-"""Which steady motions has a non-linear drive at a speed? Those that are stable, where there are several."""
+"""Which steady motions has a non-linear drive at a speed? Those that are stable, also those of several periods."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,6 +15,7 @@ from cardan.maths.compiled import torsion_line as lines
 from cardan.maths.compiled.method import has_numba
 from cardan.maths.periodic.harmonics import HarmonicBalance, Status, odd_growth
 from cardan.maths.periodic.switching_orbit import Pieces
+from cardan.questions.torsion.model.torsional_balance import element_torques
 from cardan.questions.torsion.model.torsional_layouts import Turning, chosen, line_of, single
 from cardan.questions.torsion.model.torsional_modes import straight_modes
 
@@ -37,8 +38,18 @@ FADED, PERIODS = 5.0, (40, 250)
 REPEATS = 0.02
 """Share of its swing by which it may still change from one period to the next."""
 
-SAMPLES, REACH, LIGHT = 256, 0.4, 3.0
-"""Samples of a period, phase of the fastest oscillation in a step, and times by which what has no inertia is faster."""
+STEPS, REACH, LIGHT = 256, 0.4, 3.0
+"""Steps of a period at least, phase of the fastest oscillation in one, by how much what has no inertia is faster."""
+
+LONGEST, EVERY, RUN = 6, 60, 36
+"""Periods after which a motion is looked at whether it repeats, what divides by all of them, and how many periods are
+followed of one that does not."""
+
+CLOSE, COARSE = 64, 32
+"""Samples of a period, to tell a motion and to follow what does not repeat."""
+
+SETTLED = 0.2
+"""Share by which the swing of what does not repeat may change from one half of that run to the other."""
 
 ALIKE, SAME = 0.03, 1e-4
 """Difference of two motions, over the larger of them, below which it is one: as sought, and exactly."""
@@ -49,9 +60,11 @@ class Beside:
     """A further stable motion of one of many drives: as likely as the one that is told, by how it was reached."""
 
     row: int  # which drive, counted through the leading axes
-    orbit: Orbit  # (1,)
+    orbit: Orbit | None  # (1,); None of what does not repeat
     lowest: Array  # lowest, highest (E,) [N·m]: true extremes of the torque of every element
     highest: Array
+    periods: int = 1  # after how many periods it repeats; 0 where not within `LONGEST`: extremes of a long run
+    runs: bool = False  # whether it is what runs, since no motion of one period is stable
 
     @property
     def swing(self) -> Array:
@@ -68,22 +81,24 @@ def stable_motions(orbit: Orbit, status: Array) -> tuple[Orbit, Array, tuple[Bes
     are sought where play may open, by following the drive in time from swings of the mode next to a multiple of the
     speed until they repeat, and where the motion found is the middle one of three, by harmonic balance from the same
     swings: a search from so many starts, no proof that there are no others. The speed of free drives is held by nothing
-    that is known; of them none is sought.
+    that is known; of them none is sought. With play motions may repeat after several periods only, or not at all, as
+    where the one of one period has doubled: they stand beside the one of one period, and run where that is unstable.
     """
     rows = np.flatnonzero(_several(orbit, status))
     coefficient = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])
     states, pieces = np.array(status).reshape(-1), dict(orbit.pieces)
     beside: list[Beside] = []
-    for row, sums in _searched(orbit, rows):
+    for row, runs in _searched(orbit, rows):
         own = _alone(orbit, row)
         known = [own] if floquet(own).verdict[0] == Verdict.STABLE else []
-        motions = _distinct([*known, *_others(orbit, row, sums)])
+        motions = _distinct([*known, *_others(orbit, row, [one.wave for one in runs if one.periods == 1])])
         every = [Beside(row=row, orbit=one, **_extremes(one)) for one in motions]
+        beside += _longer(orbit, row, runs, every)
         if not every:
             continue
         every.sort(key=lambda one: -float(np.max(one.swing)))
         first, beside = every[0].orbit, beside + every[1:]
-        if first is own:
+        if first is None or first is own:
             continue
         wide = max(coefficient.shape[-1], first.coefficient.shape[-1])
         coefficient = _wide(coefficient, wide)
@@ -110,8 +125,68 @@ def _several(orbit: Orbit, status: Array) -> Array:
     return found
 
 
-def _searched(orbit: Orbit, rows: Array) -> Iterator[tuple[int, Array]]:
-    """Yield rows with the sums (k, R, H+1) to which searches led that began with other swings."""
+def widened(lowest: Array, highest: Array, beside: Sequence[Beside]) -> tuple[Array, Array]:
+    """Return extremes (b, E) with those of motions of several periods, or that do not repeat, where these run."""
+    low, high = lowest.copy(), highest.copy()
+    for one in beside:
+        if one.runs:
+            low[one.row] = np.minimum(low[one.row], one.lowest)
+            high[one.row] = np.maximum(high[one.row], one.highest)
+    return low, high
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class _Run:
+    """Where a search led: a sum (R, H+1) over some periods; of what does not repeat its torques (E,)."""
+
+    wave: Array
+    periods: int = 1
+    lowest: Array | None = None
+    highest: Array | None = None
+
+    def same(self, other: _Run) -> bool:
+        """Tell whether another is alike, be it some periods later."""
+        if self.periods != other.periods:
+            return False
+        turn = 2j * np.pi * np.arange(self.wave.shape[-1]) / self.periods
+        return any(_near(self.wave * np.exp(turn * k), other.wave, ALIKE) for k in range(self.periods))
+
+
+def _longer(orbit: Orbit, row: int, runs: Sequence[_Run], known: Sequence[Beside]) -> list[Beside]:
+    """Return the stable motions of several periods, and the widest of those that do not repeat, beside known ones."""
+    part = orbit.turning.part(np.asarray([row]))
+    found: list[Beside] = []
+
+    def new(lowest: Array, highest: Array, share: float) -> bool:
+        least = share * float(np.max(highest - lowest))
+        every = [(one.lowest, one.highest) for one in (*known, *found)]
+        return not any(max(np.max(abs(a - lowest)), np.max(abs(b - highest))) <= least for a, b in every)
+
+    begun: list[_Run] = []
+    for run in (one for one in runs if one.periods > 1):
+        if any(run.same(other) for other in begun):
+            continue
+        begun.append(run)
+        longer = Turning(part.model, part.angle_error, part.speed, run.periods * part.period)
+        pieces = pieces_near(longer, run.wave)
+        if pieces is None:
+            continue
+        sums = np.pad(fourier_of(pieces, run.periods * LOWER), ((part.first, 0), (0, 0)))
+        alone = _of_one(longer, sums, {0: pieces})
+        ends = _extremes(alone)
+        if floquet(alone).verdict[0] == Verdict.STABLE and new(**ends, share=SAME):
+            found.append(Beside(row=row, orbit=alone, periods=run.periods, **ends))
+    wild = [(one.lowest, one.highest) for one in runs if one.lowest is not None and one.highest is not None]
+    if wild:
+        low, high = max(wild, key=lambda one: float(np.max(one[1] - one[0])))
+        if new(low, high, ALIKE):
+            found.append(Beside(row=row, orbit=None, lowest=low, highest=high, periods=0))
+    found.sort(key=lambda one: -float(np.max(one.swing)))
+    return [replace(one, runs=not known) for one in found]
+
+
+def _searched(orbit: Orbit, rows: Array) -> Iterator[tuple[int, list[_Run]]]:
+    """Yield rows with where searches led that began with other swings."""
     turning = orbit.turning
     loose = np.any(np.broadcast_to(orbit.model.backlash, (*orbit.angle_error, len(orbit.model.elements))) > 0.0, -1)
     open_ = [int(row) for row in rows if loose.reshape(-1)[row]]
@@ -127,11 +202,11 @@ def _searched(orbit: Orbit, rows: Array) -> Iterator[tuple[int, Array]]:
     waves = sums_of(turning.part(np.repeat(smooth, each)), np.concatenate([_wide(one, wide) for one in parts]), how)
     for k, row in enumerate(smooth):
         here = waves.coefficient[k * each : (k + 1) * each]
-        yield row, here[np.isfinite(here).all(axis=(-1, -2))]
+        yield row, [_Run(wave=one) for one in here[np.isfinite(here).all(axis=(-1, -2))]]
 
 
-def _settled(part: Turning, starts: Array) -> Array:
-    """Return the motions of one drive with play that repeat after a while, followed in time, array (k, R, H+1).
+def _settled(part: Turning, starts: Array) -> list[_Run]:
+    """Return what one drive with play does after a while, followed in time.
 
     starts (b, R, h+1), complex: motions whose places and speeds at the angle 0 are those to begin with. What turns
     no inertia gets so little that it swings faster than all else: the search alone follows it.
@@ -155,8 +230,9 @@ def _settled(part: Turning, starts: Array) -> Array:
     speed = np.full(count, float(part.speed[0]))
     q, v = np.vstack([0.0 * speed, place]), np.vstack([speed, rate + speed])
     block = (compiled() if has_numba() else plain).Block(line, lines.begin(line, q, v))
-    steps = SAMPLES * max(1, math.ceil(duration * fastest / (REACH * SAMPLES)))
+    steps = STEPS * max(1, math.ceil(duration * fastest / (REACH * STEPS)))
     periods = min(max(math.ceil(FADED / (decay * duration)), PERIODS[0]), PERIODS[1])
+    periods = EVERY * math.ceil(periods / EVERY)
 
     def advanced(begin: float, taken: int) -> Array:
         """Return what each coordinate is off even rotation, and that of its speed, after some steps."""
@@ -165,16 +241,40 @@ def _settled(part: Turning, starts: Array) -> Array:
         then = begin + taken * duration / steps
         return np.stack([angle[1:] - then * speed, (turning[1:] - speed) / abs(base)])
 
+    def followed(first: int, count: int, samples: int) -> Array:
+        """Return the same at the samples of some periods, each at the end of its step, array (2, R, k, s)."""
+        times = duration * (first + np.arange(count * samples) / samples)
+        return np.stack([advanced(float(time), steps // samples) for time in times], axis=-1)
+
     advanced(0.0, periods * steps)
-    times = duration * (periods + np.arange(SAMPLES) / SAMPLES)
-    path = np.stack([advanced(float(time), steps // SAMPLES) for time in times], axis=-1)
-    after = np.stack([advanced(float(time + duration), steps // SAMPLES) for time in times], axis=-1)
+    path = followed(periods, LONGEST + 1, CLOSE)
     swing = np.max(np.ptp(path[0], axis=-1), axis=0)
-    kept = np.max(np.abs(after - path), axis=(0, 1, 3)) <= REPEATS * swing
-    wave = np.fft.rfft(np.roll(after[0], 1, axis=-1), axis=-1)[..., :LOWER] / SAMPLES
-    wave[..., 1:] *= 2.0
-    found: Array = np.moveaxis(wave, 0, 1)
-    return (found if base > 0.0 else found.conj())[kept & np.isfinite(found).all(axis=(1, 2))]
+    finite = np.isfinite(path).all(axis=(0, 1, 3))
+    found: list[_Run] = []
+    left = finite.copy()
+    for m in range(1, LONGEST + 1):
+        shifted = np.max(np.abs(path[..., m * CLOSE :] - path[..., : -m * CLOSE]), axis=(0, 1, 3))
+        rows = np.flatnonzero(left & (shifted <= REPEATS * swing))
+        left[rows] = False
+        samples = np.roll(path[0][..., : m * CLOSE], 1, axis=-1)[:, rows]
+        wave = np.fft.rfft(samples, axis=-1)[..., : m * LOWER] / (m * CLOSE)
+        wave[..., 1:] *= 2.0
+        found += [_Run(wave=wave[:, k] if base > 0.0 else wave[:, k].conj(), periods=m) for k in range(len(rows))]
+    rows = np.flatnonzero(left)
+    if rows.size:
+        path = followed(periods + LONGEST + 1, RUN, COARSE)[:, :, rows]
+        halves = [np.max(np.ptp(one[0], axis=-1), axis=0) for one in np.split(path, 2, axis=-1)]
+        lasts = np.abs(halves[0] - halves[1]) <= SETTLED * np.maximum(*halves)
+        times = duration * (periods + LONGEST + 1 + (np.arange(RUN * COARSE) + 1) / COARSE)
+        angle = np.pad(np.moveaxis(path[0], 0, -1), ((0, 0), (0, 0), (1, 0)))
+        rate = np.pad(np.moveaxis(path[1] * abs(base), 0, -1), ((0, 0), (0, 0), (1, 0)))
+        torque = element_torques(
+            part.drives(np.zeros(len(rows), dtype=int)), angle + (times * speed[0])[:, None], rate + speed[0]
+        )
+        for k in np.flatnonzero(lasts).tolist():
+            ends = {"lowest": np.min(torque[k], axis=0), "highest": np.max(torque[k], axis=0)}
+            found.append(_Run(wave=np.zeros((len(path[0]), 0)), periods=0, **ends))
+    return found
 
 
 def _starts(orbit: Orbit, row: int) -> Array:
@@ -204,8 +304,8 @@ def _starts(orbit: Orbit, row: int) -> Array:
     return starts
 
 
-def _others(orbit: Orbit, row: int, sums: Array) -> Iterator[Orbit]:
-    """Yield the stable motions of a drive to which sums (k, R, H+1) lead."""
+def _others(orbit: Orbit, row: int, sums: Sequence[Array]) -> Iterator[Orbit]:
+    """Yield the stable motions of one period of a drive to which sums (R, H+1) lead."""
     part = orbit.turning.part(np.asarray([row]))
     loose = bool(np.any(part.model.backlash > 0.0))
     begun: list[Array] = []

@@ -22,7 +22,7 @@ from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_ti
 from cardan.texts import _
 
 from .run_stability import Floquet, floquet, nearest_zone
-from .several import Beside, stable_motions
+from .several import Beside, stable_motions, widened
 from .steady import described, steady_orbits
 from .steady_result import SteadyResponse
 from .two_frequencies import SideBands, grouped, side_bands
@@ -69,7 +69,8 @@ class TorsionResponse:
         The exact motions under the joints and these torques, with the side bands |ν ± 2r|; where there is none, as
         with open backlash, the straight line answers and its amplitudes are added.
     beside : tuple of Beside
-        Further stable motions, each with a smaller swing than the one that is told at its speed.
+        Further stable motions, each with a smaller swing than the one that is told at its speed, or of several periods:
+        where these run, they count in the extremes; orders and stability are those of the motion of one period.
     assumed : tuple of str
         Paths of what the drive does not say and the answer assumes.
     """
@@ -105,8 +106,8 @@ class TorsionResponse:
         for band in self.bands:
             whole = (band.highest if sign > 0.0 else band.lowest).reshape(alone.shape)
             more = more + np.where(band.found.reshape(self.speed.shape)[..., None], whole - alone, 0.0)
-        found: Array = alone + more
-        return found
+        flat = (alone + more).reshape(-1, alone.shape[-1])
+        return widened(flat, flat, self.beside)[int(sign > 0.0)].reshape(alone.shape)
 
     def side_orders(self, share: float) -> list[tuple[float, float]]:
         """Return the side bands with their largest torque, of an element and at a speed, above a share of the whole.
