@@ -2,16 +2,19 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from cardan.answers.data import data
 from cardan.answers.printed import printed
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
+from cardan.catalogue import filled
 from cardan.choices.selection import JointDuty, fitting_sizes, select_joint
 from cardan.choices.selection_answer import answer, ask, lacking, selected
 from cardan.drive.drive import Drive
 from cardan.io import example
+from cardan.questions.life.life import life
 from cardan.texts import speaking
 from cardan.units import deg, rpm
 
@@ -30,8 +33,8 @@ def test_the_job_and_how_many_do_it_stand_first():
 
 def test_every_type_and_size_is_told_in_the_units_of_the_reader():
     said = answer(None, selected(NEED))
-    types, sizes = (printed(one, POUNDS) for one in said.tables)
-    known = [one for one in select_joint(NEED) if one.state != "unrated"]
+    sizes, types = (printed(one, POUNDS) for one in said.tables)
+    known = [one for one in select_joint(NEED) if one.state != "unrated" and not one.headroom < 0.1]
     assert [row[1].text for row in types.rows] == [one.row.id for one in known]
     assert len(data(said, POUNDS)["types"]) == len(select_joint(NEED)) > len(known)
     assert any("lbf·ft" in cell.text for row in types.rows for cell in row)
@@ -46,11 +49,15 @@ def test_no_instrument_joint_is_a_candidate_at_kilonewton_metres():
     found = {one.row.id: one.state for one in select_joint(replace(NEED, torque=5000.0))}
     assert found["instrument_ball_disc"] == "rejected"
     assert found["instrument_ring_tip"] == "unrated"
+    said = answer(None, selected(replace(NEED, torque=5000.0)))
+    shown = [row[1].text for row in printed(said.tables[1], USUAL).rows]
+    assert "instrument_ball_disc" not in shown
+    assert any("instrument_ball_disc" in told(one.text, USUAL) for one in said.remarks)
 
 
 def test_sizes_that_fit_come_first_by_space_and_the_next_smaller_one_says_what_it_lacks():
     need = replace(NEED, torque=1500.0, life=2000 * 3600.0)
-    said = printed(answer(None, selected(need)).tables[1], USUAL)
+    said = printed(answer(None, selected(need)).tables[0], USUAL)
     names = [row[1].text for row in said.rows]
     assert names[0] == "spicer-1610"  # 135 mm over its caps
     short = next(row for row in said.rows if row[1].text == "gwb-687.30")
@@ -65,6 +72,16 @@ def test_a_drive_asks_for_the_largest_of_its_joints_or_for_one():
     drive = example("car-propshaft")
     assert ask(drive).need.joint_angle >= ask(drive, joint=1).need.joint_angle
     assert lacking(Drive.from_angles([0.1])) == (("duty.torque",), ("duty.speed",))
+
+
+@pytest.mark.parametrize("name", ["pickup-two-piece", pytest.param("pto-baler", marks=pytest.mark.slow)])
+def test_a_size_lasts_as_long_as_the_drive_that_has_it(name):
+    """Over load cases, poses and movements: what `life` says of the drive with this size in it."""
+    drive = example(name)
+    found = {one.row.id: one for one in ask(drive).sizes}["spicer-1350"]
+    joints = tuple(replace(one, size="spicer-1350", rating=None) for one in drive.joints)
+    whole = life(filled(replace(drive, joints=joints)), method="maker")
+    assert found.life == pytest.approx(float(np.min(whole.of("maker"))), rel=1e-9)
 
 
 def test_reasons_speak_the_language_of_the_reader():

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
@@ -15,10 +16,12 @@ from cardan.checks import design
 from cardan.checks.moving import along, stood
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.errors import Problem, check
+from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import tops
-from cardan.questions.life.bearing_life import CONVENTIONS, maker_life
+from cardan.questions.life.bearing_life import CONVENTIONS, maker_life, reliability_factor
+from cardan.questions.life.duty_cycle import combined_life
+from cardan.questions.life.life import DutyLoads, duty_loads, mean_life
 from cardan.questions.motion.moving_points import default_times
 from cardan.texts import _
 
@@ -46,6 +49,10 @@ class JointDuty:
         Outer diameter of the joint: then the speed of its rim counts.
     life : float [s], optional
         Running time asked of its bearings.
+    reliability : float
+        Share of the bearings that reach it.
+    loads : tuple of DutyLoads
+        What they carry in every part of the duty; without any, the largest torque at the highest speed all the time.
     """
 
     torque: float
@@ -56,6 +63,8 @@ class JointDuty:
     continuous: bool = True
     outer: float | None = None
     life: float | None = None
+    reliability: float = 0.9
+    loads: tuple[DutyLoads, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         check(
@@ -273,7 +282,18 @@ def joint_duty(
         continuous=used.continuous,
         outer=outer,
         life=used.life,
+        reliability=used.reliability,
+        loads=_loads(whole, own),
     )
+
+
+def _loads(drive: Drive, own: Sequence[int]) -> tuple[DutyLoads, ...]:
+    """Return what some joints carry in every part of the duty; nothing where the duty says too little for that."""
+    try:
+        found = duty_loads(drive)
+    except InputError:
+        return ()
+    return tuple(replace(one, loads=tuple(part.of(own) for part in one.loads)) for one in found)
 
 
 def _top(values: Array) -> float:
@@ -349,19 +369,32 @@ def fitting_sizes(need: JointDuty, *, known: Catalogue | None = None) -> tuple[S
 
 
 def _life(row: JointSize, need: JointDuty) -> float:
-    """Return L10 of the bearings of a size by its maker's formula [s]; nan where it has no rating for it."""
+    """Return the life of the bearings of a size by its maker's formula [s]; nan where it has no rating for it.
+
+    In the worst pose where nobody says how long each lasts, as `cardan.life` has it.
+    """
     rating = row.rating
     if rating is None or rating.torque is None or rating.convention not in CONVENTIONS or not need.speed:
         return math.nan
-    found = maker_life(
-        rating.torque,
-        need.torque,
-        speed=need.speed,
-        joint_angle=need.joint_angle,
-        convention=rating.convention,
-        shock=need.service_factor,
-    )
-    return float(found)
+    lasts = partial(maker_life, rating.torque, convention=rating.convention)
+    factor = float(reliability_factor(need.reliability))
+    if not need.loads:
+        angle, shock = need.joint_angle, need.service_factor
+        return factor * float(lasts(need.torque, speed=need.speed, joint_angle=angle, shock=shock))
+    parts: list[tuple[str, float | None, float, Array]] = []
+    for one in need.loads:
+        lives = [
+            lasts(load.torque, speed=one.speed, joint_angle=load.joint_angle, shock=one.shocks) for load in one.loads
+        ]
+        table = mean_life(lives, one.when)
+        parts += [(one.stand.pose, one.share(part), part.share, table[k]) for k, part in enumerate(one.parts)]
+    unknown = any(share is None for _pose, share, _alone, _life in parts)
+    found = []
+    for pose in dict.fromkeys(pose for pose, *_rest in parts) if unknown else [None]:
+        its = [one for one in parts if pose in (None, one[0])]
+        shares = np.asarray([alone if share is None else share for _pose, share, alone, _life in its])
+        found.append(np.min(combined_life(np.stack([life for *_rest, life in its], axis=-1), shares)))
+    return factor * float(min(found))
 
 
 def _size_reasons(row: JointSize, need: JointDuty, lasts: float) -> Iterator[Reason]:

@@ -24,6 +24,9 @@ TONES: dict[str, Tone] = {"ok": "good", "conditional": "warning", "unrated": "pl
 SHOWN = 12
 """Sizes that fit shown to people; programs get all."""
 
+FAR = 0.1
+"""Torque reserve below which a type is for drives of another kind, and not shown to people either."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Selection:
@@ -66,7 +69,7 @@ def answer(drive: Drive | None, result: Selection) -> Answer:
         title=_("Selection of joints"),
         sentence=_sentence(result),
         tone=tone,
-        tables=(_types(result), *((_sizes(result.sizes, result.need.life is not None),) if result.sizes else ())),
+        tables=_tables(result),
         remarks=(*_remarks(result), *(yokes_estimated(drive) if drive and has_torsion(drive) else ())),
         facts=_facts(result),
         full=lambda: _rows(result),
@@ -89,13 +92,20 @@ def _sentence(result: Selection) -> Say:
     )
 
 
+def _tables(result: Selection) -> tuple[Table, ...]:
+    """Return the sizes, where any comes near, and the types: what fits stands first."""
+    near = _near(result.sizes)
+    tables = [_types(result), *((_sizes(result, near),) if near else ())]
+    return tuple(tables[::-1] if near and near[0].fits else tables)
+
+
 def _said(why: Sequence[Reason]) -> Text:
     return Joined([one.message for one in why], between="; ")
 
 
 def _types(result: Selection) -> Table:
     words = {"ok": _("accepted"), "conditional": _("with conditions"), "rejected": _("rejected")}
-    found = [one for one in result.types if one.state != "unrated"]
+    found = [one for one in result.types if one.state != "unrated" and not one.headroom < FAR]
     why = [reasons(one, result.need) for one in found]
     return Table(
         title=_("Types of joints"),
@@ -138,9 +148,12 @@ def _why(one: SizeFit, asked: bool) -> Text:
 def _near(sizes: Sequence[SizeFit]) -> list[SizeFit]:
     """Return the smallest sizes that fit, and of each of their series the next smaller one, which does not."""
     fits = [one for one in sizes if one.fits][:SHOWN]
-    series = dict.fromkeys(one.row.series for one in fits) if fits else dict.fromkeys(one.row.series for one in sizes)
-    short = [one for one in sizes if not one.fits and not math.isnan(one.headroom)]
-    below = [max((one for one in short if one.row.series == name), key=_strength, default=None) for name in series]
+    below = []
+    for name in dict.fromkeys(one.row.series for one in fits or sizes):
+        own = [one for one in sizes if one.row.series == name and not math.isnan(one.headroom)]
+        least = min((one.headroom for one in own if one.fits), default=math.inf)
+        short = (one for one in own if not one.fits and FAR <= one.headroom < least)
+        below.append(max(short, key=_strength, default=None))
     return [*fits, *(one for one in below if one is not None)]
 
 
@@ -148,8 +161,8 @@ def _strength(one: SizeFit) -> float:
     return one.headroom
 
 
-def _sizes(sizes: Sequence[SizeFit], asked: bool) -> Table:
-    every, sizes = sizes, _near(sizes)
+def _sizes(result: Selection, sizes: Sequence[SizeFit]) -> Table:
+    every, asked = result.sizes, result.need.life is not None
     fits = [(_("fits"), "good") if one.fits else (_("rejected"), "failed") for one in sizes]
     outer = [one.row.space if math.isfinite(one.row.space) else None for one in sizes]
     return Table(
@@ -166,7 +179,7 @@ def _sizes(sizes: Sequence[SizeFit], asked: bool) -> Table:
             Column(key="", heading=_("outer diameter"), values=outer, dimension="length"),
             Column(
                 key="",
-                heading=_("life L10"),
+                heading=_("life"),
                 values=_room([one.life for one in sizes]),
                 dimension="time",
                 unit="h",
@@ -195,11 +208,24 @@ def _remarks(result: Selection) -> Iterator[Remark]:
     if unrated:
         text = _("Their sources give no torque, so these types are not candidates: {types}.")
         yield Remark(text=text.format(types=", ".join(unrated)))
+    weak = [one.row.id for one in result.types if one.state != "unrated" and one.headroom < FAR]
+    if weak:
+        text = _("These types are for far smaller torques: {types}.")
+        yield Remark(text=text.format(types=", ".join(weak)))
     yield Remark(text=_("A figure that the source of a type does not give is a condition: look it up at the maker's."))
+    if result.sizes and not _near(result.sizes):
+        yield Remark(text=_("No size of the catalogue carries a tenth of this torque."))
     if any(one.fits for one in result.sizes):
-        yield Remark(
-            text=_("Life L10 by the maker's formula; cardan strength --size judges a size in a drive by every limit.")
+        text = _(
+            "Life that {share} of the joints reach, by the maker's formula, at the largest torque and speed all the time."
         )
+        if result.need.loads:
+            text = _(
+                "Life that {share} of the joints reach, by the maker's formula over load cases, poses and movements; "
+                "torque reserve and speeds are of the largest."
+            )
+        yield Remark(text=say(text, share=Quantity(result.need.reliability, "share", 6, trim=True)))
+        yield Remark(text=_("cardan strength --size judges a size in a drive by every limit."))
     command = ("cardan", "catalogue", "joint_types", "TYPE")
     yield Remark(text=_("Where every figure comes from:"), command=command, tone="next")
 

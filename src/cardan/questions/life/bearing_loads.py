@@ -51,6 +51,10 @@ class BearingLoads:
     driving: Array
     driven: Array  # (b, n) [(N·m)^(10/3)]
 
+    def of(self, joints: Sequence[int]) -> BearingLoads:
+        """Return the loads of some of the joints, counted from 0."""
+        return BearingLoads(**{name: values[:, list(joints)] for name, values in vars(self).items()})
+
 
 def bearing_loads(
     drive: Drive,

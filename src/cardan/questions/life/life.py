@@ -88,8 +88,8 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
     check(_nothing(bearings, missing))
     chosen = method or _first(bearings)
     factor = float(reliability_factor(used.reliability))
-    stands = [one for one in in_poses(whole) if one.share != 0.0 or _bound(whole, one.pose)]
-    rows = [row for one in stands for row in _rows(one, bearings, factor)]
+    acting = duty_loads(whole)
+    rows = [row for one in acting for row in _rows(one, bearings, factor)]
     unknown = any(row.share is None for row in rows)
     if unknown:
         rows = _worst(rows, chosen)
@@ -110,7 +110,7 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
         uncounted=missing,
         assumed=(*bearings.assumed, *train(drive, kinds=True).assumed),
         worst_pose=(rows[0].pose or _("as drawn")) if unknown else "",
-        moving=any(one.moving for one in stands),
+        moving=any(one.stand.moving for one in acting),
         vibration=tuple(row.vibration for row in rows),
     )
     if bool(np.all(np.isnan(found.joints))):
@@ -145,8 +145,42 @@ def _bound(drive: Drive, pose: str) -> bool:
     return bool(pose) and any(case.pose == pose for case in drive.duty.cases)
 
 
-def _rows(stand: Condition, bearings: JointBearings, factor: float) -> Iterator[_Row]:
-    """Yield what every part of the duty does in a pose: as drawn there, or over the movements in which it acts."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DutyLoads:
+    """What the bearings of the joints carry in some parts of the duty, in one pose and under the same movements."""
+
+    stand: Condition
+    parts: tuple[LoadCase, ...]
+    loads: tuple[BearingLoads, ...]  # as drawn, or at instants of the movements
+    when: Array  # (k,): shares of these instants
+    swung: tuple[DynamicTorque | None, ...]  # torsional vibration in each part
+
+    @property
+    def speed(self) -> Array:
+        """Speeds of the parts, array (b, 1) [rad/s]."""
+        return np.asarray([abs(part.speed or 0.0) for part in self.parts])[:, None]
+
+    @property
+    def shocks(self) -> Array:
+        """Factors for shocks of the parts, array (b, 1)."""
+        return np.asarray([part.shock_factor for part in self.parts])[:, None]
+
+    def share(self, part: LoadCase) -> float | None:
+        """Return the share of the time of a part in this pose; None where no share of the pose is known."""
+        return part.share if part.pose else None if self.stand.share is None else part.share * self.stand.share
+
+
+def duty_loads(drive: Drive) -> tuple[DutyLoads, ...]:
+    """Return what the bearings of the joints carry in every part of the duty, pose and movement.
+
+    drive: with a torque and a speed, else InputError.
+    """
+    stands = [one for one in in_poses(drive) if one.share != 0.0 or _bound(drive, one.pose)]
+    return tuple(found for one in stands for found in _loads(one))
+
+
+def _loads(stand: Condition) -> Iterator[DutyLoads]:
+    """Yield what the bearings carry in a pose: as drawn there, or over the movements in which each part acts."""
     drive, machine = stand.drive, train(stand.drive, kinds=True)
     every, asked, history, _cycles = duty_parts(drive.duty)
     own = [part for part in every if part.pose == stand.pose or (not part.pose and stand.share != 0.0)]
@@ -158,27 +192,30 @@ def _rows(stand: Condition, bearings: JointBearings, factor: float) -> Iterator[
             stood, when = standing(replace(drive, movements=moves), machine)
         swung = [None if history else steady_torque(under(drive, _acting(one, asked))) for one in parts]
         loads = [bearing_loads(drive, one, asked, parts, drawn=machine, vibrating=swung) for one in stood]
-        speed = np.asarray([abs(part.speed or 0.0) for part in parts])[:, None]
-        shocks = np.asarray([part.shock_factor for part in parts])[:, None]
-        lives = [_lives(one, bearings, speed, shocks, factor) for one in loads]
-        table = {name: _mean_life([one[name] for one in lives], when) for name in lives[0]}
-        joint_angles, torques = (np.stack([getattr(one, name) for one in loads]) for name in ("joint_angle", "torque"))
-        table["torque"] = torques[0]
-        if len(loads) > 1:
-            flat = np.moveaxis(torques, 0, -1), when
-            table["torque"] = equivalent_torque(
-                *flat, speed=speed[..., None], joint_angle=np.moveaxis(joint_angles, 0, -1)
-            )
-        table["joint_angle"] = np.average(joint_angles, axis=0, weights=when)
-        table["journal_force"] = shocks * np.max([one.couple for one in loads], axis=0) / bearings.span
-        with np.errstate(divide="ignore", invalid="ignore"):
-            grown = [math.nan if one is None else _growth(one) for one in swung]
-        for k, part in enumerate(parts):
-            path = "" if stand.pose else part.path
-            named = replace(part, name=replace(stand, case=part.name).name, path=path)
-            share = part.share if part.pose else None if stand.share is None else part.share * stand.share
-            row = {name: values[k] for name, values in table.items()}
-            yield _Row(part=named, pose=stand.pose, share=share, vibration=grown[k], **row)
+        yield DutyLoads(stand=stand, parts=parts, loads=tuple(loads), when=when, swung=tuple(swung))
+
+
+def _rows(acting: DutyLoads, bearings: JointBearings, factor: float) -> Iterator[_Row]:
+    """Yield what every part of the duty does in a pose."""
+    stand, loads, when, shocks = acting.stand, acting.loads, acting.when, acting.shocks
+    lives = [_lives(one, bearings, acting.speed, shocks, factor) for one in loads]
+    table = {name: mean_life([one[name] for one in lives], when) for name in lives[0]}
+    joint_angles, torques = (np.stack([getattr(one, name) for one in loads]) for name in ("joint_angle", "torque"))
+    table["torque"] = torques[0]
+    if len(loads) > 1:
+        flat = np.moveaxis(torques, 0, -1), when
+        table["torque"] = equivalent_torque(
+            *flat, speed=acting.speed[..., None], joint_angle=np.moveaxis(joint_angles, 0, -1)
+        )
+    table["joint_angle"] = np.average(joint_angles, axis=0, weights=when)
+    table["journal_force"] = shocks * np.max([one.couple for one in loads], axis=0) / bearings.span
+    with np.errstate(divide="ignore", invalid="ignore"):
+        grown = [math.nan if one is None else _growth(one) for one in acting.swung]
+    for k, part in enumerate(acting.parts):
+        path = "" if stand.pose else part.path
+        named = replace(part, name=replace(stand, case=part.name).name, path=path)
+        row = {name: values[k] for name, values in table.items()}
+        yield _Row(part=named, pose=stand.pose, share=acting.share(part), vibration=grown[k], **row)
 
 
 def _acting(part: LoadCase, asked: Duty) -> LoadCase:
@@ -192,7 +229,7 @@ def _growth(found: DynamicTorque) -> float:
     return float(np.max(0.5 * (found.high[0] - found.low[0]) / mean))
 
 
-def _mean_life(lives: Sequence[Array], shares: Array) -> Array:
+def mean_life(lives: Sequence[Array], shares: Array) -> Array:
     """Return the life over times with these lives (b, n) and these shares: their rates of damage have a mean."""
     if len(lives) == 1:
         return lives[0]

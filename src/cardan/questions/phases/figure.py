@@ -137,7 +137,7 @@ def _disk(one: YokeSetting, reach: float, *, named: bool, best: bool) -> Panel:
         )
     name = _("setting {label}").format(label=one.label) if best else one.label
     span = Axis(low=-reach, high=reach)
-    title = say(_("{name}: leaves {share}"), name=name, share=Quantity(one.speed_fluctuation, "share", 3))
+    title = say(_("{name}: {share}"), name=name, share=Quantity(one.speed_fluctuation, "share", 3))
     return Panel(series=(*rings, *sides, middle), x=span, y=span, title=title, equal=True, bare=True)
 
 
