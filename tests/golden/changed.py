@@ -36,6 +36,8 @@ SIGN = "of a shape that is alike both ways the first peak counts; rounding had d
 
 SEVERAL = "with open backlash stable motions are found where none was; told is that of the largest alternating torque"
 
+LASTS = "a size lasts over load cases, poses and movements, with the reliability asked, and not at the peak throughout"
+
 GUIDES = "limits and factors of practice stand beside the other tables"
 
 DIGITS = "joint angles at a speed have the digits of Spicer's table, in twelfths of a degree, and no longer tenths"
@@ -79,6 +81,9 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         RATED,
     ),
     (r"select examples/truck-power-unit", r"(need|sizes|types)\..*", BANDS),
+    (r"select examples/", r"sizes\.life_h", LASTS),
+    (r"select examples/(car|composite)-propshaft", r"sizes\.(fits|headroom|reasons\..*)", LASTS),
+    (r"select examples/(mill-spindle|pto-drive)", r"sizes\.reasons\.value", LASTS),
     (
         r"(check|strength) examples/(front-halfshaft|propshaft-with-rzeppa)",
         r"(verdicts|limits)\.(advice|limit|utilisation|value)",
