@@ -82,7 +82,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
     ),
     (r"select examples/truck-power-unit", r"(need|sizes|types)\..*", BANDS),
     (r"select examples/", r"sizes\.life_h", LASTS),
-    (r"select examples/(car|composite)-propshaft", r"sizes\.(fits|headroom|reasons\..*)", LASTS),
+    (r"select examples/((car|composite)-propshaft|truck-duty-cycle)", r"sizes\.(fits|headroom|reasons\..*)", LASTS),
     (r"select examples/(mill-spindle|pto-drive)", r"sizes\.reasons\.value", LASTS),
     (
         r"(check|strength) examples/(front-halfshaft|propshaft-with-rzeppa)",

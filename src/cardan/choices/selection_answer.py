@@ -217,7 +217,7 @@ def _remarks(result: Selection) -> Iterator[Remark]:
         yield Remark(text=_("No size of the catalogue carries a tenth of this torque."))
     if any(one.fits for one in result.sizes):
         text = _(
-            "Life that {share} of the joints reach, by the maker's formula, at the largest torque and speed all the time."
+            "Life that {share} of the joints reach, by the maker's formula, at the largest torque and speed throughout."
         )
         if result.need.loads:
             text = _(
