@@ -40,6 +40,7 @@ WITH = {
     "pto-flywheel": {"torsion", "run-up", "bending", "line", "balance"},
     "pto-flywheel-absorber": {"torsion", "run-up", "bending", "line", "balance"},
     "pto-baler": {"torsion", "bending", "line", "balance"},
+    "front-halfshaft": {"losses"},
     "unstable-drive": {"torsion"},
     "cured-drive": {"torsion"},
     "car-propshaft": {"bending", "line", "rotor", "balance"},
