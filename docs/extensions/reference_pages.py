@@ -86,6 +86,16 @@ SHOWN = {
         "mass_kg",
         "confidence",
     ),
+    "bearings": (
+        "id",
+        "bore_mm",
+        "outer_mm",
+        "width_mm",
+        "capacity_N",
+        "static_capacity_N",
+        "max_speed_rpm",
+        "confidence",
+    ),
     "faults": ("id", "fault", "orders", "torque_sensitive", "source", "confidence"),
 }
 """Keys of tables that are too wide to show whole."""

@@ -30,6 +30,7 @@ SHOWN = {
         "rating.max_joint_angle_deg",
         "rating.max_speed_rpm",
     ),
+    "bearings": ("bore_mm", "outer_mm", "width_mm", "capacity_N", "static_capacity_N", "max_speed_rpm", "mass_kg"),
     "faults": ("orders", "torque_sensitive", "flags"),
 }
 """Table -> keys that stand for people, where not all of them fit."""

@@ -36,7 +36,7 @@ STRENGTH = re.compile(r"[sepl](\d{3})(?!\d)")
 
 STEEL = 7000.0  # what metals that count as steel weigh at least [kg/m³]
 
-FILES = ("materials", "joint_types", "example_sizes", "joint_sizes", "norms", "limits", "factors", "faults")
+FILES = ("materials", "joint_types", "example_sizes", "joint_sizes", "bearings", "norms", "limits", "factors", "faults")
 """Shipped files, beside this one; rows of one table may stand in several."""
 
 

@@ -1,4 +1,4 @@
-"""Names in a drive and what the catalogue says of them: materials by grade, joints by size."""
+"""Names in a drive and what the catalogue says of them: materials by grade, joints by size, bearings of supports."""
 
 from __future__ import annotations
 
@@ -11,14 +11,18 @@ from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint, other_kinds
 from cardan.drive.material import Material
 from cardan.drive.shaft import Ply
+from cardan.drive.support import Support
 from cardan.errors import InputError, Problem, check
 from cardan.texts import _
 
 from .catalogue import Catalogue, catalogue, material, ply
-from .rows import JointSize, JointType
+from .rows import Bearing, JointSize, JointType
 
 SIZED = ("mass", "cross", "needles", "yoke", "rating")
 """Fields of a joint that a size of the catalogue fills where the drive does not give them."""
+
+BORNE = ("bore", "capacity", "static_capacity", "max_speed")
+"""Fields of a support that its bearing fills."""
 
 
 def completed(drive: Drive, known: Catalogue | None = None) -> Drive:
@@ -36,7 +40,8 @@ def completed(drive: Drive, known: Catalogue | None = None) -> Drive:
     problems = list(_unknown(drive, rows))
     check(problems)
     joints = tuple(_sized(joint, rows) for joint in drive.joints)
-    whole: Drive = _graded(replace(drive, joints=joints), rows)
+    supports = tuple(_borne(support, rows) for support in drive.supports)
+    whole: Drive = _graded(replace(drive, joints=joints, supports=supports), rows)
     return whole
 
 
@@ -57,7 +62,8 @@ def filled(drive: Drive, known: Catalogue | None = None) -> Drive:
 def sized(drive: Drive, known: Catalogue | None = None) -> Drive:
     """Return a drive completed for a picture: one whose joints name sizes that nobody knows is drawn without them."""
     with suppress(InputError):
-        return filled(drive, known) if any(joint.size for joint in drive.joints) else drive
+        named = any(joint.size for joint in drive.joints) or any(one.bearing for one in drive.supports)
+        return filled(drive, known) if named else drive
     return drive
 
 
@@ -68,7 +74,11 @@ def shortened(drive: Drive, known: Catalogue | None = None) -> Drive:
     """
     rows = known or catalogue()
     bare: Drive = _ungraded(drive, rows)
-    return replace(bare, joints=tuple(_unsized(joint, rows) for joint in drive.joints))
+    return replace(
+        bare,
+        joints=tuple(_unsized(joint, rows) for joint in drive.joints),
+        supports=tuple(_unborne(support, rows) for support in drive.supports),
+    )
 
 
 def _unknown(drive: Drive, rows: Catalogue) -> Iterator[Problem]:
@@ -89,6 +99,12 @@ def _unknown(drive: Drive, rows: Catalogue) -> Iterator[Problem]:
             text = _("{type} is a type of kind {kinds}, and this joint is of kind {kind}")
             said = text.format(type=repr(joint.type), kinds=", ".join(others), kind=joint.in_words())
             yield Problem(f"joints[{i}].type", said, "inconsistent")
+    for k, support in enumerate(drive.supports):
+        try:
+            if support.bearing:
+                rows.row(Bearing, support.bearing, field=f"supports[{k}].bearing")
+        except InputError as error:
+            yield from error.problems
 
 
 def _filled_in(thing: Material | Ply, rows: Catalogue, path: str = "") -> Material | Ply:
@@ -134,6 +150,20 @@ def _over(given: Any, usual: Any) -> Any:
     blank = {one.name: one.default for one in fields(given)}
     missing = [name for name, default in blank.items() if getattr(given, name) == default]
     return replace(given, **{name: getattr(usual, name) for name in missing})
+
+
+def _borne(support: Support, rows: Catalogue) -> Support:
+    if not support.bearing:
+        return support
+    row = rows.row(Bearing, support.bearing)
+    return replace(support, **{name: _over(getattr(support, name), getattr(row, name)) for name in BORNE})
+
+
+def _unborne(support: Support, rows: Catalogue) -> Support:
+    row = rows.rows(Bearing).get(support.bearing)
+    if row is None:
+        return support
+    return replace(support, **{name: _under(getattr(support, name), getattr(row, name), rows) for name in BORNE})
 
 
 def _unsized(joint: Joint, rows: Catalogue) -> Joint:

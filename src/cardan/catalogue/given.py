@@ -35,7 +35,7 @@ SHOWN = {
 
 
 FILLED = (
-    *("type", "mass", "span", "journal", "capacity", "static_capacity", "yield_strength", "ultimate_strength"),
+    *("type", "mass", "span", "journal", "bore", "capacity", "static_capacity", "yield_strength", "ultimate_strength"),
     *(one.name for one in fields(Rating)),
 )
 """Names of the keys that are shown too where the catalogue fills them in; others only where the file gives them."""
@@ -84,6 +84,7 @@ def sources(drive: Drive, known: Catalogue | None = None) -> Iterator[Text]:
     paths = [
         *(path for k, one in enumerate(whole.joints) for path, _words, _value in _leaves(one, f"joints[{k}]")),
         *(path for k, one in enumerate(whole.shafts) for path, _words, _value in _leaves(one, f"shafts[{k}]")),
+        *(path for k, one in enumerate(whole.supports) for path, _words, _value in _leaves(one, f"supports[{k}]")),
     ]
     text = _("{row}: {source}; {sure}.")
     for row in rows_behind(whole, rows, *paths):

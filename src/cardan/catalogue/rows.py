@@ -204,6 +204,22 @@ class JointSize(Row):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class Bearing(Row):
+    """A deep groove ball bearing, as it is sealed."""
+
+    bore: float = quantity("length", doc="bore", above=0.0)
+    outer: float = quantity("length", doc="outer diameter", above=0.0)
+    width: float = quantity("length", doc="width", above=0.0)
+    capacity: float = quantity("force", doc="dynamic capacity C", above=0.0)
+    static_capacity: float = quantity("force", doc="static capacity C0", above=0.0)
+    max_speed: float | None = quantity("angular_speed", None, doc="limiting speed as it is sealed", above=0.0)
+    mass: float | None = quantity("mass", None, doc="mass", above=0.0)
+
+    def __post_init__(self) -> None:
+        check(_below(self.outer, self.bore, "outer", _("is below the bore")))
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class AngleNorm(Row):
     """Largest angular accelerations that unequal joint angles may cause."""
 
@@ -342,6 +358,7 @@ TABLES: dict[str, type[Row]] = {
     "laminae": Lamina,
     "joint_types": JointType,
     "joint_sizes": JointSize,
+    "bearings": Bearing,
     "angle_norms": AngleNorm,
     "speed_angle_limits": SpeedAngleLimit,
     "max_joint_angles": MaxJointAngle,

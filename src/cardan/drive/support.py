@@ -34,6 +34,13 @@ class Support:
     )
     axial_stiffness: float | None = quantity("stiffness", None, doc="axial stiffness", above=0.0)
     tilt_stiffness: float | None = quantity("turning_stiffness", None, doc="stiffness against tilting", above=0.0)
+    bearing: str = plain(
+        "",
+        doc="ball bearing, a row of the catalogue: 6208, or 6208-2RS with contact seals; brings bore and ratings",
+    )
+    capacity: float | None = quantity("force", None, doc="dynamic capacity C of its ball bearing", above=0.0)
+    static_capacity: float | None = quantity("force", None, doc="static capacity C0 of its ball bearing", above=0.0)
+    max_speed: float | None = quantity("angular_speed", None, doc="limiting speed of its bearing", above=0.0)
     bore: float | None = quantity("length", None, doc="diameter at which its friction acts", above=0.0)
     friction: float | None = plain(None, doc="coefficient of friction, at the diameter `bore`", low=0.0)
     offset: Point = quantity("length", (0.0, 0.0, 0.0), doc="displacement of the housing there [x, y, z]")

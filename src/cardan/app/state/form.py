@@ -24,7 +24,13 @@ Sort: TypeAlias = Literal[
 
 LONG = ("note",)  # texts of several lines
 
-OFFERED = {"type": "joint_types", "size": "joint_sizes", "grade": "materials", "norm": "angle_norms"}
+OFFERED = {
+    "type": "joint_types",
+    "size": "joint_sizes",
+    "bearing": "bearings",
+    "grade": "materials",
+    "norm": "angle_norms",
+}
 """Field -> table of the catalogue whose rows it may name."""
 
 

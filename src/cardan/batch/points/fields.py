@@ -143,7 +143,7 @@ class Maker:
     @cached_property
     def _bare(self) -> Drive:
         """The drive as its file says it, so that a size that varies brings its own figures."""
-        named = any(one.bare.endswith((".size", ".type", ".grade")) for one in self.spots)
+        named = any(one.bare.endswith((".size", ".type", ".grade", ".bearing")) for one in self.spots)
         return shortened(self.drive, self.known) if named else self.drive
 
     def drive_at(self, values: Mapping[str, Any]) -> Drive:

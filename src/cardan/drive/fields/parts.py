@@ -170,7 +170,7 @@ def _support(support: Support, joints: int, length: dict[int, float], path: str)
     ):
         if getattr(support, name) is not None and not there:
             yield Problem(f"{path}.{name}", _("counts only with {needs} = true").format(needs=needs))
-    if support.friction is not None and support.bore is None:
+    if support.friction is not None and support.bore is None and not support.bearing:
         yield Problem(f"{path}.bore", _("missing: friction acts at the bore"))
 
 
