@@ -1,9 +1,9 @@
-"""What there is to say of the life of the joints: lives side by side, parts of the duty cycle, what to mind."""
+"""What there is to say of the life of joints and supports: lives side by side, parts of the duty, what to mind."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -20,6 +20,8 @@ from cardan.drive.fields.keys import in_a_joint, spelled
 from cardan.drive.fields.paths import written
 from cardan.drive.torsional_layout import has_torsion
 from cardan.drive.yokes import yokes_estimated
+from cardan.formulas.ball_bearing import POWER
+from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.texts import _, mark
 
@@ -28,11 +30,15 @@ from .joint_bearings import joint_bearings
 from .life import life as ask
 from .life_cautions import LEAST
 from .lives import METHODS, Life
+from .support_loads import SupportLives, rated_supports
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
 RATED = ("needles.capacity", "needles.count", "cross.span", "rating.torque")
 """Fields of a joint that its life rests on."""
+
+BORNE = ("capacity", "static_capacity")
+"""Fields of a support that the life of its bearing rests on."""
 
 PARTLY = ("duty.cases", "duty.blocks", "duty.torque_history")
 """Duties in parts, that stand for one torque and one speed."""
@@ -45,12 +51,12 @@ CLOSE = 0.9
 
 
 def lacking(drive: Drive) -> Lacking:
-    """Return what the drive file lacks for the life of its joints."""
+    """Return what the drive file lacks for the life of its joints and supports."""
     duty = drive.duty
     timed = [case for case in load_cases(duty) if case.share > 0.0 and case.path != "duty"]
     parts = bool(timed) or duty.torque_history is not None
     own = joint_bearings(drive)[0]
-    rated = bool(np.any(own.rated) or any(own.convention))
+    rated = bool(np.any(own.rated) or any(own.convention) or rated_supports(drive)[0])
     cross = absent(
         (not np.all(np.isnan(own.span)), *in_a_joint(drive, "cross", ".span")),
         (not np.all(np.isnan(own.capacity)), *in_a_joint(drive, "needles", ".capacity")),
@@ -66,7 +72,7 @@ def lacking(drive: Drive) -> Lacking:
 
 
 def answer(drive: Drive, result: Life) -> Answer:
-    """Return what there is to say of the life of the joints of a drive."""
+    """Return what there is to say of the life of the joints and supports of a drive."""
     tone: Tone = "plain" if result.enough is None else "good" if result.enough else "failed"
     loose = _unconfirmed(drive)
     if loose and tone == "good":
@@ -77,7 +83,7 @@ def answer(drive: Drive, result: Life) -> Answer:
         sentence=_sentence(drive, result),
         tone=tone,
         figures=lambda: life_figures(result),
-        tables=(_joints(drive, result), *_duty_cycle(result)),
+        tables=(_joints(drive, result), *_supports(drive, result), *_duty_cycle(result)),
         remarks=(*_remarks(drive, result, loose), *(yokes_estimated(drive) if has_torsion(drive) else ())),
         keys=tuple(_keys(result, loose)),
         facts={**_facts(result), "provenance": loose},
@@ -89,7 +95,8 @@ def answer(drive: Drive, result: Life) -> Answer:
 def _unconfirmed(drive: Drive) -> tuple[str, ...]:
     """Return in words the sizes that the lives rest on and that nothing confirms."""
     whole = filled(drive)
-    paths = (f"joints[{i}].{name}" for i in range(len(whole.joints)) for name in RATED)
+    paths = [f"joints[{i}].{name}" for i in range(len(whole.joints)) for name in RATED]
+    paths += [f"supports[{k}].{name}" for k in range(len(whole.supports)) for name in BORNE]
     return unconfirmed(rows_behind(whole, catalogue(), *paths))
 
 
@@ -100,6 +107,15 @@ def _hours(seconds: float) -> Quantity:
 def _sentence(drive: Drive, result: Life) -> Say:
     if math.isinf(result.drive):
         return say(_("nothing wears; no joint both oscillates and carries torque."))
+    number = result.governing_support
+    if number:
+        held = {"support": numbered(number, drive.supports[number - 1].name), "life": _hours(result.drive)}
+        if result.demanded is None:
+            return say(_("support {support} fails first, after {life}."), **held)
+        text = _("too short; support {support} fails after {life}, and {asked} are asked for.")
+        if result.enough:
+            text = _("lasts; support {support} fails first, after {life}, and {asked} are asked for.")
+        return say(text, asked=_hours(result.demanded), **held)
     joint = numbered(result.governing, drive.joints[result.governing - 1].name)
     values = {"joint": joint, "life": _hours(result.drive)}
     if result.demanded is None:
@@ -176,6 +192,54 @@ def _joints(drive: Drive, result: Life) -> Table:
     )
 
 
+def _supports(drive: Drive, result: Life) -> Iterator[Table]:
+    """Yield the table of the bearings of the supports, where any is rated."""
+    if result.supports is None:
+        return
+    own, loads = result.supports, result.supports.loads
+    supports = [drive.supports[number - 1] for number in own.number]
+    names = [f"{number} {one.name}".strip() for number, one in zip(own.number, supports, strict=True)]
+    most = {name: np.max(getattr(loads, name), axis=0) for name in ("radial", "axial", "static")}
+    axial = [float(force) if one.axial else None for force, one in zip(most["axial"], supports, strict=True)]
+    yield Table(
+        name="supports",
+        title=_("Bearings of the supports"),
+        records=True,
+        columns=(
+            Column(key="", heading=_("support"), values=names, left=True),
+            Column(key="number", values=list(own.number), depth="data"),
+            Column(key="name", values=[one.name for one in supports], depth="data"),
+            Column(key="bearing", heading=_("bearing"), values=[one.bearing for one in supports], left=True),
+            Column(key="radial_force", heading=_("radial, largest"), values=most["radial"], dimension="force"),
+            Column(key="axial_force", heading=_("axial, largest"), values=axial, dimension="force"),
+            Column(
+                key="equivalent_load", heading=_("equivalent load"), values=_equivalent(result, own), dimension="force"
+            ),
+            Column(key="capacity", heading=_("dynamic capacity"), values=own.capacity, dimension="force"),
+            Column(key="static_safety", heading=_("static safety"), values=_safety(own, most["static"]), decimals=1),
+            Column(key="life", heading=_("life"), values=result.of_supports, dimension="duration"),
+        ),
+        note=_(
+            "Equivalent load: the constant radial one that damages as much, ISO 281; static safety: C0/P0 at the "
+            "largest load, ISO 76."
+        ),
+    )
+
+
+def _equivalent(result: Life, own: SupportLives) -> Array:
+    """Return the constant load of each bearing that damages as much as the whole duty, array (m,) [N]."""
+    speed = np.asarray([abs(part.speed or 0.0) for part in result.parts])
+    rate = (result.share * speed)[:, None]
+    found: Array = (np.sum(rate * own.loads.load**POWER, axis=0) / np.sum(rate)) ** (1.0 / POWER)
+    return found
+
+
+def _safety(own: SupportLives, load: Array) -> list[float | None]:
+    """Return the static capacity of each bearing over its largest load at rest; None where one of them is none."""
+    pairs = zip(own.static_capacity.tolist(), load.tolist(), strict=True)
+    return [capacity / most if most > 0.0 and not math.isnan(capacity) else None for capacity, most in pairs]
+
+
 def _duty_cycle(result: Life) -> Iterator[Table]:
     """Yield the table of the parts of a duty cycle, where there are several and not too many."""
     if not 1 < len(result.parts) <= SHOWN:
@@ -198,33 +262,68 @@ def _duty_cycle(result: Life) -> Iterator[Table]:
                 )
                 for i, damage in enumerate(result.damage.T, 1)
             ),
+            *(
+                Column(
+                    key=f"support_{number}_damage",
+                    heading=_("support {number}").format(number=number),
+                    values=damage,
+                    dimension="share",
+                    decimals=1,
+                )
+                for number, damage in zip(_numbers(result), result.support_damage.T, strict=True)
+            ),
         ),
     )
 
 
+def _numbers(result: Life) -> tuple[int, ...]:
+    """Return the numbers of the supports whose bearings are rated."""
+    return () if result.supports is None else result.supports.number
+
+
 def _everything(result: Life) -> Table:
-    """Return every part and joint."""
+    """Return every part, with every joint and the bearing of every support that has one."""
+    held = _numbers(result)
     parts, joints = result.joint_angle.shape
-    every: Mapping[str, tuple[Any, str]] = {
-        "share": (np.repeat(result.share, joints), "share"),
-        "torque": (np.repeat([part.torque for part in result.parts], joints), "torque"),
-        "speed": (np.repeat([part.speed for part in result.parts], joints), "angular_speed"),
-        "joint_torque": (result.torque, "torque"),
-        "joint_angle": (result.joint_angle, "angle"),
-        "journal_force": (result.journal_force, "force"),
-        "iso_driving": (result.driving, "duration"),
-        "iso_driven": (result.driven, "duration"),
-        "simple": (result.simple, "duration"),
-        "maker": (result.maker, "duration"),
-        "book": (result.book, "duration"),
-        "damage": (result.damage, "share"),
+    count = joints + len(held)
+    every: dict[str, tuple[Any, str]] = {
+        "share": (np.repeat(result.share, count), "share"),
+        "torque": (np.repeat([part.torque for part in result.parts], count), "torque"),
+        "speed": (np.repeat([part.speed for part in result.parts], count), "angular_speed"),
+        **{
+            name: (np.pad(values, ((0, 0), (0, len(held))), constant_values=np.nan), unit)
+            for name, (values, unit) in {
+                "joint_torque": (result.torque, "torque"),
+                "joint_angle": (result.joint_angle, "angle"),
+                "journal_force": (result.journal_force, "force"),
+                "iso_driving": (result.driving, "duration"),
+                "iso_driven": (result.driven, "duration"),
+                "simple": (result.simple, "duration"),
+                "maker": (result.maker, "duration"),
+                "book": (result.book, "duration"),
+            }.items()
+        },
+        "damage": (np.append(result.damage, result.support_damage, axis=1), "share"),
     }
+    if result.supports is not None:
+        loads = result.supports.loads
+        every |= {
+            name: (np.pad(values, ((0, 0), (joints, 0)), constant_values=np.nan), unit)
+            for name, (values, unit) in {
+                "radial_force": (loads.radial, "force"),
+                "axial_force": (loads.axial, "force"),
+                "equivalent_load": (loads.load, "force"),
+                "support_life": (loads.life, "duration"),
+            }.items()
+        }
+    numbers = [*range(1, joints + 1), *(None for _one in held)]
     return Table(
         name="parts",
         columns=(
-            Column(key="part", values=np.repeat(np.arange(1, parts + 1), joints)),
-            Column(key="condition", values=np.repeat(part_names(result), joints).tolist()),
-            Column(key="joint", values=np.tile(np.arange(1, joints + 1), parts)),
+            Column(key="part", values=np.repeat(np.arange(1, parts + 1), count)),
+            Column(key="condition", values=np.repeat(part_names(result), count).tolist()),
+            Column(key="joint", values=numbers * parts),
+            *((Column(key="support", values=[*(None for _one in range(joints)), *held] * parts),) if held else ()),
             *(Column(key=key, values=np.ravel(values), dimension=unit) for key, (values, unit) in every.items()),
         ),
     )
@@ -232,12 +331,11 @@ def _everything(result: Life) -> Table:
 
 def _remarks(drive: Drive, result: Life, loose: tuple[str, ...]) -> Iterator[Remark]:
     if result.enough is False:
-        i = result.governing - 1
-        need = float(result.needed_capacity[i])
+        need, now = _needed(result)
         text = _("Failed: it would last with {share} of its loads.")
         if math.isfinite(need):
             text = _("Failed: it would last with {share} of its loads, or with a capacity of {need} instead of {now}.")
-        values = {"need": Quantity(need, "force"), "now": Quantity(float(result.bearings.capacity[i]), "force")}
+        values = {"need": Quantity(need, "force"), "now": Quantity(now, "force")}
         share = Quantity(result.torque_margin, "share")
         yield Remark(text=say(text, share=share, **values), tone="failed", alarm=True)
     if loose:
@@ -255,6 +353,12 @@ def _remarks(drive: Drive, result: Life, loose: tuple[str, ...]) -> Iterator[Rem
         yield Remark(text=say(text, count=Quantity(result.cycles.total, trim=True), **told))
     yield from _conditions(result)
     yield _vibration(drive, result)
+    if result.supports is not None:
+        text = _(
+            "Forces on the supports count weights where masses are given; torsional vibration and unbalance are not in "
+            "them."
+        )
+        yield Remark(text=text, once=True, code="support_forces")
     yield from _cautions(result)
     for one in result.uncounted:
         if not one.key:
@@ -266,6 +370,16 @@ def _remarks(drive: Drive, result: Life, loose: tuple[str, ...]) -> Iterator[Rem
     if len(result.parts) > 1:
         text = _("Every part on its own, joint by joint:")
         yield Remark(text=text, command=("cardan", "life", FILE, "--csv"), tone="next")
+
+
+def _needed(result: Life) -> tuple[float, float]:
+    """Return the dynamic capacity that what fails first needs for the life asked for, and the one it has [N]."""
+    number, own = result.governing_support, result.supports
+    if own is None or not number:
+        i = result.governing - 1
+        return float(result.needed_capacity[i]), float(result.bearings.capacity[i])
+    now = float(own.capacity[own.number.index(number)])
+    return now * float((result.demanded or 0.0) / result.drive) ** (1.0 / POWER), now
 
 
 def _conditions(result: Life) -> Iterator[Remark]:
@@ -280,16 +394,21 @@ def _conditions(result: Life) -> Iterator[Remark]:
         )
     named = [bool(part.name) for part in result.parts]
     if len(named) > 1 and sum(named) >= len(named) - 1:
-        damage = result.damage[:, result.governing - 1]
+        damage, number = result.first_damage, result.governing_support
         k = int(foremost(damage))
         text = _(
             "Most damage to joint {joint} arises in this condition: {condition}; {damage} of it in {share} of the time."
         )
+        if number:
+            text = _(
+                "Most damage to support {joint} arises in this condition: {condition}; {damage} of it in {share} of "
+                "the time."
+            )
         values = {
             "damage": Quantity(float(damage[k]), "share", 3),
             "share": Quantity(float(result.share[k]), "share", 3),
         }
-        said = say(text, joint=result.governing, condition=part_names(result)[k], **values)
+        said = say(text, joint=number or result.governing, condition=part_names(result)[k], **values)
         yield Remark(text=said, code="governing_condition")
     if result.moving:
         yield Remark(text=_("Damage is summed over the movement; joint angles and torques are its means."))
@@ -337,6 +456,11 @@ def _keys(result: Life, loose: tuple[str, ...]) -> Iterator[KeyFigure]:
     if not math.isfinite(result.drive):
         return
     title, place = _("life of the joint that fails first"), say(_("joint {number}"), number=result.governing)
+    if result.governing_support:
+        title, place = (
+            _("life of the support that fails first"),
+            say(_("support {number}"), number=result.governing_support),
+        )
     if result.demanded is None:
         yield KeyFigure(name="life", title=title, place=place, value=_hours(result.drive), better="more")
         return
@@ -352,7 +476,7 @@ def _keys(result: Life, loose: tuple[str, ...]) -> Iterator[KeyFigure]:
         better="more",
         tone=tone,
         verdict={"failed": _("too short"), "warning": near, "good": _("passed")}[tone],
-        check="bearing_life",
+        check="support_life" if result.governing_support else "bearing_life",
     )
 
 
@@ -360,7 +484,8 @@ def _facts(result: Life) -> dict[str, Any]:
     facts: dict[str, Any] = {
         "method": result.method,
         "life": _hours(result.drive),
-        "governing_joint": result.governing,
+        "governing_joint": None if result.governing_support else result.governing,
+        "governing_support": result.governing_support or None,
         "demanded": None if result.demanded is None else _hours(result.demanded),
         "enough": result.enough,
         "torque_margin": result.torque_margin,
@@ -394,7 +519,7 @@ def _facts(result: Life) -> dict[str, Any]:
 COLUMNS = (
     SweepQuestion(
         name="life",
-        doc=mark("life of the bearings of the joints, the shortest of them"),
+        doc=mark("life of the bearings of joints and supports, the shortest of them"),
         told=(OutputColumn(name="life_h", dimension="time", unit="h", text=mark("life of the drive")),),
         of_one=lambda drive: (ask(drive).drive,),
         counts=("pose", "movement", "case"),

@@ -48,6 +48,9 @@ LEAST = 0.05
 LINE_SLOPE = 9.0 / 8.0
 """Slope of Weibull's line of bearings with line contact, below 90 %."""
 
+POINT_SLOPE = 10.0 / 9.0
+"""The same with point contact: of ball bearings."""
+
 POINTS = 96
 """Gauss points of the integral over the swing: rounding up to bends of 89.9°."""
 
@@ -157,13 +160,13 @@ def maker_life(
     return lasting(CONVENTIONS[convention] / (xp.abs(n) * rated_joint_angle(alpha)), share**POWER)
 
 
-def reliability_factor(reliability: ArrayLike) -> Array:
+def reliability_factor(reliability: ArrayLike, *, slope: float = LINE_SLOPE) -> Array:
     """Return a_1, the life that a share of bearings reaches over the life L_10 that 90 % reach.
 
-    reliability (...): share of bearings that last, in (0, 1).
+    reliability (...): share of bearings that last, in (0, 1); slope: of Weibull's law below 90 %.
     From 90 to 99.95 % the table of ISO 281, between its values along Weibull's law behind it,
-    a_1 = 0.05 + 0.95 (ln S/ln 0.9)^(2/3), which goes on beyond. Below 90 % Weibull's law of line contact, slope 9/8:
-    half of the bearings reach 5.3 L_10, makers say 5.
+    a_1 = 0.05 + 0.95 (ln S/ln 0.9)^(2/3), which goes on beyond. Below 90 % Weibull's law with this slope: half of the
+    bearings with line contact, 9/8, reach 5.3 L_10, makers say 5.
     """
     share = np.asarray(reliability, dtype=float)
     left = np.log(share) / math.log(0.9)
@@ -173,7 +176,7 @@ def reliability_factor(reliability: ArrayLike) -> Array:
     at = (np.log(shares) / math.log(0.9)) ** (1.0 / SLOPE)
     table = np.interp(law, at[::-1], factors[::-1])
     beyond = LEAST + (1.0 - LEAST) * law
-    found: Array = np.where(share < 0.9, left ** (1.0 / LINE_SLOPE), np.where(share > shares[-1], beyond, table))
+    found: Array = np.where(share < 0.9, left ** (1.0 / slope), np.where(share > shares[-1], beyond, table))
     return found if found.ndim else found[()]
 
 

@@ -1,9 +1,9 @@
-"""How long joints last: life over the loads, by each method, and what each part of the duty cycle does."""
+"""How long joints and supports last: life over the loads, by each method, what each part of the duty cycle does."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -42,7 +42,7 @@ def life_figures(found: Life) -> tuple[Figure, ...]:
 def load_figure(found: Life) -> Figure:
     """Return the life of every joint over its loads, and that of the first to fail by each method.
 
-    found: of a drive whose life is limited.
+    found: of a drive whose life is limited. Supports that outlive every joint are left out.
     """
     lives = found.loaded(REACH) / HOUR
     curves = tuple(
@@ -56,6 +56,7 @@ def load_figure(found: Life) -> Figure:
         for i in range(lives.shape[1])
         if np.all(np.isfinite(lives[:, i]))
     )
+    curves += tuple(_held(found))
     rules = [Rule(value=100.0, upright=True, text=_("duty"), role="ink")]
     asked = [] if found.demanded is None else [found.demanded / HOUR]
     rules += [Rule(value=value, text=_("asked for"), role="accent") for value in asked]
@@ -65,14 +66,30 @@ def load_figure(found: Life) -> Figure:
     over = Panel(series=(*curves, *rules, point), x=x, y=y)
     return Figure(
         name="life",
-        title=_("How long the joints last"),
+        title=_("How long the bearings last") if found.supports is not None else _("How long the joints last"),
         sentence=_sentence(found),
         source=_(
             "ISO 281 with the exact integral over the turn; Kozhevnikov & Perfil'ev (1978), eq. 267, 269; "
             "makers' formulas"
         ),
-        rows=(Row(panels=(over,), height=2.0), Row(panels=(_methods(found),), height=1.3)),
+        rows=(
+            Row(panels=(over,), height=2.0),
+            *((Row(panels=(_methods(found),), height=1.3),) if np.any(np.isfinite(found.joints)) else ()),
+        ),
     )
+
+
+def _held(found: Life) -> Iterator[Curve]:
+    """Yield the lives of the bearings of supports, those that outlive every joint left out."""
+    if found.supports is None:
+        return
+    lives = found.supports_loaded(REACH) / HOUR
+    longest = float(np.max(found.joints[np.isfinite(found.joints)], initial=0.0)) or math.inf
+    for k, number in enumerate(found.supports.number):
+        if math.isfinite(found.of_supports[k]) and found.of_supports[k] <= longest:
+            role = len(found.joints) + 1 + number
+            label = _("support {number}").format(number=number)
+            yield Curve(x=100.0 * REACH, y=lives[:, k], role=shaft(role), dash=dash_of(role), label=label)
 
 
 def _methods(found: Life) -> Panel:
@@ -113,11 +130,18 @@ def _methods(found: Life) -> Panel:
 
 
 def parts_figure(found: Life) -> Figure:
-    """Return time and damage of the parts of a duty cycle, in the joint that fails first.
+    """Return time and damage of the parts of a duty cycle, in the joint or support that fails first.
 
     found: of a duty cycle with several parts.
     """
-    damage = 100.0 * found.damage[:, found.governing - 1]
+    damage, held = 100.0 * found.first_damage, found.governing_support
+    of_joint, of_support = (
+        _("Shares of time and of damage in joint {number}"),
+        _("Shares of time and of damage in support {number}"),
+    )
+    text = _("{part} in {time} of the time does {damage} of the damage to joint {number}.")
+    if held:
+        text = _("{part} in {time} of the time does {damage} of the damage to support {number}.")
     time = 100.0 * found.share
     shown = np.argsort(-damage, kind="stable")[:SHOWN] if damage.size > SHOWN else np.arange(damage.size)
     loads = [
@@ -148,7 +172,7 @@ def parts_figure(found: Life) -> Figure:
         series=bars,
         x=Axis(low=0.0, high=1.16 * top, ticks=ticks, texts=written(ticks)),
         y=Axis(low=0.4, high=len(shown) + 0.6, ticks=tuple(at), texts=names, grid=False),
-        title=_("Shares of time and of damage in joint {number}").format(number=found.governing),
+        title=(of_support if held else of_joint).format(number=held or found.governing),
         dimension="share",
         unit="percent",
     )
@@ -157,11 +181,11 @@ def parts_figure(found: Life) -> Figure:
         aside=True,  # the table of the parts tells the same
         title=_("What each part of the duty cycle does"),
         sentence=say(
-            _("{part} in {time} of the time does {damage} of the damage to joint {number}."),
+            text,
             part=every[most] if found.named else Quantity(found.parts[most].torque, "torque", 3),
             time=Quantity(float(found.share[most]), "share", 3),
             damage=Quantity(float(damage[most]) / 100.0, "share", 3),
-            number=found.governing,
+            number=held or found.governing,
         ),
         source=_("rule of Palmgren and Miner, Kozhevnikov & Perfil'ev (1978), eq. 268"),
         rows=(Row(panels=(panel,), height=0.5 * len(shown) + 0.3),),
@@ -181,7 +205,8 @@ def history_figure(found: Life) -> Figure:
     spent = levels.share > 0.0
     middle = 0.5 * (levels.edge[1:] + levels.edge[:-1])[spent]
     thick = 0.9 * float(np.min(np.diff(levels.edge)))
-    damage = 100.0 * found.damage[:, found.governing - 1]
+    damage, held = 100.0 * found.first_damage, found.governing_support
+    label = _("Share of the damage to support {number}") if held else _("Share of the damage to joint {number}")
     time = 100.0 * levels.share[spent]
 
     def panel(values: np.ndarray, label: str, role: str, *, named: bool) -> Panel:
@@ -212,7 +237,7 @@ def history_figure(found: Life) -> Figure:
                 panels=(
                     panel(
                         damage,
-                        _("Share of the damage to joint {number}").format(number=found.governing),
+                        label.format(number=held or found.governing),
                         "accent",
                         named=True,
                     ),

@@ -1,4 +1,4 @@
-"""How long do the joints of a drive last?"""
+"""How long do the joints of a drive last, and the bearings of its supports?"""
 
 from __future__ import annotations
 
@@ -20,22 +20,24 @@ from cardan.questions.motion.standing import standing
 from cardan.questions.torsion.steady.dynamic_torque import DynamicTorque, steady_torque
 from cardan.texts import _
 
-from .bearing_life import MILLION, RELIABILITIES, maker_life, reliability_factor
+from .bearing_life import MILLION, POINT_SLOPE, RELIABILITIES, maker_life, reliability_factor
 from .bearing_loads import BearingLoads, bearing_loads
 from .duty_cycle import combined_life, equivalent_torque
 from .joint_bearings import JointBearings, Missing, joint_bearings
 from .life_cautions import cautions
 from .lives import METHODS, Life
 from .rainflow import Cycles, Levels, rainflow, speed_at_level, time_at_level
+from .support_loads import SupportLives, SupportLoads, capacities, rated_supports, support_loads
 
 
 def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -> Life:
-    """Return how long the joints of a drive last: ISO 281 exactly, makers' formulas and the book's beside it.
+    """Return how long the joints of a drive last, and its supports: ISO 281 exactly, makers' and the book's beside it.
 
     Parameters
     ----------
     drive : Drive
-        With spans and capacities of needle bearings, or what to compute these from; ratings of makers.
+        With spans and capacities of needle bearings, or what to compute these from; ratings of makers; capacities of
+        the ball bearings of its supports.
     duty : Duty, optional
         Torque and speed, or blocks, or a measured torque; life demanded, factor for shocks, reliability. Those of the
         drive by default.
@@ -50,7 +52,7 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
     Raises
     ------
     InputError
-        No speed, no torque, no joint whose life could be told: with the keys to add.
+        No speed, no torque, no joint or support whose life could be told: with the keys to add.
 
     See Also
     --------
@@ -62,6 +64,8 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
     Q = K/d of the journals over the turn from the torque flow of the whole drive, friction and inertia counted. Makers
     and the book take the mean torque and the joint angle, at least 3°. Parts of a duty cycle add their damage, Book
     (268), and so do poses by their shares and the instants of a movement, of which the drive turns many times in each.
+    Supports: D of a turn is the mean of ω (f_d P/C)^3 with the forces of `forces` and `moving_forces`, without
+    torsional vibration.
 
     Examples
     --------
@@ -85,11 +89,15 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
         raise refuse("method", _("{value} is none of {choices}").format(value=repr(method), choices=names))
     _parts, _asked, history, cycles = duty_parts(used)
     bearings, missing = joint_bearings(drive)
-    check(_nothing(bearings, missing))
+    which, unheld = rated_supports(drive)
+    check(() if which else _nothing(bearings, (*missing, *unheld)))
     chosen = method or _first(bearings)
     factor = float(reliability_factor(used.reliability))
     acting = duty_loads(whole)
-    rows = [row for one in acting for row in _rows(one, bearings, factor)]
+    rows = [row for one in acting for row in _rows(one, bearings, factor, which)]
+    lost = dict.fromkeys(row.supports for row in rows if isinstance(row.supports, str))
+    check([Problem("supports", why) for why in lost] if lost and _nothing(bearings, missing) else ())
+    unheld += tuple(Missing(field="supports", message=why, key=False) for why in lost)
     unknown = any(row.share is None for row in rows)
     if unknown:
         rows = _worst(rows, chosen)
@@ -107,13 +115,14 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
         method=chosen,
         history=history,
         cycles=cycles,
-        uncounted=missing,
+        uncounted=(*missing, *unheld),
         assumed=(*bearings.assumed, *train(drive, kinds=True).assumed),
         worst_pose=(rows[0].pose or _("as drawn")) if unknown else "",
         moving=any(one.stand.moving for one in acting),
         vibration=tuple(row.vibration for row in rows),
+        supports=None if lost else _supports(drive, which, rows),
     )
-    if bool(np.all(np.isnan(found.joints))):
+    if bool(np.all(np.isnan(found.joints))) and (method is not None or found.supports is None):
         raise refuse("method", _("no joint has what {method} needs").format(method=chosen))
     return replace(found, cautions=tuple(cautions(found, beyond=used.reliability > max(RELIABILITIES))))
 
@@ -138,6 +147,7 @@ class _Row:
     maker: Array
     book: Array
     vibration: float  # largest alternating torque over its mean; nan where torsional vibration is not counted
+    supports: SupportLoads | str | None  # loads of the bearings of supports, or why they lack; None for none
 
 
 def _bound(drive: Drive, pose: str) -> bool:
@@ -195,7 +205,7 @@ def _loads(stand: Condition) -> Iterator[DutyLoads]:
         yield DutyLoads(stand=stand, parts=parts, loads=tuple(loads), when=when, swung=tuple(swung))
 
 
-def _rows(acting: DutyLoads, bearings: JointBearings, factor: float) -> Iterator[_Row]:
+def _rows(acting: DutyLoads, bearings: JointBearings, factor: float, which: Sequence[int]) -> Iterator[_Row]:
     """Yield what every part of the duty does in a pose."""
     stand, loads, when, shocks = acting.stand, acting.loads, acting.when, acting.shocks
     lives = [_lives(one, bearings, acting.speed, shocks, factor) for one in loads]
@@ -211,11 +221,15 @@ def _rows(acting: DutyLoads, bearings: JointBearings, factor: float) -> Iterator
     table["journal_force"] = shocks * np.max([one.couple for one in loads], axis=0) / bearings.span
     with np.errstate(divide="ignore", invalid="ignore"):
         grown = [math.nan if one is None else _growth(one) for one in acting.swung]
+    duty = stand.drive.duty
+    asked, ball = duty_parts(duty)[1], float(reliability_factor(duty.reliability, slope=POINT_SLOPE))
     for k, part in enumerate(acting.parts):
         path = "" if stand.pose else part.path
         named = replace(part, name=replace(stand, case=part.name).name, path=path)
         row = {name: values[k] for name, values in table.items()}
-        yield _Row(part=named, pose=stand.pose, share=acting.share(part), vibration=grown[k], **row)
+        run = under(stand.drive, _acting(part, asked))
+        held = support_loads(run, which, part.shock_factor, factor=ball) if which else None
+        yield _Row(part=named, pose=stand.pose, share=acting.share(part), vibration=grown[k], supports=held, **row)
 
 
 def _acting(part: LoadCase, asked: Duty) -> LoadCase:
@@ -244,11 +258,28 @@ def _worst(rows: Sequence[_Row], method: str) -> list[_Row]:
         own = [row for row in rows if row.pose == pose]
         share = np.asarray([row.part.share for row in own])
         names = ("driving", "driven") if method == "iso" else (method,)
-        lives = [combined_life(np.stack([getattr(row, name) for row in own]).T, share) for name in names]
-        return float(np.nanmin(lives))
+        each = [np.stack([getattr(row, name) for row in own]) for name in names]
+        held = [row.supports.life for row in own if isinstance(row.supports, SupportLoads)]
+        each += [np.stack(held)] if len(held) == len(own) else []
+        return float(np.nanmin(np.concatenate([combined_life(lives.T, share) for lives in each])))
 
     worst = min(dict.fromkeys(row.pose for row in rows), key=least)
     return [row for row in rows if row.pose == worst]
+
+
+def _supports(drive: Drive, which: Sequence[int], rows: Sequence[_Row]) -> SupportLives | None:
+    """Return the bearings of the supports in all parts; None where none of them is rated."""
+    loads = [row.supports for row in rows if isinstance(row.supports, SupportLoads)]
+    if not loads:
+        return None
+    capacity, static = capacities(drive, which)
+    stacked = {name: np.stack([getattr(one, name) for one in loads]) for name in SupportLoads.__dataclass_fields__}
+    return SupportLives(
+        number=tuple(k + 1 for k in which),
+        capacity=capacity,
+        static_capacity=static,
+        loads=SupportLoads(**stacked),
+    )
 
 
 def duty_parts(duty: Duty) -> tuple[tuple[LoadCase, ...], Duty, Levels | None, Cycles | None]:
@@ -324,7 +355,9 @@ def _first(bearings: JointBearings) -> str:
     """Return the best method that any joint has the figures for."""
     if bool(np.any(bearings.rated)):
         return "iso"
-    return "maker" if any(convention in ("Tc", "CR") for convention in bearings.convention) else "book"
+    if any(convention in ("Tc", "CR") for convention in bearings.convention):
+        return "maker"
+    return "book" if any(bearings.convention) else "iso"
 
 
 def _nothing(bearings: JointBearings, missing: tuple[Missing, ...]) -> list[Problem]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan.answers.quantity import Quantity, say
+from cardan.formulas.ball_bearing import THRUST
 from cardan.formulas.joint_rating import (
     LEAST_JOINT_ANGLE,
     LIFE_RANGE,
@@ -42,6 +43,29 @@ def extrapolated(speed_angle: ArrayLike, life: ArrayLike) -> Array:
     speed_angle (...) [rad²/s]: with the joint angle that the book counts; life (...) [s].
     """
     return ~(within(speed_angle, SPEED_ANGLE_RANGE) & within(life, LIFE_RANGE))
+
+
+def _held(found: Life) -> Iterator[Caution]:
+    """Yield bearings of supports that carry more than their rating is made for."""
+    if found.supports is None:
+        return
+    own, loads = found.supports, found.supports.loads
+    for k, number in enumerate(own.number):
+        most, along = float(np.max(loads.load[:, k])), float(np.max(loads.axial[:, k]))
+        if most > HEAVY * own.capacity[k]:
+            text = _(
+                "the bearing of support {number} carries {force} as equivalent load, over half of its dynamic "
+                "capacity of {capacity}; ISO 281 ends there"
+            )
+            size = {"force": Quantity(most, "force"), "capacity": Quantity(float(own.capacity[k]), "force")}
+            yield Caution(code="heavy_load", joint=0, message=say(text, number=number, **size))
+        if along > THRUST[-1] * own.static_capacity[k]:
+            text = _(
+                "the bearing of support {number} carries {force} axially, more than the table of ISO 281 for deep "
+                "groove ball bearings has, {limit}"
+            )
+            size = {"force": Quantity(along, "force"), "limit": Quantity(THRUST[-1] * own.static_capacity[k], "force")}
+            yield Caution(code="heavy_thrust", joint=0, message=say(text, number=number, **size))
 
 
 def cautions(found: Life, *, beyond: bool) -> Iterator[Caution]:
@@ -82,6 +106,7 @@ def cautions(found: Life, *, beyond: bool) -> Iterator[Caution]:
             capacity = Quantity(float(own.capacity[i]), "force")
             said = say(text, number=i + 1, force=Quantity(most, "force"), capacity=capacity)
             yield Caution(code="heavy_load", joint=i + 1, message=said)
+    yield from _held(found)
     if beyond:
         text = _("{share} reliability is beyond the table of ISO 281, which ends at 99.95 %")
         share = Quantity(found.reliability, "share", 6, trim=True)

@@ -9,6 +9,7 @@ import numpy as np
 
 from cardan.answers.quantity import Text
 from cardan.drive.conditions import LoadCase
+from cardan.formulas import ball_bearing
 from cardan.formulas.joint_rating import POWER
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import foremost
@@ -16,6 +17,7 @@ from cardan.maths.ties import foremost
 from .duty_cycle import combined_life, damage_shares, equivalent_torque
 from .joint_bearings import JointBearings, Missing
 from .rainflow import Cycles, Levels
+from .support_loads import SupportLives
 
 METHODS = ("iso", "simple", "maker", "book")
 """Ways to a life: ISO 281 exactly and by the mean load, the maker's formula, the book's."""
@@ -25,8 +27,9 @@ METHODS = ("iso", "simple", "maker", "book")
 class Caution:
     """Something to mind."""
 
-    code: str  # ``small_oscillation``, ``angle_clamped_3deg``, ``extrapolated``, ``no_swing`` or ``heavy_load``
-    joint: int  # number of the joint; 0 where it is the duty
+    # ``small_oscillation``, ``angle_clamped_3deg``, ``extrapolated``, ``no_swing``, ``heavy_load`` or ``heavy_thrust``
+    code: str
+    joint: int  # number of the joint; 0 where it is the duty or a support
     message: Text  # in one sentence
 
 
@@ -75,6 +78,8 @@ class Life:
         Largest alternating torque over its mean in each part, torsional vibration counted; nan where it is not.
     assumed : tuple of str
         Paths of what the drive does not say and the answer assumes.
+    supports : SupportLives or None
+        The ball bearings of the supports; None where none of them is rated.
     """
 
     parts: tuple[LoadCase, ...]
@@ -101,6 +106,7 @@ class Life:
     moving: bool = False
     vibration: tuple[float, ...] = ()
     assumed: tuple[str, ...] = ()
+    supports: SupportLives | None = None
 
     @property
     def named(self) -> bool:
@@ -134,14 +140,27 @@ class Life:
         return self.of(self.method)
 
     @property
+    def of_supports(self) -> Array:
+        """Life of the ball bearing of every support that has one, array (m,) [s]."""
+        return np.zeros(0) if self.supports is None else self.combined(self.supports.loads.life)
+
+    @property
     def drive(self) -> float:
-        """Life of the joint that fails first [s]."""
-        return float(np.nanmin(self.joints))
+        """Life of the joint or support that fails first [s]."""
+        return float(np.nanmin(np.append(self.joints, self.of_supports)))
 
     @property
     def governing(self) -> int:
-        """Number of the joint that fails first."""
+        """Number of the joint that fails first among the joints."""
         return int(foremost(self.joints, least=True)) + 1
+
+    @property
+    def governing_support(self) -> int:
+        """Number of the support that fails before every joint; 0 where a joint fails first."""
+        if self.supports is None:
+            return 0
+        place = int(foremost(np.append(self.joints, self.of_supports), least=True)) - self.joints.size
+        return self.supports.number[place] if place >= 0 else 0
 
     @property
     def damage(self) -> Array:
@@ -152,6 +171,21 @@ class Life:
         else:
             lives = getattr(self, self.method)
         return np.matrix_transpose(damage_shares(np.matrix_transpose(lives), self.share))
+
+    @property
+    def support_damage(self) -> Array:
+        """Share of each part in the damage of the bearing of each support that has one, array (b, m)."""
+        if self.supports is None:
+            return np.zeros((len(self.parts), 0))
+        return np.matrix_transpose(damage_shares(np.matrix_transpose(self.supports.loads.life), self.share))
+
+    @property
+    def first_damage(self) -> Array:
+        """Share of each part in the damage of the joint or support that fails first, array (b,)."""
+        if self.supports is not None and self.governing_support:
+            found: Array = self.support_damage[:, self.supports.number.index(self.governing_support)]
+            return found
+        return self.damage[:, self.governing - 1]
 
     @property
     def equivalent_torque(self) -> Array:
@@ -182,8 +216,11 @@ class Life:
 
     @property
     def torque_margin(self) -> float:
-        """By which factor all torques may grow until the drive lasts just as long as demanded; nan without a demand."""
-        return math.nan if self.demanded is None else float((self.drive / self.demanded) ** (1.0 / POWER))
+        """By which factor all loads may grow until the drive lasts just as long as demanded; nan without a demand."""
+        if self.demanded is None:
+            return math.nan
+        joints = (self.joints / self.demanded) ** (1.0 / POWER)
+        return float(np.nanmin(np.append(joints, (self.of_supports / self.demanded) ** (1.0 / ball_bearing.POWER))))
 
     def loaded(self, factor: ArrayLike) -> Array:
         """Return the life of every joint by the chosen method with all loads times a factor, array (f, n) [s].
@@ -194,3 +231,13 @@ class Life:
             Above zero.
         """
         return self.joints / np.asarray(factor, dtype=float)[:, None] ** POWER
+
+    def supports_loaded(self, factor: ArrayLike) -> Array:
+        """Return the life of every bearing of a support with all loads times a factor, array (f, m) [s].
+
+        Parameters
+        ----------
+        factor : array (f,)
+            Above zero.
+        """
+        return self.of_supports / np.asarray(factor, dtype=float)[:, None] ** ball_bearing.POWER
