@@ -65,10 +65,11 @@ class Linkage:
         """Return displacements of all links where they are drawn, array (*shape, n, 4, 4)."""
         return np.broadcast_to(np.eye(4), (*shape, len(self.links), 4, 4)).copy()
 
-    def settled(self, poses: Array, moving: Sequence[int]) -> tuple[Array, Array]:
+    def settled(self, poses: Array, moving: Sequence[int], tied: tuple[int, int] | None = None) -> tuple[Array, Array]:
         """Return where links stand whose loops close.
 
         poses (..., n, 4, 4): displacement of every link, of the moving ones a guess; moving: which may move.
+        tied: a link that goes with a moving one as if it were one with it.
         Returns poses, and the misfit of each pair (..., m, 2): gap over the size, and lean [rad].
         Newton's method; of the motions that nothing holds the smallest.
         """
@@ -78,6 +79,8 @@ class Linkage:
             return poses, self._misfit(self._rows(here)[1])
         for _round in range(ROUNDS):
             matrix, rest = self._matrix(here)
+            if tied is not None:
+                matrix[..., tied[1], :] += matrix[..., tied[0], :]
             slope = np.reshape(matrix[..., free, :], (*matrix.shape[:-2], -1))
             turned = np.swapaxes(slope, -1, -2)
             square = turned @ slope
@@ -86,7 +89,10 @@ class Linkage:
             step = -np.linalg.solve(damped, turned @ rest[..., None])[..., 0]
             step = step / np.maximum(1.0, np.max(np.abs(step), axis=-1, keepdims=True) / LONGEST)
             twist = np.reshape(step, (*step.shape[:-1], len(free), 6))
-            here[..., free, :, :] = screws.exponential(twist, np.ones(twist.shape[:-1])) @ here[..., free, :, :]
+            steps = screws.exponential(twist, np.ones(twist.shape[:-1]))
+            here[..., free, :, :] = steps @ here[..., free, :, :]
+            if tied is not None:
+                here[..., tied[0], :, :] = steps[..., int(np.argmax(free == tied[1])), :, :] @ here[..., tied[0], :, :]
             if np.max(np.abs(step)) < RESTS:
                 break
         return self._scaled(here, -1.0), self._misfit(self._rows(here)[1])
@@ -192,5 +198,9 @@ def _turned(turn: Array, vector: Array) -> Array:
 
 def turn_about(point: Array, axis: Array, angle: Array) -> Array:
     """Return displacements (..., 4, 4) that turn about an axis through a point (3,) by angles (...) [rad]."""
-    twist = screws.rotation(np.asarray(axis, dtype=float), np.asarray(point, dtype=float))
-    return screws.exponential(np.broadcast_to(twist, (*np.shape(angle), 6)), np.asarray(angle, dtype=float))
+    return moved_along(screws.rotation(np.asarray(axis, dtype=float), np.asarray(point, dtype=float)), angle)
+
+
+def moved_along(twist: Array, amount: Array) -> Array:
+    """Return displacements (..., 4, 4) along a twist (6,) by amounts (...)."""
+    return screws.exponential(np.broadcast_to(twist, (*np.shape(amount), 6)), np.asarray(amount, dtype=float))

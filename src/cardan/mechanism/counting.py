@@ -58,8 +58,20 @@ class Partition:
 
 
 def joins(mechanism: Mechanism) -> tuple[Join, ...]:
-    """Return the graph of a mechanism."""
-    return tuple(Join(links=pair.links, constraints=pair.kind.constraints) for pair in mechanism.joints)
+    """Return the graph of a mechanism.
+
+    An input link that is driven against another moving link counts as one with that, and its drive as one in the frame.
+    """
+    moving = mechanism.base != mechanism.frame
+    merged = {mechanism.input_link: mechanism.base} if moving else {}
+    found = []
+    for pair in mechanism.joints:
+        one, other = (merged.get(link, link) for link in pair.links)
+        if one != other:
+            found.append(Join(links=(one, other), constraints=pair.kind.constraints))
+    if moving:
+        found.append(Join(links=(mechanism.frame, mechanism.input_link), constraints=5))
+    return tuple(found)
 
 
 def partition(pairs: Sequence[Join], *, frame: str, input_link: str) -> Partition:

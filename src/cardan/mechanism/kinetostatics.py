@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cardan.maths.arrays import Array
-from cardan.maths.kernel import frames
+from cardan.maths.kernel import frames, screws
 
 from .constraints import FRAME
 from .mechanism import Kind
@@ -71,7 +71,7 @@ class Carried:
     rate: Array  # (..., m, 6): of the second link of each pair against the first, v at the pair's point
     reaction: Array  # (..., m, 6): wrench (couple; force) of the first link on the second, about the point [N·m, N]
     locked: Array  # (...) of bool: whether friction outgrows what drives, so that no forces are found
-    input_torque: Array  # (...) [N·m]: what drives the input about its axis
+    input_torque: Array  # (...) [N·m]: what drives the input about its axis; the force [N] on one that slides
     loss: Array  # (..., m) [W]: rubbed away in each pair
     open: Array  # (...): what keeps the rates of the pairs from closing, over the largest
     unbalanced: Array  # (...): what keeps the links from balance, over the largest reaction
@@ -166,13 +166,13 @@ def _matrix_of(placed: Placed, shape: tuple[int, ...], speed: Array | None = Non
     return blocks
 
 
-def speeds(placed: Placed, *, input_link: int, about: Array) -> Array:
-    """Return the twists (..., n, 6) of all links while one of them has a twist ``about`` (..., 6)."""
+def speeds(placed: Placed, *, input_link: int, about: Array, base: int = FRAME) -> Array:
+    """Return the twists (..., n, 6) of all links while one of them has a twist ``about`` (..., 6) against a base."""
     size = placed.size
     lengths = np.asarray([1.0, 1.0, 1.0, size, size, size])
     shape = np.broadcast_shapes(placed.point.shape[:-2], about.shape[:-1])
     matrix = np.concatenate(_matrix_of(placed, shape), axis=-2)
-    return _speeds(matrix, input_link, np.broadcast_to(about / lengths, (*shape, 6)))[0] * lengths
+    return _speeds(matrix, (input_link, base), np.broadcast_to(about / lengths, (*shape, 6)))[0] * lengths
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -186,19 +186,19 @@ class Rates:
     open: Array  # (...): what keeps the rates of the pairs from closing, over the largest
 
 
-def rates(placed: Placed, *, input_link: int, about: Array) -> Rates:
+def rates(placed: Placed, *, input_link: int, about: Array, base: int = FRAME) -> Rates:
     """Return how the links move while one of them turns.
 
-    input_link: link that turns with a twist ``about`` (..., 6), always the same.
+    input_link: link that turns with a twist ``about`` (..., 6), always the same, against a base that it goes with.
     With the rows A of what the pairs hold: A t = 0, and A ṫ = -Ȧ t; what nothing holds rests.
     """
     size, n = placed.size, placed.links
     shape = np.broadcast_shapes(placed.point.shape[:-2], about.shape[:-1])
     lengths = np.asarray([1.0, 1.0, 1.0, size, size, size])
     matrix = np.concatenate(_matrix_of(placed, shape), axis=-2)
-    own = np.arange(6 * input_link, 6 * input_link + 6)
-    rest = np.delete(np.arange(6 * n), own)
-    left, sizes, right = np.linalg.svd(matrix[..., rest], full_matrices=True)
+    driven = _Driven(matrix, input_link, base)
+    own, rest = driven.own, driven.rest
+    left, sizes, right = np.linalg.svd(driven.matrix, full_matrices=True)
     known = min(matrix.shape[-2], len(rest))
     holds = np.zeros((*shape, len(rest)), dtype=bool)
     holds[..., :known] = sizes > NEAR * np.max(sizes, axis=-1, keepdims=True) if known else False
@@ -213,18 +213,17 @@ def rates(placed: Placed, *, input_link: int, about: Array) -> Rates:
 
     twist = np.broadcast_to(about / lengths, (*shape, 6))
     target = -(matrix[..., own] @ twist[..., None])[..., 0]
-    whole = np.zeros((*shape, 6 * n))
-    whole[..., own], whole[..., rest] = twist, solved(target)
+    whole = driven.whole(solved(target), twist)
     miss = np.max(np.abs((matrix @ whole[..., None])[..., 0]), axis=-1) / np.max(np.abs(whole), axis=-1)
     speed = np.reshape(whole, (*shape, n, 6))
     changing = np.concatenate(_matrix_of(placed, shape, speed), axis=-2)
-    steep = np.zeros((*shape, 6 * n))
-    steep[..., rest] = solved(-(changing @ whole[..., None])[..., 0])
+    swept = np.zeros((*shape, 6)) if base == FRAME else screws.bracket(speed[..., base, :], twist)
+    gone = (changing @ whole[..., None])[..., 0] + (matrix[..., own] @ swept[..., None])[..., 0]
+    steep = driven.whole(solved(-gone), swept)
     count = np.sum(~holds, axis=-1)
     most = int(np.max(count, initial=0))
-    ways = np.zeros((*shape, most, 6 * n))
     loose = right[..., len(rest) - most :, :] * ~holds[..., len(rest) - most :, None]
-    ways[..., rest] = loose[..., ::-1, :]
+    ways = driven.whole(loose[..., ::-1, :])
     return Rates(
         speed=speed * lengths,
         acceleration=np.reshape(steep, (*shape, n, 6)) * lengths,
@@ -234,20 +233,38 @@ def rates(placed: Placed, *, input_link: int, about: Array) -> Rates:
     )
 
 
-def carried(placed: Placed, *, input_link: int, about: Array, load: Array, fed: bool = True) -> Carried:
+def carried(
+    placed: Placed,
+    *,
+    input_link: int,
+    about: Array,
+    load: Array,
+    fed: bool = True,
+    base: int = FRAME,
+    drive: Array | None = None,
+) -> Carried:
     """Return how the links move and what the pairs carry, see `each_carried`."""
-    return each_carried(placed, [(placed.friction, fed)], input_link=input_link, about=about, load=load)[0]
+    asked = [(placed.friction, fed)]
+    return each_carried(placed, asked, input_link=input_link, about=about, load=load, base=base, drive=drive)[0]
 
 
 def each_carried(
-    placed: Placed, asked: Sequence[tuple[tuple[float, ...], bool]], *, input_link: int, about: Array, load: Array
+    placed: Placed,
+    asked: Sequence[tuple[tuple[float, ...], bool]],
+    *,
+    input_link: int,
+    about: Array,
+    load: Array,
+    base: int = FRAME,
+    drive: Array | None = None,
 ) -> list[Carried]:
     """Return how the links move and what the pairs carry, Coulomb's friction acting on itself, in several ways.
 
     asked: coefficient of friction of each pair, and whether the speeds have the sense of ``about``; False where the
     load drives.
     input_link: link that turns with a twist ``about`` (..., 6), whose turning part is along its axis; a torque about
-    this axis drives it.
+    this axis drives it, or 1 N·m or 1 N of the wrench ``drive`` (..., 6).
+    base: link against which it moves with this twist, and which takes what drives it back.
     load (..., n, 6): wrenches (couple; force) about the origin on each link [N·m, N].
 
     Power of what holds is nought on all motions it leaves: with the rows w·(t_b - t_a) of `Constraints.matrix` the
@@ -261,12 +278,17 @@ def each_carried(
     couples = np.asarray([size, size, size, 1.0, 1.0, 1.0])  # lengths over the size, so that couples are forces
     blocks = _matrix_of(placed, shape)
     matrix = np.concatenate(blocks, axis=-2)
-    speed, open_ = _speeds(matrix, input_link, np.broadcast_to(about / lengths, (*shape, 6)))
+    speed, open_ = _speeds(matrix, (input_link, base), np.broadcast_to(about / lengths, (*shape, 6)))
     speed = speed * lengths
     rate = _rates(placed, speed)
-    drive = np.zeros((*shape, 6 * n, 1))
-    drive[..., 6 * input_link : 6 * input_link + 3, 0] = frames.unit(about[..., :3])
-    columns = np.concatenate((np.swapaxes(matrix, -1, -2), drive), axis=-1)
+    if drive is None:
+        drive = np.concatenate((frames.unit(about[..., :3]), 0.0 * about[..., :3]), axis=-1)
+    unit = size if np.any(about[..., :3]) else 1.0
+    push = np.zeros((*shape, 6 * n, 1))
+    push[..., 6 * input_link : 6 * input_link + 6, 0] = drive / couples * unit
+    if base != FRAME:
+        push[..., 6 * base : 6 * base + 6, 0] = -drive / couples * unit
+    columns = np.concatenate((np.swapaxes(matrix, -1, -2), push), axis=-1)
     inverse = np.linalg.pinv(columns, rcond=REACH)
     known = np.broadcast_to(load, (*shape, n, 6)) / couples
 
@@ -275,11 +297,11 @@ def each_carried(
         found = inverse @ right
         return found[..., 0], np.max(np.abs(columns @ found - right)[..., 0], axis=-1)
 
-    first = solved(np.zeros_like(known))
-    smooth = _reactions(placed, blocks, first[0], couples)
+    bare = solved(np.zeros_like(known))
+    smooth = _reactions(placed, blocks, bare[0], couples)
 
     def rubbing(friction: tuple[float, ...], fed: bool) -> Carried:
-        (amounts, rest), reaction = first, smooth
+        (amounts, rest), reaction = bare, smooth
         rubbed, loss = np.zeros_like(known), np.zeros((*shape, len(placed.ends)))
         for _round in range(ROUNDS if any(friction) else 0):
             before = rubbed
@@ -303,7 +325,7 @@ def each_carried(
             rate=rate if fed else -rate,
             reaction=reaction,
             locked=~(rest_of <= LOCKED * np.max(np.abs(loss), axis=-1)),
-            input_torque=amounts[..., -1] * size,
+            input_torque=amounts[..., -1] * unit,
             loss=loss,
             open=open_,
             unbalanced=rest / np.where(largest > 0.0, largest, 1.0),
@@ -322,16 +344,34 @@ def influence(placed: Placed, found: Carried, output_torque: float) -> Array:
     return found.reaction / output_torque
 
 
-def _speeds(matrix: Array, input_link: int, twist: Array) -> tuple[Array, Array]:
+class _Driven:
+    """The columns of a link that moves against a base with a twist that is known, among those of all links."""
+
+    def __init__(self, matrix: Array, input_link: int, base: int) -> None:
+        self.own = np.arange(6 * input_link, 6 * input_link + 6)
+        self.rest = np.delete(np.arange(matrix.shape[-1]), self.own)
+        self.below = None if base == FRAME else np.arange(6 * base, 6 * base + 6)
+        if self.below is not None:  # what moves the base moves the link with it
+            matrix = np.array(matrix)
+            matrix[..., self.below] += matrix[..., self.own]
+        self.matrix = matrix[..., self.rest]
+
+    def whole(self, rest: Array, own: Array | float = 0.0) -> Array:
+        """Return what moves of all links, where that of the rest and of the link against its base is known."""
+        found = np.zeros((*rest.shape[:-1], rest.shape[-1] + 6))
+        found[..., self.rest] = rest
+        found[..., self.own] = own if self.below is None else own + found[..., self.below]
+        return found
+
+
+def _speeds(matrix: Array, ends: tuple[int, int], twist: Array) -> tuple[Array, Array]:
     """Return the twists of all links (..., n, 6) for that of the input, and what keeps the pairs from closing."""
     n = matrix.shape[-1] // 6
-    own = np.arange(6 * input_link, 6 * input_link + 6)
-    rest = np.delete(np.arange(6 * n), own)
-    right = -(matrix[..., own] @ twist[..., None])
-    free = np.linalg.pinv(matrix[..., rest], rcond=REACH) @ right
-    miss = np.max(np.abs(matrix[..., rest] @ free - right)[..., 0], axis=-1)
-    whole = np.zeros((*twist.shape[:-1], 6 * n))
-    whole[..., own], whole[..., rest] = twist, free[..., 0]
+    driven = _Driven(matrix, *ends)
+    right = -(matrix[..., driven.own] @ twist[..., None])
+    free = np.linalg.pinv(driven.matrix, rcond=REACH) @ right
+    miss = np.max(np.abs(driven.matrix @ free - right)[..., 0], axis=-1)
+    whole = driven.whole(free[..., 0], twist)
     return np.reshape(whole, (*twist.shape[:-1], n, 6)), miss / np.max(np.abs(whole), axis=-1)
 
 

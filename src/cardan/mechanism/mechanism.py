@@ -47,10 +47,15 @@ class Mechanism:
     note: str = plain("", doc="what the reader should know")
     frame: str = plain(doc="the link at rest")
     input_link: str = plain("", doc="link that is driven")
+    input_joint: str = plain("", doc="joint that is driven, a hydraulic cylinder; that of input_link with the frame")
     output_link: str = plain("", doc="link that is to move")
     speed: float | None = quantity("angular_speed", None, doc="speed at which the input link turns, uniformly")
     input_range: tuple[float, float] | None = quantity(
         "angle", None, doc="angles of the input link from the position drawn between which it moves; a whole turn"
+    )
+    sliding_speed: float | None = quantity("speed", None, doc="speed at which an input link that slides moves")
+    input_stroke: tuple[float, float] | None = quantity(
+        "length", None, doc="paths of an input link that slides from the position drawn, between which it moves"
     )
     output_torque: float | None = quantity("torque", None, doc="torque that resists an output link that turns", low=0.0)
     output_force: float | None = quantity("force", None, doc="force that resists an output link that slides", low=0.0)
@@ -86,6 +91,35 @@ class Mechanism:
     def index(self, joint: str) -> int:
         """Return which of the joints has a name."""
         return [pair.id for pair in self.joints].index(joint)
+
+    @property
+    def driving(self) -> Pair | None:
+        """The pair of the input link that is driven along its axis: that named, or one with the frame, R before P."""
+        ends = {self.frame, self.input_link}
+        own = [one for one in self.joints if set(one.links) == ends]
+        if self.input_joint:
+            own = [one for one in self.joints if one.id == self.input_joint]
+        return next((pair for kind in ("R", "P") for pair in own if pair.type == kind), None)
+
+    @property
+    def base(self) -> str:
+        """The link against which the input link is driven: the frame, but where another joint is named."""
+        return self.frame if self.driving is None else next(one for one in self.driving.links if one != self.input_link)
+
+    @property
+    def slides(self) -> bool:
+        """Whether the input link slides: angles, torque and speed of the input are lengths, force and speed then."""
+        return self.driving is not None and self.driving.type == "P"
+
+    @property
+    def pace(self) -> float | None:
+        """Speed of the input link [rad/s, of one that slides m/s]."""
+        return self.sliding_speed if self.slides else self.speed
+
+    @property
+    def travel(self) -> tuple[float, float] | None:
+        """Between where the input link moves, from where it is drawn [rad or m]; None of a stroke that is not given."""
+        return self.input_stroke if self.slides else self.input_range or (0.0, 2.0 * math.pi)
 
 
 def problems(mechanism: Mechanism) -> Iterator[Problem]:
@@ -140,11 +174,23 @@ def _load_problems(mechanism: Mechanism, known: tuple[str, ...]) -> Iterator[Pro
             yield Problem(f"masses[{k}].link", text, "inconsistent")
     if not all(map(math.isfinite, mechanism.gravity)):
         yield Problem("gravity", _("{value} is not finite").format(value=list(mechanism.gravity)), "not_finite")
-    if mechanism.input_range is not None:
-        low, high = mechanism.input_range
+    for name in ("input_range", "input_stroke"):
+        low, high = getattr(mechanism, name) or (0.0, 1.0)
         if not (math.isfinite(low) and math.isfinite(high) and low < high):
-            text = _("{value}: the first angle of a range must lie below the second")
-            yield Problem("input_range", text.format(value=list(mechanism.input_range)), "inconsistent")
+            text = _("{value}: the first end of a range must lie below the second")
+            yield Problem(name, text.format(value=[low, high]), "inconsistent")
+    if mechanism.input_joint:
+        yield from _input_joint_problems(mechanism)
+    turning, sliding = ("speed", "input_range"), ("sliding_speed", "input_stroke")
+    for name in turning if mechanism.slides else sliding:
+        if getattr(mechanism, name) is not None:
+            text = _("of no use: {link} is driven along a pair of type P; it has sliding_speed and input_stroke")
+            if not mechanism.slides:
+                text = _(
+                    "of no use: {link} is not driven along a pair of type P with the frame, {frame}, or input_joint"
+                )
+            said = text.format(link=repr(mechanism.input_link), frame=repr(mechanism.frame))
+            yield Problem(name, said, "inconsistent")
     if mechanism.output_torque is not None and mechanism.output_force is not None:
         yield Problem(
             "output_force", _("the output either turns or slides: give it a torque or a force"), "inconsistent"
@@ -152,6 +198,21 @@ def _load_problems(mechanism: Mechanism, known: tuple[str, ...]) -> Iterator[Pro
     for name in ("output_torque", "output_force"):
         if getattr(mechanism, name) is not None and not mechanism.output_link:
             yield Problem("output_link", _("missing: {name} says what resists it").format(name=name), "missing")
+
+
+def _input_joint_problems(mechanism: Mechanism) -> Iterator[Problem]:
+    name, link = mechanism.input_joint, mechanism.input_link
+    named = [pair for pair in mechanism.joints if pair.id == name]
+    if not named:
+        near = nearest(name, [pair.id for pair in mechanism.joints])
+        hint = _("; did you mean {near}?").format(near=near) if near else ""
+        yield Problem("input_joint", _("there is no joint {name}").format(name=repr(name)) + hint, "inconsistent")
+    elif named[0].type not in ("R", "P"):
+        text = _("{name} is of type {type}; one of type R or P can be driven")
+        yield Problem("input_joint", text.format(name=repr(name), type=named[0].type), "inconsistent")
+    elif link not in named[0].links:
+        text = _("{name} does not join the input link, {link}")
+        yield Problem("input_joint", text.format(name=repr(name), link=repr(link)), "inconsistent")
 
 
 def _no_link(link: str, frame: str, known: tuple[str, ...]) -> str:

@@ -1,4 +1,4 @@
-"""A mechanism while its input link turns: where every link stands, and how it moves, over a turn or a part of one.
+"""A mechanism while its input link turns or slides: where every link stands, and how it moves, over its range.
 
 Loops are closed as `closing` closes them. What rolls is followed along its way (Munthe-Kaas' fourth-order steps), and
 the loops are closed again after each.
@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -16,15 +17,15 @@ from cardan.errors import InputError, Problem, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames, screws
 from cardan.texts import _
-from cardan.units import deg, mm
+from cardan.units import deg, label, mm
 
-from .closing import CLOSED, Linkage, turn_about
+from .closing import CLOSED, Linkage, moved_along
 from .constraints import FRAME
 from .kinetostatics import Placed, Rates, rates, speeds
 from .mechanism import Mechanism
 
 STEP = 4.0 * deg
-"""Largest step from one position to the next while loops are followed."""
+"""Largest step from one position to the next while loops are followed; of what slides a path over the size."""
 
 ROLLED = 2.0 * deg
 """The same where something rolls: what a step leaves out is a billionth of what is rolled."""
@@ -38,20 +39,27 @@ LOOKED = (0.21, 0.47, 0.83)
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Turned:
-    """A mechanism at angles of its input link."""
+    """A mechanism at angles of its input link, or at paths of one that slides."""
 
     mechanism: Mechanism
-    angle: Array  # (p,) [rad]: of the input link, from where it is drawn
+    angle: Array  # (p,) [rad], of an input that slides [m]: of the input link, from where it is drawn
     displacement: Array  # (p, n, 4, 4): of every moving link, from where it is drawn
     misfit: Array  # (p, m, 2): gap [m] and lean [rad] that each pair keeps
     placed: Placed  # pairs where they stand
-    rates: Rates  # at an input speed of 1 rad/s
-    about: Array  # (6,): twist of the input link
+    rates: Rates  # at an input speed of 1 rad/s or 1 m/s
+    about: Array  # (p, 6): twist of the input link against its base
+    drive: Array  # (p, 6): wrench of 1 N·m, on what slides 1 N, that drives it
+    base: int  # moving link against which the input is driven; `FRAME`
 
     @property
     def input_link(self) -> int:
         """Which moving link is the input."""
         return self.mechanism.links.index(self.mechanism.input_link)
+
+    @property
+    def driven(self) -> dict[str, Any]:
+        """Which link drives, and how, as `kinetostatics.carried` asks for it."""
+        return {"input_link": self.input_link, "base": self.base, "about": self.about, "drive": self.drive}
 
     @cached_property
     def loose(self) -> tuple[str, ...]:
@@ -70,14 +78,13 @@ class Turned:
 def turned(mechanism: Mechanism, angle: Array | None = None) -> Turned:
     """Return a mechanism at angles of its input link (p,) [rad]; each degree of its range when not given.
 
-    Raises InputError: no input link that turns in the frame, a link that more than the input moves, or a pair that
-    opens: which link, at which angle and how far.
+    Of an input that slides at paths [m]. Raises InputError: no input link that turns or slides in the frame, a link
+    that more than the input moves, or a pair that opens: which link, at which angle and how far.
     """
-    bearing = _bearing(mechanism)
-    pair = mechanism.joints[bearing]
-    low, high = mechanism.input_range or (0.0, 2.0 * math.pi)
+    check_driven(mechanism)
+    low, high = travel(mechanism)
     wanted = grid(mechanism) if angle is None else np.asarray(angle, dtype=float)
-    way = _Way(mechanism, Linkage(mechanism.joints), np.asarray(pair.point, dtype=float), pair.along)
+    way = _Way(mechanism, Linkage(mechanism.joints))
     way.walk(min(low, float(np.min(wanted))), max(high, float(np.max(wanted))))
     _check_held(way, np.asarray([low + share * (high - low) for share in LOOKED]))
     poses, misfit = way.at(wanted)
@@ -88,43 +95,61 @@ def turned(mechanism: Mechanism, angle: Array | None = None) -> Turned:
         displacement=poses[:, way.order],
         misfit=misfit * np.asarray([way.linkage.size, 1.0]),
         placed=placed,
-        rates=rates(placed, input_link=way.input, about=way.about),
-        about=way.about,
+        rates=rates(placed, input_link=way.input, about=way.twist(placed), base=way.base),
+        about=way.twist(placed),
+        drive=way.drive(placed),
+        base=way.base,
     )
 
 
 def grid(mechanism: Mechanism, step: float = 1.0 * deg) -> Array:
-    """Return the angles of the input link over its range, both ends included, array (p,) [rad]."""
-    low, high = mechanism.input_range or (0.0, 2.0 * math.pi)
-    return np.linspace(low, high, max(2, math.ceil((high - low) / step - 1e-9) + 1))
+    """Return the angles of the input link over its range, both ends included, array (p,) [rad].
+
+    Of an input that slides paths [m], as many over its stroke as of a whole turn.
+    """
+    low, high = travel(mechanism)
+    way = 2.0 * math.pi if mechanism.slides else high - low
+    return np.linspace(low, high, max(2, math.ceil(way / step - 1e-9) + 1))
 
 
-def _bearing(mechanism: Mechanism) -> int:
-    """Return which pair is that about which the input link turns."""
+def travel(mechanism: Mechanism) -> tuple[float, float]:
+    """Return between where the input link moves [rad or m]; refuse one that slides and has no stroke."""
+    if mechanism.travel is None:
+        text = _("missing: {link} slides, and no turn brings it back; say between which paths it moves")
+        raise refuse("input_stroke", text.format(link=repr(mechanism.input_link)), "missing")
+    return mechanism.travel
+
+
+def check_driven(mechanism: Mechanism) -> None:
+    """Refuse a mechanism without a link that turns or slides in the frame and drives it."""
     if not mechanism.input_link:
         raise refuse("input_link", _("missing: it says which link is driven"), "missing")
-    ends = {mechanism.frame, mechanism.input_link}
-    held = [k for k, pair in enumerate(mechanism.joints) if set(pair.links) == ends and pair.type == "R"]
-    if not held:
-        text = _("{link} needs a pair of type R with the frame, {frame}: it tells about which axis the input turns")
+    if mechanism.driving is None:
+        text = _(
+            "{link} needs a pair of type R or P with the frame, {frame}: it tells about or along which axis the input "
+            "moves"
+        )
         said = text.format(link=repr(mechanism.input_link), frame=repr(mechanism.frame))
         raise refuse("input_link", said, "inconsistent")
-    return held[0]
 
 
 class _Way:
     """The way of a mechanism from where it is drawn."""
 
-    def __init__(self, mechanism: Mechanism, linkage: Linkage, point: Array, axis: Array) -> None:
-        self.mechanism, self.linkage, self.point, self.axis = mechanism, linkage, point, axis
+    def __init__(self, mechanism: Mechanism, linkage: Linkage) -> None:
+        self.mechanism, self.linkage = mechanism, linkage
         index = linkage.links.index
         self.order = [index(link) for link in mechanism.links]
         self.input = mechanism.links.index(mechanism.input_link)
         self.fast = index(mechanism.input_link)
         self.moving = [k for k in self.order if k != self.fast]
-        self.about = screws.rotation(axis, point)
+        assert mechanism.driving is not None
+        self.driven = mechanism.joints.index(mechanism.driving)
+        self.about = mechanism.driving.freedoms[0]
+        self.below = index(mechanism.base)
+        self.base = FRAME if mechanism.base == mechanism.frame else mechanism.links.index(mechanism.base)
         self.rolls = any(pair.kind.rolls for pair in mechanism.joints)
-        self.step = ROLLED if self.rolls else STEP
+        self.step = (ROLLED if self.rolls else STEP) * (linkage.size if mechanism.slides else 1.0)
 
     def walk(self, low: float, high: float) -> None:
         """Go from where it is drawn to both ends of a range of angles [rad]."""
@@ -161,8 +186,9 @@ class _Way:
     def _stepped(self, poses: Array, start: Array, stop: Array, ahead: Array | None = None) -> tuple[Array, Array]:
         """Return poses (..., n, 4, 4) led from one angle to another, with misfits; refuse those whose pairs open."""
         guess = np.array(ahead if ahead is not None else self._led(poses, stop - start))
-        guess[..., self.fast, :, :] = turn_about(self.point, self.axis, stop)
-        found, misfit = self.linkage.settled(guess, self.moving)
+        guess[..., self.fast, :, :] = guess[..., self.below, :, :] @ moved_along(self.about, stop)
+        tied = None if self.base == FRAME else (self.fast, self.below)
+        found, misfit = self.linkage.settled(guess, self.moving, tied)
         worst = np.max(misfit, axis=(-2, -1))
         if np.max(worst) > CLOSED:
             where = int(np.argmax(np.ravel(worst) > CLOSED))
@@ -176,7 +202,8 @@ class _Way:
 
         def slope(ahead: Array) -> Array:
             here = screws.exponential(ahead, np.ones(ahead.shape[:-1])) @ poses
-            found = speeds(self.placed(here), input_link=self.input, about=self.about)
+            at = self.placed(here)
+            found = speeds(at, input_link=self.input, about=self.twist(at), base=self.base)
             whole = np.zeros((*found.shape[:-2], len(self.linkage.links), 6))
             whole[..., self.order, :] = found
             return _drawn_back(ahead, whole)
@@ -214,6 +241,19 @@ class _Way:
             carriers=tuple(carriers),
         )
 
+    def twist(self, placed: Placed) -> Array:
+        """Return the twist of the input link against its base, array (..., 6)."""
+        axis = placed.axis[..., self.driven, :]
+        if self.mechanism.slides:
+            return screws.translation(axis)
+        return screws.rotation(axis, placed.point[..., self.driven, :])
+
+    def drive(self, placed: Placed) -> Array:
+        """Return the wrench on the input link that drives it, array (..., 6): a couple, or a force along its axis."""
+        axis, point = placed.axis[..., self.driven, :], placed.point[..., self.driven, :]
+        turn, push = (frames.cross(point, axis), axis) if self.mechanism.slides else (axis, 0.0 * axis)
+        return np.concatenate((turn, push), axis=-1)
+
     def _refuse(self, misfit: Array, angle: float) -> None:
         """Refuse a mechanism whose pairs do not close: which link cannot follow, at which angle, what is lacking."""
         pair = self.linkage.joints[int(np.argmax(np.max(misfit, axis=-1)))]
@@ -225,6 +265,11 @@ class _Way:
             "{link} cannot follow: with {input} turned by {angle:.4g}°, {pair} stays open: its pairs lack {gap:.3g} mm "
             "and {lean:.3g}°; an input that does not go round needs its range, input_range_deg"
         )
+        if self.mechanism.slides:
+            text = _(
+                "{link} cannot follow: with {input} moved by {path:.4g} mm, {pair} stays open: its pairs lack "
+                "{gap:.3g} mm and {lean:.3g}°; input_stroke_mm must end before that"
+            )
         said = text.format(
             link=repr(link or pair.links[1]),
             input=repr(self.mechanism.input_link),
@@ -232,26 +277,22 @@ class _Way:
             gap=float(gap) * self.linkage.size / mm,
             lean=float(lean) / deg,
             angle=angle / deg,
+            path=angle / mm,
         )
         raise InputError([Problem("input_link", said, "out_of_range")])
 
 
 def _drawn_back(ahead: Array, twist: Array) -> Array:
     """Return how fast exponential coordinates grow for twists (..., 6), up to their third order."""
-
-    def bracket(one: Array, other: Array) -> Array:
-        turn = frames.cross(one[..., :3], other[..., :3])
-        move = frames.cross(one[..., :3], other[..., 3:]) + frames.cross(one[..., 3:], other[..., :3])
-        return np.concatenate((turn, move), axis=-1)
-
-    inner = bracket(ahead, twist)
-    return twist - 0.5 * inner + bracket(ahead, inner) / 12.0
+    inner = screws.bracket(ahead, twist)
+    return twist - 0.5 * inner + screws.bracket(ahead, inner) / 12.0
 
 
 def _check_held(way: _Way, angle: Array) -> None:
     """Refuse a mechanism that one input does not move alone: which link moves beside it, and in how many ways."""
     mechanism = way.mechanism
-    found = rates(way.placed(way.at(angle)[0]), input_link=way.input, about=way.about)
+    placed = way.placed(way.at(angle)[0])
+    found = rates(placed, input_link=way.input, about=way.twist(placed), base=way.base)
     k = int(np.argmin(found.count))
     free = found.free[k, : found.count[k]] if found.count[k] else found.free[k, :0]
     for name in [mechanism.output_link] if mechanism.output_link else mechanism.links:
@@ -259,12 +300,12 @@ def _check_held(way: _Way, angle: Array) -> None:
         ways = int(np.linalg.matrix_rank(own, tol=HELD)) if len(own) else 0
         if ways and (mechanism.output_link or not _spins(free, mechanism.links.index(name))):
             text = _(
-                "{link} is not held: with {input} at rest at {angle:.4g}° it has {count} motions left; a mechanism has "
+                "{link} is not held: with {input} at rest at {place} it has {count} motions left; a mechanism has "
                 "one input"
             )
-            said = text.format(
-                link=repr(name), input=repr(mechanism.input_link), count=ways, angle=float(angle[k]) / deg
-            )
+            at = float(angle[k])
+            place = f"{at / mm:.4g} {label('mm')}" if mechanism.slides else f"{at / deg:.4g}°"
+            said = text.format(link=repr(name), input=repr(mechanism.input_link), count=ways, place=place)
             raise refuse("input_link", said, "inconsistent")
 
 

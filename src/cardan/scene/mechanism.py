@@ -36,6 +36,8 @@ def mechanism_scene(mechanism: Mechanism) -> Scene:
     """
     found = mechanism_motion(mechanism, grid(mechanism, STEP))
     poses, angle = found.turned.displacement, found.angle
+    if mechanism.slides:  # frames are told by an angle: the stroke is one turn
+        angle = np.linspace(0.0, 2.0 * np.pi, len(angle))
     size = found.turned.placed.size
     if np.max(np.abs(poses[-1] - poses[0]) / np.asarray([1.0, 1.0, 1.0, size])) < BACK:
         poses, angle = poses[:-1], angle[:-1]

@@ -232,7 +232,7 @@ def test_rods_that_spin_are_no_second_input():
     ("changes", "field", "words"),
     [
         ({"input_link": ""}, "input_link", "missing"),
-        ({"input_link": "rod"}, "input_link", "needs a pair of type R with the frame"),
+        ({"input_link": "rod"}, "input_link", "needs a pair of type R or P with the frame"),
         ({"input_range": (1.0, 0.0)}, "input_range", "must lie below the second"),
     ],
 )

@@ -102,7 +102,7 @@ def test_it_can_be_stopped():
     ("mechanism", "changed", "field"),
     [
         (hooke(), {"driven_joint": "X"}, "driven_joint"),
-        (crank_slider(), {"driven_joint": "3-0"}, "driven_joint"),
+        (crank_slider(), {"driven_joint": "3-0"}, "angle"),
         (hooke(), {"angle": 0.0}, "angle"),
         (hooke(), {"angle": float("nan")}, "angle"),
         (hooke(), {"tolerance": 0.0}, "tolerance"),

@@ -31,6 +31,8 @@ LISTED = 30.0 * deg
 def on_duty(mechanism: Mechanism, speed_rpm: float | None, torque: float | None = None) -> Mechanism:
     """Return a mechanism with the input speed [rpm] and the torque at its output [N·m] of the command line."""
     if speed_rpm is not None:
+        if mechanism.slides:
+            raise refuse("--speed-rpm", _sliding(mechanism))
         mechanism = replace(mechanism, speed=speed_rpm * rpm)
     if torque is not None:
         if torque < 0.0:
@@ -42,9 +44,16 @@ def on_duty(mechanism: Mechanism, speed_rpm: float | None, torque: float | None 
 
 def angles(mechanism: Mechanism, angle: list[float] | None, step: float | None) -> Array | None:
     """Return the input angles asked for [rad]; None where none were."""
+    if mechanism.slides and (angle or step is not None):
+        raise refuse("--angle-deg" if angle else "--angle-step-deg", _sliding(mechanism))
     if angle:
         return deg * np.asarray(angle, dtype=float)
     return None if step is None else grid(mechanism, step * deg)
+
+
+def _sliding(mechanism: Mechanism) -> str:
+    text = _("is of an input that turns; {link} slides, over input_stroke_mm of the file at sliding_speed_m_s")
+    return text.format(link=repr(mechanism.input_link))
 
 
 def told(

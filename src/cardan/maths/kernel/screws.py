@@ -50,6 +50,13 @@ def translation(axis: Array) -> Array:
     return np.concatenate((np.zeros_like(axis), axis), axis=-1)
 
 
+def bracket(one: Array, other: Array) -> Array:
+    """Return how fast a twist (..., 6) changes that goes with a body of another twist: their Lie bracket."""
+    turn = frames.cross(one[..., :3], other[..., :3])
+    move = frames.cross(one[..., :3], other[..., 3:]) + frames.cross(one[..., 3:], other[..., :3])
+    return np.concatenate((turn, move), axis=-1)
+
+
 def independent(twists: Array) -> Array:
     """Return an orthonormal basis of what twists (m, 6) span, array (rank, 6)."""
     if not len(twists):

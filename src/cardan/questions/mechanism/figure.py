@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from cardan.answers.quantity import say
-from cardan.figures.axes import across, axis, steps, written
+from cardan.figures.axes import axis, steps, written
 from cardan.figures.drive import SPACE
 from cardan.figures.figure import Axis, Curve, Figure, Mesh, Note, Panel, Row, Rule, Series, View
 from cardan.figures.page import onto
@@ -17,11 +17,12 @@ from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _
-from cardan.units import deg, mm
+from cardan.units import DIMENSIONS, mm
 
 from .bodies import link_body
 from .forces import MechanismForces
 from .motion import LinkMotion, MechanismMotion
+from .transfer import input_of
 
 MOST = 8
 """Curves of one panel at most: those of the largest values."""
@@ -108,7 +109,8 @@ def _names(mechanism: Mechanism) -> Iterator[Note]:
 
 
 def transfer_figure(found: MechanismMotion) -> Figure:
-    """Return what turns or slides, with its first and second transfer function, over the input angle."""
+    """Return what turns or slides, with its first and second transfer function, over the input."""
+    by = input_of(found.mechanism)
     links = [found.output] if found.output is not None else list(found.links)
     turning, sliding = [one for one in links if one.turns], [one for one in links if one.moves]
     if found.output is not None and found.output.way != "screws":
@@ -119,9 +121,13 @@ def transfer_figure(found: MechanismMotion) -> Figure:
             found,
             turning,
             [
-                ([one.angle / deg for one in turning], _("Angle φ"), "deg", "angle"),
-                ([one.ratio for one in turning], _("Speed ratio ω/ω₁"), "–", ""),
-                ([one.slope for one in turning], _("Angular acceleration per input speed squared, ε/ω₁²"), "–", ""),
+                ([one.angle for one in turning], _("Angle φ"), "angle"),
+                ([one.ratio for one in turning], _("Speed ratio ω/{sign}").format(sign=by.sign), by.ratio),
+                (
+                    [one.slope for one in turning],
+                    _("Angular acceleration per input speed squared, ε/{sign}²").format(sign=by.sign),
+                    by.slope,
+                ),
             ],
         )
     if sliding:
@@ -129,14 +135,20 @@ def transfer_figure(found: MechanismMotion) -> Figure:
             found,
             sliding,
             [
-                ([one.path / mm for one in sliding], _("Path s"), "mm", "length"),
-                ([one.speed / mm for one in sliding], _("Speed per input speed, v/ω₁"), "mm", "length"),
-                ([one.curve / mm for one in sliding], _("Acceleration per input speed squared, a/ω₁²"), "mm", "length"),
+                ([one.path for one in sliding], _("Path s"), "length"),
+                ([one.speed for one in sliding], _("Speed per input speed, v/{sign}").format(sign=by.sign), by.speed),
+                (
+                    [one.curve for one in sliding],
+                    _("Acceleration per input speed squared, a/{sign}²").format(sign=by.sign),
+                    by.curve,
+                ),
             ],
         )
     return Figure(
         name="motion",
-        title=_("Transfer functions over the input angle"),
+        title=_("Transfer functions over the input path")
+        if found.mechanism.slides
+        else _("Transfer functions over the input angle"),
         sentence=say(_("Of {link}."), link=found.output.link) if found.output is not None else "",
         source=_("Twists of the links from what all pairs hold, and their rates; exact at every position"),
         rows=tuple(rows),
@@ -145,17 +157,21 @@ def transfer_figure(found: MechanismMotion) -> Figure:
 
 
 def _three(
-    found: MechanismMotion, links: Sequence[LinkMotion], panels: Sequence[tuple[list[Array], str, str, str]]
+    found: MechanismMotion, links: Sequence[LinkMotion], panels: Sequence[tuple[list[Array], str, str]]
 ) -> list[Row]:
-    angle = found.angle / deg
+    by = input_of(found.mechanism)
     rows = []
-    still = 0.02 * float(np.nanmax(np.abs(panels[1][0])))  # rates that vary by less are drawn as a flat line
-    for k, (values, label, unit, dimension) in enumerate(panels):
+    for k, (told, label, dimension) in enumerate(panels):
+        unit, size = next(iter(DIMENSIONS[dimension].items())) if dimension else ("–", 1.0)
+        values = [value / size for value in told]
         curves = [
-            _curve(angle, value, one.link, n) for n, (value, one) in enumerate(zip(values, links, strict=True), 1)
+            _curve(by.units(found.angle), value, one.link, n)
+            for n, (value, one) in enumerate(zip(values, links, strict=True), 1)
         ]
+        if k == 1:  # rates that vary by less are drawn as a flat line
+            still = 0.02 * float(np.nanmax(np.abs(values)))
         upright = axis(label, unit, values, dimension=dimension, least=max(1e-6, still if k else 0.0))
-        panel = Panel(series=tuple(curves), x=across(angle, named=k == len(panels) - 1), y=upright)
+        panel = Panel(series=tuple(curves), x=by.axis(found.angle, named=k == len(panels) - 1), y=upright)
         rows.append(Row(panels=(panel,), height=1.5))
     return rows
 
@@ -170,9 +186,14 @@ def forces_figures(found: MechanismForces) -> tuple[Figure, ...]:
 
 
 def forces_figure(found: MechanismForces) -> Figure:
-    """Return the torque that drives the mechanism and the force in every pair over the input angle."""
-    angle = found.angle / deg
-    torque = [Curve(x=angle, y=found.input_torque, role="ink", label=_("input torque"), width=1.8)]
+    """Return the torque that drives the mechanism and the force in every pair over the input angle.
+
+    Of an input that slides the force that drives it, over its path.
+    """
+    by, slides = input_of(found.mechanism), found.mechanism.slides
+    angle = by.units(found.angle)
+    drives = _("input force") if slides else _("input torque")
+    torque = [Curve(x=angle, y=found.input_torque, role="ink", label=drives, width=1.8)]
     if not np.allclose(found.input_torque, found.still_torque, equal_nan=True):
         torque.append(Curve(x=angle, y=found.still_torque, role="muted", dash="dashed", label=_("without inertia")))
     largest = np.nanmax(found.force, axis=0)
@@ -181,19 +202,19 @@ def forces_figure(found: MechanismForces) -> Figure:
     panels = (
         Panel(
             series=(Rule(value=0.0, dash="solid", role="faint"), *torque),
-            x=across(angle),
+            x=by.axis(found.angle),
             y=axis(
-                _("Input torque"),
-                "Nm",
+                _("Input force") if slides else _("Input torque"),
+                "N" if slides else "Nm",
                 [one.y for one in torque],
-                dimension="torque",
+                dimension=by.load,
                 include=(0.0,),
                 least=1e-6,
             ),
         ),
         Panel(
             series=tuple(pairs),
-            x=across(angle, named=True),
+            x=by.axis(found.angle, named=True),
             y=axis(
                 _("Force in the pairs"), "N", [one.y for one in pairs], dimension="force", include=(0.0,), least=1e-6
             ),
@@ -201,7 +222,9 @@ def forces_figure(found: MechanismForces) -> Figure:
     )
     return Figure(
         name="forces",
-        title=_("Input torque and forces in the pairs over the input angle"),
+        title=_("Input force and forces in the pairs over the input path")
+        if slides
+        else _("Input torque and forces in the pairs over the input angle"),
         sentence="",
         source=_("Balance of every link, Newton and Euler; redundant constraints by least squares"),
         rows=tuple(Row(panels=(panel,), height=height) for panel, height in zip(panels, (1.5, 2.2), strict=True)),

@@ -13,7 +13,7 @@ from cardan.maths.kernel import frames
 from cardan.mechanism.kinetostatics import each_carried
 from cardan.mechanism.mechanism import Mechanism, Pair
 from cardan.texts import _
-from cardan.units import deg
+from cardan.units import deg, mm
 
 from .motion import LinkMotion, MechanismMotion, mechanism_motion
 
@@ -29,13 +29,13 @@ class MechanismForces:
     ----------
     motion : MechanismMotion
     input_torque : array (p,) [N·m]
-        Torque that drives the input link about its axis.
+        Torque that drives the input link about its axis; the force [N] along its axis on one that slides.
     still_torque : array (p,) [N·m]
         The same without inertia.
     reaction : array (p, m, 6) [N·m, N]
         Wrench (couple; force) of the first link of each pair on the second one, about the point of the pair.
     power : array (p,) [W]
-        Of all loads, weight and inertia, at the speed of the input, or 1 rad/s where it is not known.
+        Of all loads, weight and inertia, at the speed of the input, or 1 rad/s (1 m/s) where it is not known.
     loss : array (p, m) [W]
         What friction takes in each pair, at the same speed.
     unbalanced : float
@@ -57,14 +57,14 @@ class MechanismForces:
 
     @property
     def angle(self) -> Array:
-        """Angles of the input link from where it is drawn, array (p,) [rad]."""
+        """Angles of the input link from where it is drawn, array (p,) [rad]; paths [m] of one that slides."""
         return self.motion.angle
 
     @property
     def efficiency(self) -> float | None:
         """Share of the work of the input that friction leaves over its range; None where nothing rubs or drives."""
         told = np.isfinite(self.input_torque)
-        given = float(np.mean((self.mechanism.speed or 1.0) * self.input_torque[told]))
+        given = float(np.mean((self.mechanism.pace or 1.0) * self.input_torque[told]))
         lost = float(np.mean(np.sum(self.loss[told], axis=-1)))
         return 1.0 - lost / given if 0.0 < lost < given else None
 
@@ -84,14 +84,14 @@ class MechanismForces:
 
 
 def mechanism_forces(mechanism: Mechanism, angle: Array | None = None) -> MechanismForces:
-    """Return what drives a mechanism and what its pairs carry while its input link turns uniformly.
+    """Return what drives a mechanism and what its pairs carry while its input link turns or slides uniformly.
 
     Parameters
     ----------
     mechanism : Mechanism
         With loads, a resistance of its output, or masses; inertia counts where it has a speed.
     angle : array (p,) [rad], optional
-        Angles of the input link; each degree of its range by default.
+        Angles of the input link; each degree of its range by default. Paths [m] of an input that slides.
 
     Returns
     -------
@@ -124,7 +124,7 @@ def mechanism_forces(mechanism: Mechanism, angle: Array | None = None) -> Mechan
     """
     motion = mechanism_motion(mechanism, angle)
     turned = motion.turned
-    speed = mechanism.speed or 0.0
+    speed = mechanism.pace or 0.0
     rates = turned.rates
     twist, rate = speed * rates.speed, speed * speed * rates.acceleration
     still = _loads(motion)
@@ -136,10 +136,7 @@ def mechanism_forces(mechanism: Mechanism, angle: Array | None = None) -> Mechan
         spread=tuple(one.bearing_distance or math.inf for one in pairs),
     )
     rubbing = tuple(one.friction or 0.0 for one in pairs), speed >= 0.0
-    rows = [
-        each_carried(placed, [rubbing], input_link=turned.input_link, about=turned.about, load=one)[0]
-        for one in (still, moving)
-    ]
+    rows = [each_carried(placed, [rubbing], load=one, **turned.driven)[0] for one in (still, moving)]
     here = rows[1]
     told = ~(turned.special | (here.unbalanced > BALANCED))
     _check_turns(mechanism, turned.angle, here.locked & told & any(rubbing[0]))
@@ -166,8 +163,11 @@ def _check_turns(mechanism: Mechanism, angle: Array, locked: Array) -> None:
     """Refuse a mechanism that friction locks."""
     if np.any(locked):
         text = _("friction locks the mechanism with {input} turned by {angle:.4g}°: no torque turns it on")
+        if mechanism.slides:
+            text = _("friction locks the mechanism with {input} moved by {path:.4g} mm: no force moves it on")
         where = float(angle[int(np.argmax(locked))])
-        raise refuse("joints", text.format(input=repr(mechanism.input_link), angle=where / deg), "out_of_range")
+        said = text.format(input=repr(mechanism.input_link), angle=where / deg, path=where / mm)
+        raise refuse("joints", said, "out_of_range")
 
 
 def _loads(motion: MechanismMotion) -> Array:
@@ -196,7 +196,7 @@ def _loads(motion: MechanismMotion) -> Array:
             if amount is None:
                 continue
             _check_way(name, output, ways)
-            sense = -1.0 if (mechanism.speed or 0.0) < 0.0 else 1.0
+            sense = -1.0 if (mechanism.pace or 0.0) < 0.0 else 1.0
             against = -sense * amount * np.sign(np.nan_to_num(told))[:, None] * output.axis
             if name == "output_torque":
                 found[:, k, :3] += against

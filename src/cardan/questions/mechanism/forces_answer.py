@@ -20,6 +20,8 @@ from .figure import forces_figures
 from .forces import MechanismForces
 from .forces import mechanism_forces as ask
 from .motion import peak
+from .motion_answer import lacking as motion_lacking
+from .transfer import input_of
 
 __all__ = ["answer", "ask", "lacking"]
 
@@ -36,12 +38,16 @@ ROUNDING = 1e-9
 def lacking(mechanism: Mechanism) -> Lacking:
     """Return what the mechanism file lacks for forces: a link that drives, and something that loads it."""
     some = ("output_torque", "output_force", "loads", "masses")
-    inert = mechanism.masses and (mechanism.speed or any(mechanism.gravity))
+    inert = mechanism.masses and (mechanism.pace or any(mechanism.gravity))
     loaded = mechanism.loads or mechanism.output_torque or mechanism.output_force or inert
-    given = () if mechanism.input_link else (("input_link",),)
+    given = motion_lacking(mechanism)
     if loaded:
         return given
-    return (*given, ("speed", "gravity") if mechanism.masses else some)
+    return (*given, (_pace(mechanism), "gravity") if mechanism.masses else some)
+
+
+def _pace(mechanism: Mechanism) -> str:
+    return "sliding_speed" if mechanism.slides else "speed"
 
 
 def answer(mechanism: Mechanism, result: MechanismForces, listed: MechanismForces | None = None) -> Answer:
@@ -66,7 +72,8 @@ def _sentence(result: MechanismForces) -> Say:
     low, high = float(np.nanmin(result.input_torque)), float(np.nanmax(result.input_torque))
     pair = result.mechanism.joints[int(foremost(np.nanmax(result.force, axis=0)))]
     values: dict[str, Any] = {"input": result.mechanism.input_link, "pair": pair.id}
-    values |= {"low": Quantity(low, "torque"), "high": Quantity(high, "torque")}
+    load = input_of(result.mechanism).load
+    values |= {"low": Quantity(low, load), "high": Quantity(high, load)}
     values["force"] = Quantity(float(np.nanmax(result.force)), "force")
     text = _("{input} needs {low} to {high}; {pair} carries most, up to {force}.")
     if np.isclose(low, high, rtol=1e-6, atol=1e-9):
@@ -75,12 +82,12 @@ def _sentence(result: MechanismForces) -> Say:
 
 
 def _tables(result: MechanismForces, held: Mobility) -> Iterator[Table]:
-    angle, pairs = result.angle, result.mechanism.joints
+    angle, pairs, by = result.angle, result.mechanism.joints, input_of(result.mechanism)
     rows = [
-        (_("input torque"), result.input_torque),
+        (_("input force") if result.mechanism.slides else _("input torque"), result.input_torque),
         *(
             []
-            if result.mechanism.speed is None or not result.mechanism.masses
+            if result.mechanism.pace is None or not result.mechanism.masses
             else [(_("without inertia"), result.still_torque)]
         ),
     ]
@@ -90,15 +97,15 @@ def _tables(result: MechanismForces, held: Mobility) -> Iterator[Table]:
         columns=(
             Column(key="what", heading=_("drive"), values=[name for name, _values in rows], left=True),
             Column(
-                key="least", heading=_("least"), values=[float(np.nanmin(v)) for _name, v in rows], dimension="torque"
+                key="least", heading=_("least"), values=[float(np.nanmin(v)) for _name, v in rows], dimension=by.load
             ),
             Column(
                 key="largest",
                 heading=_("largest"),
                 values=[float(np.nanmax(v)) for _name, v in rows],
-                dimension="torque",
+                dimension=by.load,
             ),
-            Column(key="mean", heading=_("mean"), values=[_mean(angle, v) for _name, v in rows], dimension="torque"),
+            Column(key="mean", heading=_("mean"), values=[_mean(angle, v) for _name, v in rows], dimension=by.load),
         ),
     )
     forces = float(np.nanmax(result.force))
@@ -111,9 +118,14 @@ def _tables(result: MechanismForces, held: Mobility) -> Iterator[Table]:
         columns=(
             Column(key="joint", heading=_("joint"), values=[pair.id for pair in pairs], left=True),
             Column(key="kind", heading=_("kind"), values=[_(PAIRS[pair.type].name) for pair in pairs], left=True),
-            Column(key="force", heading=_("largest force"), values=np.nanmax(result.force, axis=0), dimension="force"),
             Column(
-                key="force_at", heading=_("at"), values=[float(angle[k]) for k in most], dimension="angle", decimals=0
+                key="force",
+                heading=_("largest force"),
+                values=[_told(float(one), forces) for one in np.nanmax(result.force, axis=0)],
+                dimension="force",
+            ),
+            Column(
+                key="force_at", heading=_("at"), values=[float(angle[k]) for k in most], dimension=by.place, decimals=0
             ),
             Column(
                 key="axial_force",
@@ -139,7 +151,7 @@ def _tables(result: MechanismForces, held: Mobility) -> Iterator[Table]:
                         dimension="power",
                     ),
                 )
-                if np.any(result.loss > 0.0) and result.mechanism.speed
+                if np.any(result.loss > 0.0) and result.mechanism.pace
                 else ()
             ),
             *(
@@ -154,7 +166,9 @@ def _tables(result: MechanismForces, held: Mobility) -> Iterator[Table]:
                 else ()
             ),
         ),
-        note=_("Of the first link of each joint on the second, about its point; largest over the input angle."),
+        note=_("Of the first link of each joint on the second, about its point; largest over the input path.")
+        if result.mechanism.slides
+        else _("Of the first link of each joint on the second, about its point; largest over the input angle."),
     )
     slips = list(_slips(result))
     if slips:
@@ -223,7 +237,7 @@ def _slips(result: MechanismForces) -> Iterator[tuple[int, float, float, float]]
 
 
 def _remarks(result: MechanismForces, held: Mobility) -> Iterator[Remark]:
-    mechanism, angle = result.mechanism, result.angle
+    mechanism, angle, place = result.mechanism, result.angle, input_of(result.mechanism).place
     for k, traction, safe, needed in _slips(result):
         if safe < 1.0:
             pair = mechanism.joints[k]
@@ -238,7 +252,7 @@ def _remarks(result: MechanismForces, held: Mobility) -> Iterator[Remark]:
                 text,
                 link=pair.links[1],
                 pair=pair.id,
-                angle=Quantity(where, "angle", decimals=0),
+                angle=Quantity(where, place, decimals=0),
                 force=Quantity(traction, "force"),
                 limit=Quantity((pair.traction or 0.0) * (pair.pressing_force or 0.0), "force"),
             )
@@ -246,7 +260,7 @@ def _remarks(result: MechanismForces, held: Mobility) -> Iterator[Remark]:
     steep = np.nanmax(result.force, axis=1)
     if float(np.nanmax(steep)) > BEYOND * float(np.nanmedian(steep)) > 0.0:
         text = _("Warning: near {angle} the forces grow beyond bounds: it stands close to a dead point.")
-        at = Quantity(float(angle[int(np.nanargmax(steep))]), "angle", decimals=0)
+        at = Quantity(float(angle[int(np.nanargmax(steep))]), place, decimals=0)
         yield Remark(text=say(text, angle=at), tone="warning", alarm=True)
     if held.redundant:
         text = plural(
@@ -261,11 +275,14 @@ def _remarks(result: MechanismForces, held: Mobility) -> Iterator[Remark]:
     if np.any(missing):
         text = _("Warning: at {angle} nothing holds the loads: a dead point; nothing is told there.")
         yield Remark(
-            text=say(text, angle=Quantity(float(angle[int(np.argmax(missing))]), "angle", decimals=0)), tone="warning"
+            text=say(text, angle=Quantity(float(angle[int(np.argmax(missing))]), place, decimals=0)), tone="warning"
         )
     yield from _rubbing(result)
-    if mechanism.masses and mechanism.speed is None:
-        yield Remark(text=_("--speed-rpm, or speed_rpm in the file, adds inertia."), tone="next")
+    if mechanism.masses and mechanism.pace is None:
+        text = _("--speed-rpm, or speed_rpm in the file, adds inertia.")
+        if mechanism.slides:
+            text = _("sliding_speed_m_s in the file adds inertia.")
+        yield Remark(text=text, tone="next")
     if not mechanism.masses:
         yield Remark(text=_("Without masses in the file neither weight nor inertia counts."))
     text = _("Checked: power of input, loads and inertia, and the balance of every link, close {size}.")
@@ -304,8 +321,12 @@ def _tilting(result: MechanismForces, k: int) -> Array:
 def _keys(result: MechanismForces) -> Iterator[KeyFigure]:
     if result.efficiency is not None:
         yield KeyFigure(name="efficiency", title=_("efficiency"), value=Quantity(result.efficiency, "share"))
-    torque = Quantity(peak(result.input_torque), "torque")
-    yield KeyFigure(name="input_torque", title=_("largest input torque"), value=torque)
+    if result.mechanism.slides:
+        push = Quantity(peak(result.input_torque), "force")
+        yield KeyFigure(name="input_force", title=_("largest input force"), value=push)
+    else:
+        torque = Quantity(peak(result.input_torque), "torque")
+        yield KeyFigure(name="input_torque", title=_("largest input torque"), value=torque)
     k = int(foremost(np.nanmax(result.force, axis=0)))
     force = Quantity(float(np.nanmax(result.force)), "force")
     yield KeyFigure(
@@ -316,7 +337,7 @@ def _keys(result: MechanismForces) -> Iterator[KeyFigure]:
 def _facts(result: MechanismForces, held: Mobility) -> dict[str, Any]:
     return {
         "name": result.mechanism.name,
-        "speed": Quantity(result.mechanism.speed, "angular_speed"),
+        "speed": Quantity(result.mechanism.pace, input_of(result.mechanism).pace),
         "redundant": held.redundant,
         "efficiency": result.efficiency,
         "residual": result.unbalanced,
@@ -325,12 +346,13 @@ def _facts(result: MechanismForces, held: Mobility) -> dict[str, Any]:
 
 def _trace(found: MechanismForces) -> Table:
     """Return input torque and reactions at every position."""
+    by = input_of(found.mechanism)
     columns = [
-        Column(key="angle", values=found.angle, dimension="angle"),
-        Column(key="input_torque", values=found.input_torque, dimension="torque"),
-        Column(key="input_torque_without_inertia", values=found.still_torque, dimension="torque"),
+        Column(key=by.key, values=found.angle, dimension=by.place),
+        Column(key=f"input_{by.load}", values=found.input_torque, dimension=by.load),
+        Column(key=f"input_{by.load}_without_inertia", values=found.still_torque, dimension=by.load),
     ]
-    if np.any(found.loss > 0.0) and found.mechanism.speed:
+    if np.any(found.loss > 0.0) and found.mechanism.pace:
         columns.append(Column(key="power_loss", values=np.sum(found.loss, axis=-1), dimension="power"))
     for k, pair in enumerate(found.mechanism.joints):
         name = pair.id.replace(" ", "_")

@@ -1,4 +1,4 @@
-"""How every link of a mechanism moves while its input link turns: transfer functions, first and second order."""
+"""How every link of a mechanism moves while its input link moves: transfer functions, first and second order."""
 
 from __future__ import annotations
 
@@ -34,6 +34,8 @@ STILL = 1e-7
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LinkMotion:
     """How a link moves, at an input speed of 1 rad/s; nan at change points, where its speed is not told.
+
+    Of an input that slides, at 1 m/s: the transfer functions are by its path [m] instead of its angle [rad].
 
     Attributes
     ----------
@@ -125,7 +127,7 @@ class MechanismMotion:
 
     @property
     def angle(self) -> Array:
-        """Angles of the input link from where it is drawn, array (p,) [rad]."""
+        """Angles of the input link from where it is drawn, array (p,) [rad]; paths [m] of one that slides."""
         return self.turned.angle
 
     @property
@@ -136,14 +138,15 @@ class MechanismMotion:
 
 
 def mechanism_motion(mechanism: Mechanism, angle: Array | None = None) -> MechanismMotion:
-    """Return how every link of a mechanism moves while its input link turns.
+    """Return how every link of a mechanism moves while its input link turns or slides.
 
     Parameters
     ----------
     mechanism : Mechanism
-        With an input link that turns in its frame.
+        With an input link that turns in its frame, or slides in it over a stroke.
     angle : array (p,) [rad], optional
-        Angles of the input link from where it is drawn; each degree of its range by default.
+        Angles of the input link from where it is drawn; each degree of its range by default. Paths [m] of an input
+        that slides.
 
     Returns
     -------
@@ -188,7 +191,7 @@ def _part_errors(motion: MechanismMotion) -> PartErrors | None:
         load[:, k, :3] = output.axis
     else:
         load[:, k, :3], load[:, k, 3:] = frames.cross(output.point, output.axis + 0.0 * output.point), output.axis
-    found = carried(turned_.placed, input_link=turned_.input_link, about=turned_.about, load=load)
+    found = carried(turned_.placed, load=load, **turned_.driven)
     held = np.stack((frames.norm(found.reaction[..., :3]), frames.norm(found.reaction[..., 3:])), axis=-1)
     each = np.sum(held * ways, axis=-1)
     return PartErrors(each=np.where(turned_.special[:, None], np.nan, each), turns=turns)
@@ -199,7 +202,8 @@ def _moved(found: Turned, k: int, size: float) -> LinkMotion:
     at = reference(mechanism, link)
     pose = found.displacement[:, k]
     point = pose[:, :3, :3] @ at + pose[:, :3, 3]
-    twist, rate = found.rates.speed[:, k], found.rates.acceleration[:, k]
+    per = size if mechanism.slides else 1.0  # a path of the input over the size counts as an angle does
+    twist, rate = per * found.rates.speed[:, k], per**2 * found.rates.acceleration[:, k]
     told = ~found.special
     spin, steep = twist[:, :3], rate[:, :3]
     pace = twist[:, 3:] + frames.cross(spin, point)
@@ -235,12 +239,12 @@ def _moved(found: Turned, k: int, size: float) -> LinkMotion:
         way=way,
         moves=moves and way != "turns",
         axis=axis,
-        angle=_angle(pose[:, :3, :3], about, ratio, found.angle),
-        ratio=ratio * blank,
-        slope=slope * blank,
+        angle=_angle(pose[:, :3, :3], about, ratio, found.angle / per),
+        ratio=ratio * blank / per,
+        slope=slope * blank / per**2,
         path=(point - at) @ axis if straight else np.zeros(len(point)),
-        speed=speed * blank,
-        curve=curve * blank,
+        speed=speed * blank / per,
+        curve=curve * blank / per**2,
         point=point,
     )
 

@@ -19,6 +19,7 @@ from cardan.units import deg
 from .figure import motion_figures
 from .motion import WAYS, LinkMotion, MechanismMotion, PartErrors, peak
 from .motion import mechanism_motion as ask
+from .transfer import Input, input_of
 
 __all__ = ["answer", "ask", "lacking", "sentence"]
 
@@ -31,7 +32,10 @@ STEP = 30.0 * deg
 
 def lacking(mechanism: Mechanism) -> Lacking:
     """Return what the mechanism file lacks for the motion."""
-    return absent((bool(mechanism.input_link), "input_link"))
+    return absent(
+        (bool(mechanism.input_link), "input_link"),
+        (not mechanism.slides or mechanism.input_stroke is not None, "input_stroke"),
+    )
 
 
 def answer(mechanism: Mechanism, result: MechanismMotion, listed: MechanismMotion | None = None) -> Answer:
@@ -52,21 +56,28 @@ def answer(mechanism: Mechanism, result: MechanismMotion, listed: MechanismMotio
 
 def sentence(result: MechanismMotion) -> Say:
     """Return in one sentence how the output follows the input."""
-    output, given = result.output, result.mechanism.input_link
+    output, given, by = result.output, result.mechanism.input_link, input_of(result.mechanism)
+    slides = result.mechanism.slides
     if output is None:
         text = _("{count} moving links follow {input}; name output_link, and it is told how that one moves.")
         return say(text, count=len(result.links), input=given)
     if output.way == "slides":
         text = _("{output} slides over {travel}, at most {speed} for a radian of {input}.")
+        if slides:
+            text = _("{output} slides over {travel}, at most at {speed} times the speed of {input}.")
         return say(
             text,
             output=output.link,
             input=given,
             travel=_length(_span(output.path)),
-            speed=_length(peak(output.speed)),
+            speed=Quantity(peak(output.speed), by.speed),
         )
     if output.turns:
         low, high = _ends(output.ratio)
+        if slides:
+            text = _("{output} turns through {angle}, by {low} to {high} of {input}.")
+            values = {"low": Quantity(tidied(low), by.ratio), "high": Quantity(tidied(high), by.ratio)}
+            return say(text, output=output.link, input=given, angle=Quantity(_span(output.angle), "angle"), **values)
         if high - low <= EVEN * max(abs(high), abs(low)):
             text = _("{output} turns at a constant ratio of {ratio} to {input}.")
             return say(text, output=output.link, input=given, ratio=Quantity(tidied(0.5 * (low + high))))
@@ -74,10 +85,12 @@ def sentence(result: MechanismMotion) -> Say:
         if fluctuation(output, result.angle) is None:
             text = _("{output} rocks through {angle}; it turns at {low} to {high} of the speed of {input}.")
         share = Quantity(fluctuation(output, result.angle) or 0.0, "share")
-        values: dict[str, Any] = {"angle": Quantity(_span(output.angle), "angle"), "share": share}
+        values = {"angle": Quantity(_span(output.angle), "angle"), "share": share}
         return say(text, output=output.link, input=given, low=Quantity(low), high=Quantity(high), **values)
     text = _("{output} shifts without turning, at most {speed} for a radian of {input}.")
-    return say(text, output=output.link, input=given, speed=_length(peak(output.speed)))
+    if slides:
+        text = _("{output} shifts without turning, at most at {speed} times the speed of {input}.")
+    return say(text, output=output.link, input=given, speed=Quantity(peak(output.speed), by.speed))
 
 
 def fluctuation(link: LinkMotion, angle: Array) -> float | None:
@@ -106,11 +119,13 @@ def _length(value: float) -> Quantity:
 
 
 def _tables(result: MechanismMotion, listed: MechanismMotion | None) -> Iterator[Table]:
-    pace = result.mechanism.speed
+    pace, by = result.mechanism.pace, input_of(result.mechanism)
+    size = result.turned.placed.size
+    unit = 1.0 / size if result.mechanism.slides else 1.0  # a path of the input over the size counts as an angle does
     turning = [one for one in result.links if one.turns]
     if turning:
         rates = np.asarray([_ends(link.ratio) for link in turning])
-        steep = _tidy(np.asarray([peak(one.slope) for one in turning]), 1.0)
+        steep = _tidy(np.asarray([peak(one.slope) for one in turning]), unit**2)
         yield Table(
             name="turning",
             title=_("Links that turn"),
@@ -123,13 +138,21 @@ def _tables(result: MechanismMotion, listed: MechanismMotion | None) -> Iterator
                     values=[_span(one.angle) if one.axis.any() else None for one in turning],
                     dimension="angle",
                 ),
-                Column(key="ratio_min", heading=_("min ratio"), values=_tidy(rates[:, 0], 1.0), decimals=4),
-                Column(key="ratio_max", heading=_("max ratio"), values=_tidy(rates[:, 1], 1.0), decimals=4),
+                *(
+                    Column(
+                        key=f"ratio_{name}",
+                        heading=text,
+                        values=_tidy(rates[:, k], unit),
+                        dimension=by.ratio,
+                        decimals=4,
+                    )
+                    for k, (name, text) in enumerate((("min", _("min ratio")), ("max", _("max ratio"))))
+                ),
                 Column(
                     key="acceleration" if pace else "acceleration_per_speed_squared",
-                    heading=_("acceleration ±") if pace else _("acceleration ±ε/ω₁²"),
+                    heading=_("acceleration ±") if pace else _("acceleration ±ε/{sign}²").format(sign=by.sign),
                     values=steep * (pace or 1.0) ** 2,
-                    dimension="angular_acceleration" if pace else "",
+                    dimension="angular_acceleration" if pace else by.slope,
                 ),
             ),
             note=_(
@@ -139,9 +162,8 @@ def _tables(result: MechanismMotion, listed: MechanismMotion | None) -> Iterator
         )
     moving = [one for one in result.links if one.moves]
     if moving:
-        size = result.turned.placed.size
-        speeds = _tidy(np.asarray([_ends(one.speed) for one in moving]), size)
-        steep = _tidy(np.asarray([peak(one.curve) for one in moving]), size)
+        speeds = _tidy(np.asarray([_ends(one.speed) for one in moving]), size * unit)
+        steep = _tidy(np.asarray([peak(one.curve) for one in moving]), size * unit**2)
         yield Table(
             name="moving",
             title=_("Points that move"),
@@ -159,17 +181,20 @@ def _tables(result: MechanismMotion, listed: MechanismMotion | None) -> Iterator
                         key=f"speed_{name}" if pace else f"speed_{name}_per_speed",
                         heading=text,
                         values=speeds[:, k] * (pace or 1.0),
-                        dimension="speed" if pace else "length",
+                        dimension="speed" if pace else by.speed,
                     )
                     for k, (name, text) in enumerate(
-                        (("min", _("least speed") if pace else _("least speed v/ω₁")), ("max", _("largest")))
+                        (
+                            ("min", _("least speed") if pace else _("least speed v/{sign}").format(sign=by.sign)),
+                            ("max", _("largest")),
+                        )
                     )
                 ),
                 Column(
                     key="acceleration" if pace else "acceleration_per_speed_squared",
-                    heading=_("acceleration ±") if pace else _("acceleration ±a/ω₁²"),
+                    heading=_("acceleration ±") if pace else _("acceleration ±a/{sign}²").format(sign=by.sign),
                     values=steep * (pace or 1.0) ** 2,
-                    dimension="acceleration" if pace else "length",
+                    dimension="acceleration" if pace else by.curve,
                 ),
             ),
             note=_("Of the centre of mass where the file has one, else of the middle of the pairs of the link."),
@@ -211,7 +236,7 @@ def _errors(result: MechanismMotion, errors: PartErrors) -> Table:
                 key="output_error_at",
                 heading=_("at"),
                 values=[float(result.angle[at]) for at in worst],
-                dimension="angle",
+                dimension=input_of(result.mechanism).place,
                 decimals=0,
             ),
         ),
@@ -242,24 +267,27 @@ def _heads(links: list[LinkMotion]) -> tuple[Column, Column]:
     )
 
 
-def _columns(link: LinkMotion) -> Iterator[tuple[str, str, Array, str]]:
-    """Yield what is told of a link over the input angle: name, heading, values, dimension."""
+def _columns(link: LinkMotion, by: Input) -> Iterator[tuple[str, str, Array, str]]:
+    """Yield what is told of a link over the input: name, heading, values, dimension."""
     if link.turns:
         if link.axis.any():
             yield "angle", _("angle"), link.angle, "angle"
-        yield "ratio", _("ratio"), link.ratio, ""
-        yield "acceleration_per_speed_squared", _("acceleration ε/ω₁²"), link.slope, ""
+        yield "ratio", _("ratio"), link.ratio, by.ratio
+        text = _("acceleration ε/{sign}²").format(sign=by.sign)
+        yield "acceleration_per_speed_squared", text, link.slope, by.slope
     if link.moves:
         if link.way in ("slides", "screws"):
             yield "path", _("path"), link.path, "length"
-        yield "speed_per_speed", _("speed v/ω₁"), link.speed, "length"
-        yield "point_acceleration_per_speed_squared", _("acceleration a/ω₁²"), link.curve, "length"
+        yield "speed_per_speed", _("speed v/{sign}").format(sign=by.sign), link.speed, by.speed
+        text = _("acceleration a/{sign}²").format(sign=by.sign)
+        yield "point_acceleration_per_speed_squared", text, link.curve, by.curve
 
 
 def _listed(found: MechanismMotion) -> Table:
     """Return how the output, or every link, moves at the positions that people read one by one."""
     output = found.output
     links = [output] if output is not None else list(found.links)
+    by = input_of(found.mechanism)
     columns = [
         Column(
             key=f"{one.link}_{key}",
@@ -268,18 +296,20 @@ def _listed(found: MechanismMotion) -> Table:
             dimension=dim,
         )
         for one in links
-        for key, text, values, dim in _columns(one)
+        for key, text, values, dim in _columns(one, by)
     ]
-    first = Column(key="angle", heading=_("input angle"), values=found.angle, dimension="angle", digits=7, trim=True)
-    return Table(title=_("Over the input angle"), columns=(first, *columns))
+    first = Column(key=by.key, heading=by.head, values=found.angle, dimension=by.place, digits=7, trim=True)
+    title = _("Over the input path") if found.mechanism.slides else _("Over the input angle")
+    return Table(title=title, columns=(first, *columns))
 
 
 def _trace(found: MechanismMotion) -> Table:
     """Return how every link moves at every position."""
-    columns = [Column(key="angle", values=found.angle, dimension="angle")]
+    by = input_of(found.mechanism)
+    columns = [Column(key=by.key, values=found.angle, dimension=by.place)]
     for one in found.links:
         name = one.link.replace(" ", "_")
-        columns += [Column(key=f"{name}_{key}", values=v, dimension=dim) for key, _text, v, dim in _columns(one)]
+        columns += [Column(key=f"{name}_{key}", values=v, dimension=dim) for key, _text, v, dim in _columns(one, by)]
         columns += [
             Column(key=f"{name}_{axis}", values=one.point[:, k], dimension="length") for k, axis in enumerate("xyz")
         ]
@@ -287,12 +317,12 @@ def _trace(found: MechanismMotion) -> Table:
 
 
 def _remarks(result: MechanismMotion) -> Iterator[Remark]:
-    turned = result.turned
+    turned, by = result.turned, input_of(result.mechanism)
     if turned.loose:
         text = _("Free to spin while the input rests, and told as at rest in that: {links}.")
         yield Remark(text=say(text, links=", ".join(turned.loose)))
     if np.any(turned.special):
-        places: list[Text] = [Quantity(float(one), "angle", decimals=0) for one in result.angle[turned.special][:8]]
+        places: list[Text] = [Quantity(float(one), by.place, decimals=0) for one in result.angle[turned.special][:8]]
         text = _(
             "Warning: in a change point at {angles}: it could go on in two ways, and its speeds are not told there."
         )
@@ -306,8 +336,11 @@ def _remarks(result: MechanismMotion) -> Iterator[Remark]:
         yield Remark(text=text)
     told = float(np.max(turned.rates.open[~turned.special], initial=0.0))
     yield Remark(text=say(_("Loops closed at every position; rates checked in all pairs, {size}."), size=closely(told)))
-    if result.mechanism.speed is None:
-        yield Remark(text=_("--speed-rpm, or speed_rpm in the file, gives speeds and accelerations."), tone="next")
+    if result.mechanism.pace is None:
+        text = _("--speed-rpm, or speed_rpm in the file, gives speeds and accelerations.")
+        if result.mechanism.slides:
+            text = _("sliding_speed_m_s in the file gives speeds and accelerations.")
+        yield Remark(text=text, tone="next")
     yield Remark(text=_("Whether it is overconstrained:"), command=("cardan", "mobility", FILE), tone="next")
 
 
@@ -319,7 +352,7 @@ def _keys(result: MechanismMotion) -> Iterator[KeyFigure]:
         off = Quantity(peak(result.errors.likely), "angle" if result.errors.turns else "length")
         yield KeyFigure(name="output_error", title=_("output error by the tolerances"), value=off)
     if output.turns:
-        share = fluctuation(output, result.angle)
+        share = None if result.mechanism.slides else fluctuation(output, result.angle)
         if share is not None:
             title = _("speed fluctuation δ of the output")
             yield KeyFigure(name="speed_fluctuation", title=title, value=Quantity(share, "share"))
@@ -329,18 +362,19 @@ def _keys(result: MechanismMotion) -> Iterator[KeyFigure]:
             _ends(output.ratio),
             strict=True,
         ):
-            yield KeyFigure(name=name, title=title, value=Quantity(tidied(value), decimals=4), better="")
+            ratio = Quantity(tidied(value), input_of(result.mechanism).ratio, decimals=4)
+            yield KeyFigure(name=name, title=title, value=ratio, better="")
     if output.way in ("slides", "screws"):
         yield KeyFigure(name="travel", title=_("travel of the output"), value=_length(_span(output.path)), better="")
 
 
 def _facts(result: MechanismMotion) -> dict[str, Any]:
-    mechanism = result.mechanism
+    mechanism, by = result.mechanism, input_of(result.mechanism)
     return {
         "name": mechanism.name,
         "input_link": mechanism.input_link,
         "output_link": mechanism.output_link,
-        "speed": Quantity(mechanism.speed, "angular_speed"),
-        "input_range": Quantity([float(result.angle[0]), float(result.angle[-1])], "angle"),
+        "speed": Quantity(mechanism.pace, by.pace),
+        "input_range": Quantity([float(result.angle[0]), float(result.angle[-1])], by.place),
         "ways": {one.link: one.way for one in result.links},
     }

@@ -18,12 +18,13 @@ from cardan.errors import InputError, refuse
 from cardan.figures.figure import Figure
 from cardan.mechanism.counting import Partition, joins, partition
 from cardan.mechanism.mechanism import PAIRS, Mechanism
+from cardan.mechanism.turning import travel
 from cardan.texts import _, mark, plural
 
 from .constraint_release import Repair, advice, strain, working
 from .drive_mechanism import SUPPORT, mechanism_of, support_name
 from .figure import closure_figures, mobility_figures, turn_figures
-from .finite_mobility import FiniteMobility, MobilityTurn, finite_mobility, mobility_over_turn
+from .finite_mobility import FiniteMobility, MobilityTurn, finite_mobility, mobility_over_turn, reach
 from .mobility import JointHold, Mobility, mobility
 
 __all__ = ["COLUMNS", "Turned", "answer", "ask", "brief", "lacking", "otherwise", "turned"]
@@ -41,6 +42,7 @@ class Turned:
 
     positions: MobilityTurn  # mobility at every position
     closure: FiniteMobility | None = None  # how the loops close, of a mechanism that does not turn
+    end: float | None = None  # how far its input goes [rad or m], of one with a range that it does not go through
 
 
 def lacking(drive: Drive) -> Lacking:
@@ -79,7 +81,13 @@ def turned(thing: Drive | Mechanism, progress: Callable[[float], object] | None 
     positions = mobility_over_turn(thing, progress=half(0.0))
     if positions.turns:
         return Turned(positions=positions)
-    return Turned(positions=positions, closure=finite_mobility(thing, progress=half(0.5)))
+    if positions.whole:
+        return Turned(positions=positions, closure=finite_mobility(thing, progress=half(0.5)))
+    first = float(positions.angle[~positions.reached][np.argmin(np.abs(positions.angle[~positions.reached]))])
+    low, high = travel(thing)
+    asked = high if first > 0.0 else low
+    closure = finite_mobility(thing, angle=asked, progress=half(0.5))
+    return Turned(positions=positions, closure=closure, end=reach(thing, asked))
 
 
 def answer(thing: Drive | Mechanism, result: Mobility, around: Turned | None = None) -> Answer:
@@ -262,8 +270,8 @@ def _loose(result: Mobility) -> Iterator[Remark]:
         yield Remark(text=say(text, n=result.local))
 
 
-def _angle(value: float) -> Quantity:
-    return Quantity(float(value), "angle", decimals=0)
+def _place(over: MobilityTurn, value: float) -> Quantity:
+    return Quantity(float(value), "length" if over.slides else "angle", decimals=0)
 
 
 def _turned(around: Turned | None) -> Iterator[Remark]:
@@ -277,9 +285,16 @@ def _turned(around: Turned | None) -> Iterator[Remark]:
             "Failed: it does not turn through 360°: at {angle} its loops miss each other by {gap} and {turn}, a "
             "clearance that it needs."
         )
+        if around.end is not None:
+            text = _(
+                "Failed: its input reaches an end at {end}, within its range of {low} to {high}: at {angle} its loops "
+                "miss each other by {gap} and {turn}."
+            )
         said = say(
             text,
-            angle=_angle(closure.angle[worst]),
+            end=_place(over, around.end or 0.0),
+            **_range(over),
+            angle=_place(over, closure.angle[worst]),
             gap=Quantity(float(closure.gap[worst]), "length", 3),
             turn=Quantity(float(closure.turn[worst]), "angle", 3),
         )
@@ -289,10 +304,23 @@ def _turned(around: Turned | None) -> Iterator[Remark]:
             "Warning: it turns through 360°; in or next to special positions at {angles} more constraints are "
             "redundant."
         )
-        yield Remark(text=say(text, angles=Joined([_angle(one) for one in over.special[:SPECIAL]])), tone="warning")
+        if not over.whole:
+            text = _(
+                "Warning: its input moves over its range of {low} to {high}; in or next to special positions at "
+                "{angles} more constraints are redundant."
+            )
+        places = Joined([_place(over, one) for one in over.special[:SPECIAL]])
+        yield Remark(text=say(text, angles=places, **_range(over)), tone="warning")
     else:
         text = _("It turns through 360° with constant mobility.")
-        yield Remark(text=text, tone="plain" if over.structural else "good")
+        if not over.whole:
+            text = _("Its input moves over its range of {low} to {high} with constant mobility.")
+        yield Remark(text=say(text, **_range(over)), tone="plain" if over.structural else "good")
+
+
+def _range(over: MobilityTurn) -> dict[str, Any]:
+    low, high = (_place(over, one) for one in (over.angle[0], over.angle[-1]))
+    return {} if over.whole else {"low": low, "high": high}
 
 
 def _remedies(thing: Drive | Mechanism, result: Mobility, remedies: Sequence[Repair]) -> Iterator[Remark]:
@@ -407,8 +435,8 @@ def _facts(
         facts["turn"] = {
             "turns_through": over.turns,
             "redundant_everywhere": over.structural,
-            "special": Quantity(np.asarray(over.special), "angle"),
-            "angle": Quantity(over.angle, "angle"),
+            "special": Quantity(np.asarray(over.special), "length" if over.slides else "angle"),
+            "path" if over.slides else "angle": Quantity(over.angle, "length" if over.slides else "angle"),
             "mobility": over.mobility,
             "redundant": over.redundant,
             "residual": over.residual,

@@ -268,7 +268,8 @@ def _double(middle: Array, way: Array, label: str, role: str, dash: str) -> Iter
 
 def turn_figures(found: MobilityTurn) -> tuple[Figure, ...]:
     """Return the figure of mobility and redundant constraints over a turn."""
-    angle = np.asarray(found.angle) / deg
+    size = mm if found.slides else deg
+    angle = np.asarray(found.angle) / size
     top = int(max(np.max(found.redundant), np.max(found.mobility), 1))
     ticks = steps(0.0, float(top), min(top, 6))
     upright = Axis(
@@ -279,21 +280,27 @@ def turn_figures(found: MobilityTurn) -> tuple[Figure, ...]:
         Curve(x=angle, y=found.mobility.astype(float), role="accent", marker=4.0, dash="dashed", label=_("mobility")),
     ]
     series += [
-        Rule(value=float(one) / deg, upright=True, text=_("special position"), role="failed") for one in found.special
+        Rule(value=float(one) / size, upright=True, text=_("special position"), role="failed") for one in found.special
     ]
+    x = angle_axis(_("input angle"))
+    if not found.whole:
+        text, unit, dimension = (
+            (_("input path"), "mm", "length") if found.slides else (_("input angle"), "deg", "angle")
+        )
+        x = axis(text, unit, [angle], dimension=dimension, count=8, margin=0.0)
     return (
         Figure(
             name="mobility-turn",
             title=_("Mobility over a turn of the input"),
             sentence=_turn_sentence(found),
             source=_("Rank of the constraints at each position, loops closed by least squares"),
-            rows=(Row(panels=(Panel(series=tuple(series), x=angle_axis(_("input angle")), y=upright),)),),
+            rows=(Row(panels=(Panel(series=tuple(series), x=x, y=upright),)),),
         ),
     )
 
 
 def _turn_sentence(found: MobilityTurn) -> Say | str:
-    if not found.turns:
+    if not found.turns or found.slides:
         return ""
     text = plural(
         "{n} constraint is redundant at every angle.", "{n} constraints are redundant at every angle.", found.structural
@@ -303,9 +310,11 @@ def _turn_sentence(found: MobilityTurn) -> Say | str:
 
 def closure_figures(found: FiniteMobility) -> tuple[Figure, ...]:
     """Return the figure of what keeps the loops from closing."""
-    angle = np.asarray(found.angle) / deg
+    slides = found.slides
+    angle = np.asarray(found.angle) / (mm if slides else deg)
     gap, turn = np.asarray(found.gap) / mm, np.asarray(found.turn) / deg
-    across = axis(_("input angle"), "deg", [angle], dimension="angle", count=8, margin=0.0)
+    named = (_("input path"), "mm", "length") if slides else (_("input angle"), "deg", "angle")
+    across = axis(*named[:2], [angle], dimension=named[2], count=8, margin=0.0)
     panels = [
         Panel(
             series=(Curve(x=angle, y=values, role=role, width=1.6),),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -15,7 +16,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames, screws
 from cardan.mechanism.constraints import FRAME, constraints, spanning_tree
 from cardan.mechanism.mechanism import Mechanism
-from cardan.mechanism.turning import turned
+from cardan.mechanism.turning import travel, turned
 from cardan.texts import _
 from cardan.units import deg, nearest
 
@@ -33,6 +34,9 @@ ROUNDS = 200
 SHUT, NEAR = 1e-30, 1e-22
 """Sum of squares at which a closure is complete, and below which it ends when it hardly gets better: rounding."""
 
+FINE = 1e-6
+"""Share of a range to which its end is found."""
+
 CLOSED = 1e-8
 """Misfit of the loops below which they count as closed [m, rad]."""
 
@@ -46,7 +50,7 @@ class FiniteMobility:
     mechanism : Mechanism
         What was looked at.
     angle : array (p,) [rad]
-        How far the joint is driven, the start included.
+        How far the joint is driven, the start included; [m] where it slides.
     residual : array (p,)
         What keeps the loops from closing: root of the sum of squares of gaps [m] and turns [rad] at all cut joints.
     gap : array (p,) [m]
@@ -69,6 +73,7 @@ class FiniteMobility:
     displacement: Array
     tolerance: float
     cancelled: bool = False
+    slides: bool = False  # whether the driven joint slides
 
     @property
     def closes(self) -> bool:
@@ -89,7 +94,7 @@ def finite_mobility(
     mechanism: Mechanism,
     *,
     driven_joint: str = "",
-    angle: float = 2.0 * math.pi,
+    angle: float | None = None,
     tolerance: float = CLOSED,
     steps: int | None = None,
     progress: Callable[[float], object] | None = None,
@@ -101,9 +106,9 @@ def finite_mobility(
     mechanism : Mechanism
         In its assembled position.
     driven_joint : str
-        Name of a joint that turns; the first one that joins the input link with the frame where none is named.
-    angle : float [rad]
-        How far it is driven.
+        Name of a joint that turns or slides; that of the input where none is named.
+    angle : float [rad], optional
+        How far it is driven; [m] where it slides. A whole turn by default, of the input to the end of its range.
     tolerance : float
         Residual up to which loops count as closed [m, rad].
     steps : int, optional
@@ -119,7 +124,7 @@ def finite_mobility(
     Raises
     ------
     InputError
-        No such joint, or one that does not turn; an angle, a tolerance or a number of steps that is none.
+        No such joint; an angle, a tolerance or a number of steps that is none, or no angle of a joint that slides.
 
     See Also
     --------
@@ -150,8 +155,11 @@ def finite_mobility(
     True
     """
     number = _driven(mechanism, driven_joint)
+    if angle is None:
+        low, high = _range(mechanism, number)
+        angle = high or low
     check_numbers(angle, tolerance, steps)
-    count = _count(angle, steps)
+    count = _count(angle, steps, _step(mechanism, number))
     along = np.linspace(0.0, angle, count + 1)
     if any(pair.kind.rolls for pair in mechanism.joints):
         return _rolled(mechanism, number, along, tolerance)
@@ -173,12 +181,13 @@ def finite_mobility(
         displacement=displacement,
         tolerance=tolerance,
         cancelled=stopped,
+        slides=not mechanism.joints[number].kind.turns,
     )
 
 
 def _rolled(mechanism: Mechanism, driven: int, along: Array, tolerance: float) -> FiniteMobility:
     """Return the same of a mechanism in which something rolls; its input drives it, whatever else was named."""
-    if set(mechanism.joints[driven].links) != {mechanism.frame, mechanism.input_link}:
+    if mechanism.joints[driven] is not mechanism.driving:
         raise refuse("driven_joint", _("where something rolls, only the input link drives"), "inconsistent")
     found = turned(mechanism, along)
     gap, turn = np.max(found.misfit, axis=1).T
@@ -190,11 +199,14 @@ def _rolled(mechanism: Mechanism, driven: int, along: Array, tolerance: float) -
         turn=turn,
         displacement=found.displacement,
         tolerance=tolerance,
+        slides=mechanism.slides,
     )
 
 
 def locks_at(mechanism: Mechanism, *, driven_joint: str = "") -> float | None:
     """Return the angle [rad] of the driven joint at which the loops close no more; None where it turns all round.
+
+    Of an input with a range, which may slide [m], over that.
 
     Followed as by `finite_mobility`, up to the first place that is not reached. What rolls follows whatever turns it,
     and stays out.
@@ -202,9 +214,30 @@ def locks_at(mechanism: Mechanism, *, driven_joint: str = "") -> float | None:
     firm = tuple(pair for pair in mechanism.joints if not pair.kind.rolls)
     if len(firm) < len(mechanism.joints):
         mechanism = replace(mechanism, joints=firm)
-    loops = _Loops(mechanism, _driven(mechanism, driven_joint))
-    places = np.linspace(0.0, 2.0 * math.pi, _count(2.0 * math.pi, None) + 1)[1:].tolist()
-    return next((amount for amount in places if loops.closed(amount)[0] >= CLOSED), None)
+    number = _driven(mechanism, driven_joint)
+    for end in _range(mechanism, number):
+        loops = _Loops(mechanism, number)
+        places: list[float] = np.linspace(0.0, end, _count(end, None, _step(mechanism, number)) + 1)[1:].tolist()
+        found = next((amount for amount in places if loops.closed(amount)[0] >= CLOSED), None)
+        if found is not None:
+            return found
+    return None
+
+
+def reach(mechanism: Mechanism, end: float) -> float:
+    """Return how far the input of a mechanism goes towards an end of its range [rad or m] before it opens."""
+    number = _driven(mechanism, "")
+    loops = _Loops(mechanism, number)
+    last, step = 0.0, end / _count(end, None, _step(mechanism, number))
+    while abs(step) > FINE * abs(end) and abs(last) < abs(end):
+        kept = loops.before, loops.state, loops.open
+        ahead = last + step if abs(last + step) < abs(end) else end
+        if loops.closed(ahead)[0] < CLOSED:
+            last = ahead
+        else:
+            loops.before, loops.state, loops.open = kept[1], kept[1], kept[2]
+            step *= 0.5
+    return last
 
 
 def displaced(mechanism: Mechanism, displacement: Array) -> Mechanism:
@@ -232,9 +265,27 @@ def _row(vector: Array) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _count(angle: float, steps: int | None) -> int:
+def _range(mechanism: Mechanism, driven: int) -> tuple[float, float]:
+    """Return between where a joint is driven [rad or m]: the input over its range, any other all round."""
+    if mechanism.joints[driven] is mechanism.driving:
+        low, high = travel(mechanism)
+        return min(low, 0.0), max(high, 0.0)
+    if mechanism.joints[driven].kind.turns:
+        return 0.0, 2.0 * math.pi
+    raise refuse("angle", _("missing: {name} slides").format(name=repr(mechanism.joints[driven].id)), "missing")
+
+
+def _step(mechanism: Mechanism, driven: int) -> float:
+    """Return the largest step of a joint, of one that slides over the size of the mechanism."""
+    if mechanism.joints[driven].kind.turns:
+        return STEP
+    points = np.asarray([pair.point for pair in mechanism.joints], dtype=float)
+    return STEP * (float(np.max(frames.norm(points - np.mean(points, axis=0)))) or 1.0)
+
+
+def _count(angle: float, steps: int | None, step: float = STEP) -> int:
     """Return the number of steps; refuse what would take far too long."""
-    count = steps or max(1, math.ceil(abs(angle) / STEP))
+    count = steps or max(1, math.ceil(abs(angle) / step))
     if count > MOST_STEPS:
         text = _("{count} steps are too many; the limit is {limit}").format(count=count, limit=MOST_STEPS)
         raise refuse("angle" if steps is None else "steps", text, "out_of_range")
@@ -255,19 +306,19 @@ def _driven(mechanism: Mechanism, name: str) -> int:
     """Return which joint is driven."""
     names = [pair.id for pair in mechanism.joints]
     if not name:
+        if mechanism.driving is not None:
+            return mechanism.joints.index(mechanism.driving)
         ends = {mechanism.frame, mechanism.input_link}
         for k, pair in enumerate(mechanism.joints):
             if mechanism.input_link and set(pair.links) == ends and pair.kind.turns:
                 return k
-        raise refuse("driven_joint", _("missing: no joint that turns joins an input link with the frame"), "missing")
+        text = _("missing: no joint that turns or slides joins an input link with the frame")
+        raise refuse("driven_joint", text, "missing")
     if name not in names:
         near = nearest(name, names)
         hint = _("; did you mean {near}?").format(near=near) if near else ""
         raise refuse("driven_joint", _("there is no joint {name}").format(name=repr(name)) + hint, "inconsistent")
-    number = names.index(name)
-    if not mechanism.joints[number].kind.turns:
-        raise refuse("driven_joint", _("{name} does not turn").format(name=repr(name)), "inconsistent")
-    return number
+    return names.index(name)
 
 
 class _Loops:
@@ -286,8 +337,10 @@ class _Loops:
         self.twists = np.concatenate(twists)
         starts = np.cumsum([0, *(len(one) for one in twists)])
         self.slices = [slice(int(a), int(b)) for a, b in pairwise(starts)]
-        turns = {"axis": 1, "both": 2, "all": 3}[mechanism.joints[driven].kind.turns]
+        turns = {"": 1, "axis": 1, "both": 2, "all": 3}[mechanism.joints[driven].kind.turns]
         self.driven = self.slices[driven].stop - turns  # what slides comes first
+        pair = mechanism.joints[driven]  # the input link moves along its axis, whichever of the two links it is
+        self.sense = -1.0 if pair is mechanism.driving and pair.links[0] == mechanism.input_link else 1.0
         self.free = np.delete(np.arange(len(self.twists)), self.driven)
         self.cut = [j for j in range(len(twists)) if j not in self.tree.parent_joint]
         self.state = self.before = np.zeros(len(self.twists))
@@ -319,7 +372,7 @@ class _Loops:
     def _least(self, guess: Array, amount: float) -> tuple[float, Array]:
         """Return the least sum of squares near a guess, and where it is."""
         state = guess.copy()
-        state[self.driven] = amount
+        state[self.driven] = self.sense * amount
         rest, slope = self._misalignment(state)
         error, damping = float(rest @ rest), 1e-9
         for _round in range(ROUNDS):
@@ -416,12 +469,12 @@ POSITIONS = 72
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MobilityTurn:
-    """Mobility and redundant constraints over a turn of the input.
+    """Mobility and redundant constraints over a turn of the input, or over the range that its file gives.
 
     Attributes
     ----------
     angle : array (p,) [rad]
-        How far the input is turned.
+        How far the input is turned; [m] where it slides.
     mobility, redundant : arrays of int (p,)
         W and q there.
     certain : array of bool (p,)
@@ -438,6 +491,8 @@ class MobilityTurn:
     certain: Array
     residual: Array
     cancelled: bool = False
+    slides: bool = False  # whether the input slides
+    whole: bool = True  # whether it is asked all round
 
     @property
     def reached(self) -> Array:
@@ -467,7 +522,7 @@ def mobility_over_turn(
     positions: int = POSITIONS,
     progress: Callable[[float], object] | None = None,
 ) -> MobilityTurn:
-    """Return mobility and redundant constraints over a turn of the input.
+    """Return mobility and redundant constraints over a turn of the input, or over the range that its file gives.
 
     Parameters
     ----------
@@ -475,7 +530,7 @@ def mobility_over_turn(
     driven_joint : str
         The joint that is driven; see `cardan.questions.mobility.finite_mobility.finite_mobility`.
     positions : int
-        Number of positions, evenly over the turn from the start on.
+        Number of positions, evenly over the turn from the start on, or from one end of the range to the other.
     progress : function, optional
         Called with the share done; answering "stop" ends there.
 
@@ -503,8 +558,11 @@ def mobility_over_turn(
     >>> found.structural, len(found.special)
     (3, 0)
     """
-    along = np.linspace(0.0, 2.0 * math.pi, positions, endpoint=False)
     mechanism = thing if isinstance(thing, Mechanism) else mechanism_of(thing)
+    number = _driven(mechanism, driven_joint)
+    if mechanism.joints[number] is mechanism.driving and (mechanism.slides or mechanism.input_range is not None):
+        return _over_range(mechanism, number, positions, progress)
+    along = np.linspace(0.0, 2.0 * math.pi, positions, endpoint=False)
     per = max(1, math.ceil(POSITIONS / len(along)))
     moved = finite_mobility(
         mechanism,
@@ -517,6 +575,44 @@ def mobility_over_turn(
     rest = None if progress is None or moved.cancelled else lambda share: progress(0.8 + 0.2 * share)
     found = _counted(along[: len(residual)], lambda k: moved.at(per * k), residual, rest)
     return replace(found, cancelled=found.cancelled or moved.cancelled)
+
+
+def _over_range(
+    mechanism: Mechanism, driven: int, positions: int, progress: Callable[[float], object] | None
+) -> MobilityTurn:
+    """Return the same over the range of the input, followed from where it is drawn to both its ends."""
+    low, high = _range(mechanism, driven)
+    told: list[MobilityTurn] = []
+    for end in (one for one in (low, high) if one):
+        places = max(2, math.ceil(positions * abs(end) / (high - low)))
+        per = math.ceil(_count(end, None, _step(mechanism, driven)) / (places - 1))
+        name = mechanism.joints[driven].id
+        moved = finite_mobility(mechanism, driven_joint=name, angle=end, steps=per * (places - 1), progress=progress)
+        found = _counted(moved.angle[::per], partial(_moved, moved, per), moved.residual[::per], None)
+        told.append(replace(found, cancelled=moved.cancelled, slides=mechanism.slides, whole=False))
+        if moved.cancelled:
+            break
+    return told[0] if len(told) == 1 else _joined(*told)
+
+
+def _moved(moved: FiniteMobility, per: int, place: int) -> Mechanism:
+    return moved.at(per * place)
+
+
+def _joined(down: MobilityTurn, up: MobilityTurn) -> MobilityTurn:
+    """Return what was found on the way to both ends of a range as one, the start told once."""
+
+    def both(one: Array, other: Array) -> Array:
+        return np.concatenate((one[:0:-1], other))
+
+    return replace(
+        up,
+        angle=both(down.angle, up.angle),
+        mobility=both(down.mobility, up.mobility),
+        redundant=both(down.redundant, up.redundant),
+        certain=both(down.certain, up.certain),
+        residual=both(down.residual, up.residual),
+    )
 
 
 def _counted(
