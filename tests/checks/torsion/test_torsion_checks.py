@@ -196,7 +196,8 @@ def test_a_torque_that_a_movement_turns_about_is_judged_along_it():
     (drawn,) = [one for one in check(replace(drive, movements=()), only=["torque_reversal"]) if not one.advice]
     (verdict,) = [one for one in check(drive, only=["torque_reversal"]) if not one.advice]
     assert (drawn.state, verdict.state) == ("passed", "failed")
-    lowest = [float(torsion_response(still(drive, t)).torque_lowest[0]) for t in np.linspace(7.2, 7.8, 9)]
+    lowest = [float(torsion_response(still(drive, t)).torque_lowest[0]) for t in np.linspace(7.35, 7.95, 9)]
     assert float(np.min(road_torsion(drive).standing.low)) < 0.0
-    # the check refines the worst instant once only
+    # the check looks where vibration without play is largest, refined once; before and after, motions of two periods
+    # swing further
     assert 0.95 < verdict.value / (150.0 - min(lowest)) < 1.001
