@@ -116,11 +116,11 @@ class Written:
     """
 
     key: str
-    name: str
+    name: Text
 
     def told(self, reader: Reader) -> str:
         """Return one of both for a reader."""
-        return self.key if reader.writes else self.name
+        return self.key if reader.writes else told(self.name, reader)
 
 
 @dataclass(frozen=True)

@@ -327,11 +327,12 @@ def remedy_table(drive: Drive, result: Checked, *, helpful: bool = False) -> Tab
 
 
 def _value(one: Remedy, value: float | int | str, told: bool) -> Text:
-    """Return a value of a change as its key takes it; told: with its unit, as who reads here is used to."""
-    if isinstance(value, str) or not told or not one.unit:
+    """Return a value of a change as its key takes it; told, and in reports, with its unit as readers are used to."""
+    if isinstance(value, str) or not one.unit:
         return typed(value)
     dimension = dimension_of(one.unit)
-    return Quantity(value * factor(dimension, one.unit), dimension, 6, unit=one.unit, trim=True)
+    amount = Quantity(value * factor(dimension, one.unit), dimension, 6, unit=one.unit, trim=True)
+    return amount if told else Written(typed(value), amount)
 
 
 def _others(found: Sequence[Remedy], best: Sequence[Remedy]) -> Iterator[Remedy]:
