@@ -30,7 +30,16 @@ from .check import Check
 from .design import Design, design
 from .moving import stood, stopped, worst_of_poses
 from .practice import layout, length, lubrication, part_accuracy, plunge, pto_type, runout, spline_overlap
-from .speeds import balance, critical_speed, gap_closure, half_critical, max_speed, rim_speed, whirl_amplitude
+from .speeds import (
+    balance,
+    critical_speed,
+    gap_closure,
+    half_critical,
+    max_speed,
+    rim_speed,
+    support_speed,
+    whirl_amplitude,
+)
 from .strength import (
     bearing_life,
     contact_pressure,
@@ -45,6 +54,8 @@ from .strength import (
     small_oscillation,
     spline_pressure,
     spline_strength,
+    support_life,
+    support_static,
     tube_buckling,
     tube_fatigue,
     tube_strength,
@@ -65,6 +76,9 @@ CHECKS: dict[str, Check] = {
         rated_torque,
         joint_torque,
         max_speed,
+        support_life,
+        support_static,
+        support_speed,
         speed_angle,
         rim_speed,
         journal_strength,

@@ -237,6 +237,28 @@ def _journals_lasting(asked: Asked) -> Values:
     return of_parts("joints", found.journal_force[0])
 
 
+def _supports_carried(asked: Asked) -> Values:
+    """Return the largest radial force on every support."""
+    found = asked.forces
+    if found is None or found.reaction is None:
+        return {}
+    ways = [found] if found.reverse is None else [found, found.reverse]
+    return of_parts("supports", asked.drive.duty.shock_factor * np.max([np.max(one.radial, -1) for one in ways], 0))
+
+
+def _supports_lasting(asked: Asked) -> Values:
+    """Return the same of the supports that have a bearing, under the torque of the duty itself."""
+    found = asked.life
+    if found is None or found.supports is None:
+        return {}
+    rows = [k for k, part in enumerate(found.parts) if part.path == "duty"]
+    return {
+        f"supports[{number - 1}]": float(found.supports.loads.radial[k, place])
+        for k in rows
+        for place, number in enumerate(found.supports.number)
+    }
+
+
 def _rubs(asked: Asked) -> bool:
     """Tell whether losses and forces count the same friction, in one condition; losses take crosses without mass."""
     found, whole = asked.losses, asked.train
@@ -631,6 +653,15 @@ PAIRS: tuple[Pair, ...] = (
         read=(_journals_carried, _journals_lasting),
         tolerance=FOUND,
         why=BETWEEN,
+        dimension="force",
+    ),
+    Pair(
+        quantity=mark("radial force on every support"),
+        first="forces",
+        second="life",
+        read=(_supports_carried, _supports_lasting),
+        tolerance=FOLLOWS,
+        why=EXACT,
         dimension="force",
     ),
     Pair(

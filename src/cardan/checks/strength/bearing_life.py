@@ -19,6 +19,7 @@ from cardan.formulas.joint_rating import POWER, needle_rating
 from cardan.maths.arrays import Array
 from cardan.questions.life.bearing_life import swing_damage
 from cardan.questions.life.life import life
+from cardan.questions.life.lives import Life
 from cardan.texts import _, mark
 
 SIZES = ("needles.count", "needles.diameter", "needles.length", "cross.journal")
@@ -61,11 +62,17 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     )
 
 
-@lru_cache(maxsize=64)
 def lives(drive: Drive) -> Array | tuple[tuple[str, str], ...]:
     """Return the life of every joint by ISO 281, array (n,) [s]; or what is wrong, path and message."""
+    found = rated(drive)
+    return found if isinstance(found, tuple) else found.of("iso")
+
+
+@lru_cache(maxsize=64)
+def rated(drive: Drive) -> Life | tuple[tuple[str, str], ...]:
+    """Return the life of a drive; or what is wrong, path and message."""
     try:
-        return life(drive, method="iso").of("iso")
+        return life(drive)
     except InputError as error:
         return tuple((problem.field, problem.message) for problem in error.problems)
 
