@@ -27,6 +27,7 @@ CASES = {
     "joint_rating": C | R | {"life_h": 3000, "shock_factor": 1.1},
     "joint_life": C | R | {"torque_Nm": 500, "shock_factor": 1.1},
     "iso_life": C | R | {"torque_Nm": 500, "torque_side": "output"},
+    "ball_bearing_life": {"C_N": 25700, "C0_N": 15300, "radial_force_N": 2800, "axial_force_N": 1600, "speed_rpm": 650},
     "catalogue_life": R | {"convention": "Tc", "rating_Nm": 1000, "torque_Nm": 500, "shock_factor": 1.0},
 }
 REGIME = R | {"torque_Nm": 500, "share_percent": 60}
@@ -46,13 +47,18 @@ def below(capability, key):
     return "negative" if (capability, key) in LOADS else "not_positive"
 
 
-LOADS = {("cross_loads", "torque_Nm"), ("needle_hertz", "journal_force_N")}
+LOADS = {
+    ("cross_loads", "torque_Nm"),
+    ("needle_hertz", "journal_force_N"),
+    ("ball_bearing_life", "radial_force_N"),
+    ("ball_bearing_life", "axial_force_N"),
+}
 
 
 @pytest.mark.parametrize("capability", CASES)
 def test_every_number_is_asked_for_and_checked(capability):
     inputs = CASES[capability]
-    optional = {"torque_side", "shock_factor", "method"}
+    optional = {"torque_side", "shock_factor", "method", "axial_force_N"}
     for key, value in inputs.items():
         if key not in optional:
             rest = {name: one for name, one in inputs.items() if name != key}
@@ -151,3 +157,14 @@ def test_loads_of_a_cross_at_one_angle_are_numbers_and_those_of_joint_reactions(
         ("couple_output_max_Nm", "couple_output_shaft_Nm"),
     ):
         assert max(turn[course]) == pytest.approx(turn[peak], rel=1e-6)
+
+
+def test_a_ball_bearing_by_the_makers_example():
+    """TPI catalogue 2202/TE, p. 11: P = 3.94 kN, about 7 000 h; without axial force about 20 000 h."""
+    inputs = CASES["ball_bearing_life"]
+    found = calc("ball_bearing_life", inputs)
+    assert found["P_N"] == pytest.approx(3940.0, rel=0.006)
+    assert found["P0_N"] == pytest.approx(2800.0)
+    assert found["L10h"] == pytest.approx(7000.0, rel=0.04)
+    assert calc("ball_bearing_life", inputs | {"axial_force_N": 0.0})["L10h"] == pytest.approx(20000.0, rel=0.01)
+    assert calc("ball_bearing_life", inputs | {"axial_force_N": 0.0, "radial_force_N": 0.0})["L10h"] is None

@@ -60,6 +60,7 @@ WIDE = (
     "pto-flywheel-absorber",
     "pto-spline-thrust",
     "composite-propshaft",
+    "pickup-two-piece",
 )
 """Examples that have, with one at random and the one above, all pairs."""
 

@@ -10,6 +10,7 @@ import numpy as np
 from cardan.book.joint_forces import cross_loads
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.errors import Problem
+from cardan.formulas.ball_bearing import ball_life, equivalent_load, static_load
 from cardan.formulas.joint_rating import (
     LIFE_RANGE,
     SPEED_ANGLE_RANGE,
@@ -177,6 +178,24 @@ def _joint_life(v: Values) -> Any:
 def _iso_life(v: Values) -> Any:
     found = bearing_life(v.C, v.R, v.torque, **v.of("speed", joint_angle="alpha", torque_at="torque_side"))
     return tuple(life / HOUR for life in (found.simple, found.driving, found.driven))
+
+
+@formula(
+    "equivalent loads and life L10 of a deep groove ball bearing",
+    "ISO 281, table of X and Y for normal clearance; ISO 76",
+    positive("C_N", "dynamic capacity"),
+    positive("C0_N", "static capacity"),
+    at_least_zero("radial_force_N", "radial force"),
+    at_least_zero("axial_force_N", "axial force", default=0.0),
+    SPEED,
+    "P_N: equivalent load",
+    "P0_N: equivalent load at rest",
+    "L10h: life; null is unlimited [h]",
+)
+def _ball_bearing_life(v: Values) -> Any:
+    load = equivalent_load(v.radial_force, v.axial_force, v.C0)
+    life = _limited(ball_life(v.C, load, speed=v.speed))
+    return load, static_load(v.radial_force, v.axial_force), life / HOUR
 
 
 @formula(
