@@ -210,16 +210,20 @@ def checks() -> str:
 
 
 def questions() -> str:
-    """Return the table of all questions of a sweep with the columns of their answers, for a drive of two joints."""
+    """Return the tables of all questions of a sweep with the columns of their answers: of a drive, of a mechanism."""
     from cardan import Drive
     from cardan.batch.answering.questions import questions as known
 
     drive = Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0), (1.5, 0, 0)])
-    rows = ["| question | answers | columns |", "|---|---|---|"]
-    for name, one in known().items():
-        told = ", ".join(f"`{told.name}`" for told in one.columns(drive))
-        rows.append(f"| `{name}` | {one.doc} | {told} |")
-    return "\n".join(rows) + "\n"
+    slider = cardan.mechanisms.example_mechanism("crank-slider")
+    parts = []
+    for thing, found in ((drive, known()), (slider, known(mechanism=True))):
+        rows = ["| question | answers | columns |", "|---|---|---|"]
+        for name, one in found.items():
+            told = ", ".join(f"`{told.name}`" for told in one.columns(thing))
+            rows.append(f"| `{name}` | {one.doc} | {told} |")
+        parts.append("\n".join(rows) + "\n")
+    return "\nOf a mechanism file:\n\n".join(parts)
 
 
 def commands() -> str:

@@ -11,6 +11,7 @@ import numpy as np
 from cardan.answers.answer import Answer, Column, Remark, Table
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.figures.figure import Figure
+from cardan.mechanism.mechanism import Mechanism
 from cardan.questions.gathering import has
 from cardan.texts import _, plural
 
@@ -220,6 +221,8 @@ def _remarks(work: SweepWork, found: Sweep, plan: Path, keeps: bool) -> Iterator
 def _as_drawn(work: SweepWork) -> Iterator[Remark]:
     """Yield which columns are of the drive as drawn, and what of it does not count there."""
     drive, left = work.ask.drive, dict[tuple[str, ...], list[str]]()
+    if isinstance(drive, Mechanism):
+        return
     there = [aspect for aspect, one in has(drive).items() if one]
     for question in asked(work.ask.questions):
         without = tuple(aspect for aspect in there if aspect not in question.counts)

@@ -19,6 +19,7 @@ from cardan.drive.fields.keys import tree_of
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.method import share
+from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _
 from cardan.version import VERSION
 
@@ -35,7 +36,7 @@ from .work import FEASIBLE, STATUS, Column, Reduction, Rows, State, Status
 
 
 def sweep(
-    drive: Drive,
+    drive: Drive | Mechanism,
     vary: Mapping[str, Any] | Sequence[Axis],
     ask: Sequence[str],
     *,
@@ -53,7 +54,7 @@ def sweep(
 
     Parameters
     ----------
-    drive : Drive
+    drive : Drive or Mechanism
     vary : mapping of str to sequence, or sequence of Axis
         Path with unit, as in the drive file, -> its values; or axes: `GridAxis`, `TableAxis`, `SampledAxis`. Every
         combination is a point.
@@ -165,11 +166,12 @@ class SweepWork:
     @cached_property
     def provenance(self) -> Mapping[str, Any]:
         """What the rows come from: version, drive, axes with their seeds, questions, units."""
+        drive = self.ask.drive
         return {
             "program": "cardan",
             "version": VERSION,
             "title": self.title,
-            "drive": tree_of(shortened(self.ask.drive, self.ask.known)),
+            "drive": tree_of(drive if isinstance(drive, Mechanism) else shortened(drive, self.ask.known)),
             "vary": [axis.told() for axis in self.points.axes],
             "ask": list(self.ask.questions),
             "constraints": [str(one) for one in self.limits],
@@ -242,7 +244,7 @@ class SweepWork:
 
 
 def work_of(
-    drive: Drive,
+    drive: Drive | Mechanism,
     vary: Mapping[str, Any] | Sequence[Axis],
     ask: Sequence[str],
     *,
@@ -329,7 +331,7 @@ def _collect(problems: list[Problem], into: list[Any], make: Any) -> None:
         problems += error.problems
 
 
-def listed(drive: Drive, path: str, values: Any) -> TableAxis:
+def listed(drive: Drive | Mechanism, path: str, values: Any) -> TableAxis:
     """Return the axis of a path with a list of values; a path of a list of numbers takes lists of them."""
     if hasattr(values, "at"):
         check([Problem(path, _("a distribution says how points are drawn; put it into Drawn(distributions=…)"))])

@@ -224,15 +224,22 @@ def loads_mechanism(text: str, *, form: str = "toml", name: str = "file") -> Mec
     return mechanism_of(text, form=form, name=name)
 
 
-def load_either(path: str | Path) -> Drive | Mechanism:
+def load_either(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Drive | Mechanism:
     """Return the drive or the mechanism that a file describes; see `cardan.io.drive_file.load`."""
     where = Path(path)
     text, form = text_of(where)
-    return loads_either(text, folder=where.parent, form=form, name=str(where))
+    return loads_either(text, folder=where.parent, form=form, name=str(where), catalogues=catalogues)
 
 
-def loads_either(text: str, *, folder: str | Path = ".", form: str = "toml", name: str = "file") -> Drive | Mechanism:
+def loads_either(
+    text: str,
+    *,
+    folder: str | Path = ".",
+    form: str = "toml",
+    name: str = "file",
+    catalogues: Sequence[str | Path] = (),
+) -> Drive | Mechanism:
     """Return the drive or the mechanism that a text describes; see `cardan.io.drive_file.loads`."""
     if describes_mechanism(parsed(text, form, name)):
         return loads_mechanism(text, form=form, name=name)
-    return loads(text, folder=folder, form=form, name=name)
+    return loads(text, folder=folder, form=form, name=name, catalogues=catalogues)

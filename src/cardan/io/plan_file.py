@@ -16,14 +16,15 @@ from cardan.batch.search.goals import limit_of
 from cardan.batch.sweep import SweepWork, listed, work_of
 from cardan.batch.table.reduction import BINS, Reduce
 from cardan.batch.table.reductions import KINDS, reduce_of
-from cardan.catalogue import Catalogue
+from cardan.catalogue import Catalogue, catalogue
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.files import Enclosed, folder_of
+from cardan.mechanism.mechanism import Mechanism
 from cardan.reading.table import Table
 from cardan.texts import _
 
-from .drive_file import known_to, load, toml_text
+from .drive_file import known_to, load_either, toml_text
 from .text import parsed, text_of
 
 FORMAT = 1  # version of the plan file
@@ -35,7 +36,7 @@ KEYS = ("search", "sensitivity", "boundary")  # tables of designs that choose th
 class Plan:
     """What a plan file says."""
 
-    drive: Drive
+    drive: Drive | Mechanism
     known: Catalogue  # the catalogue of the drive, its own files among it
     axes: tuple[Axis, ...]  # what varies
     ask: tuple[str, ...]  # names of questions
@@ -117,7 +118,7 @@ def plan_of(
     engine.finish()
     parts = {key: top.table(key).given for key in KEYS if top.has(key)}
     ask = top.texts("ask") if top.has("ask") else []
-    _asks(top, ask)
+    _asks(top, ask, isinstance(drive, Mechanism))
     made |= {"title": top.text("title", ""), "rows": top.text("rows", "kept", choices=("kept", "none"))}
     top.finish()
     for k, axis in enumerate(found):
@@ -148,17 +149,17 @@ def plan_text(drive: str, axes: Sequence[Axis], ask: Sequence[str]) -> str:
     return toml_text({"format": FORMAT, "drive": drive, "ask": list(ask), "vary": [axis.told() for axis in axes]})
 
 
-def _asks(top: Table, ask: Sequence[str]) -> None:
+def _asks(top: Table, ask: Sequence[str], mechanism: bool) -> None:
     """Note names that are no question."""
     if not isinstance(top.given.get("ask", []), list):
         return
     try:
-        asked(ask)
+        asked(ask, mechanism=mechanism)
     except InputError as error:
         top.problems += error.problems
 
 
-def _angle_errors(top: Table, path: str, drive: Drive, axis: Axis) -> None:
+def _angle_errors(top: Table, path: str, drive: Drive | Mechanism, axis: Axis) -> None:
     """Note paths of an axis that lead nowhere in the drive."""
     try:
         spots_of(drive, [one for one in axis.fields if one not in axis.facts])
@@ -166,7 +167,9 @@ def _angle_errors(top: Table, path: str, drive: Drive, axis: Axis) -> None:
         top.problems += [Problem(f"{path}: {one.field}", one.message, one.code) for one in error.problems]
 
 
-def _drive(top: Table, folder: Path | Enclosed, catalogues: Sequence[str | Path]) -> tuple[Drive | None, Any]:
+def _drive(
+    top: Table, folder: Path | Enclosed, catalogues: Sequence[str | Path]
+) -> tuple[Drive | Mechanism | None, Any]:
     given = top.text("drive")
     if not given:
         if given == top.given.get("drive"):
@@ -174,7 +177,9 @@ def _drive(top: Table, folder: Path | Enclosed, catalogues: Sequence[str | Path]
         return None, None
     where = folder / given
     try:
-        drive = load(where, catalogues=catalogues)
+        drive = load_either(where, catalogues=catalogues)
+        if isinstance(drive, Mechanism):
+            return drive, catalogue()
         return drive, known_to(drive, Path(str(where)).parent, catalogues)
     except InputError as error:
         top.problems += [Problem(f"drive: {one.field}", one.message, one.code) for one in error.problems]
@@ -227,7 +232,7 @@ def _constraints(top: Table) -> list[str]:
 # Axes of a plan file: grids, lists, rows of tables, designs drawn from distributions.
 
 
-def axis_of(one: Table, drive: Drive | None, seed: int) -> Axis | None:
+def axis_of(one: Table, drive: Drive | Mechanism | None, seed: int) -> Axis | None:
     """Return the axis that a table describes, None where something is wrong with it, which the table then notes.
 
     one: an entry of ``vary``.
@@ -250,7 +255,7 @@ def axis_of(one: Table, drive: Drive | None, seed: int) -> Axis | None:
     return made if len(one.problems) == before else None
 
 
-def _single(one: Table, drive: Drive | None) -> Axis | None:
+def _single(one: Table, drive: Drive | Mechanism | None) -> Axis | None:
     before = len(one.problems)
     key = one.text("key")
     if one.has("values"):
@@ -286,7 +291,7 @@ def _rows(one: Table) -> Axis | None:
     return TableAxis(fields=tuple(fields), rows=tuple(zip(*columns, strict=True)), name=name, facts=said)
 
 
-def _drawn(one: Table, drive: Drive | None, seed: int) -> Axis | None:
+def _drawn(one: Table, drive: Drive | Mechanism | None, seed: int) -> Axis | None:
     method = one.text("design", choices=METHODS)
     name, count, own = one.text("name", "draw"), one.whole("count"), one.whole("seed", seed)
     distributions: dict[str, Distribution] = {}
@@ -321,7 +326,7 @@ def _some(one: Table, key: str) -> None:
         one.refuse(key, _("an empty list has no values to vary over"))
 
 
-def _distribution(spot: Table, drive: Drive | None) -> tuple[str, Distribution] | None:
+def _distribution(spot: Table, drive: Drive | Mechanism | None) -> tuple[str, Distribution] | None:
     """Return the path of a field and its distribution; a mean not given is the drive's own value."""
     key, kind = spot.text("key"), spot.text("distribution", choices=tuple(DISTRIBUTIONS))
     cls = DISTRIBUTIONS.get(kind)

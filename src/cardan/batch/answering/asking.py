@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property, lru_cache
 from typing import Any, Literal, TypeAlias
@@ -20,6 +20,7 @@ from cardan.errors import CardanError, InputError, MissingExtraError, Problem, c
 from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.method import Compiled, Method, Plain, has_numba
+from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _, mark
 
 from .many import Many, many, one
@@ -76,19 +77,19 @@ _FAILURES = (CardanError, ArithmeticError, np.linalg.LinAlgError)
 
 
 @cache
-def _named(names: tuple[str, ...]) -> tuple[SweepQuestion, ...]:
+def _named(names: tuple[str, ...], mechanism: bool) -> tuple[SweepQuestion, ...]:
     """Return questions by their names; they hold functions, which no other process could be sent."""
-    return asked(names)
+    return asked(names, mechanism=mechanism)
 
 
 @dataclass(frozen=True, kw_only=True)
 class DriveEvaluator:
-    """Questions about a drive in which some fields vary.
+    """Questions about a drive, or a mechanism, in which some fields vary.
 
     Attributes
     ----------
-    drive : Drive
-        With grades and sizes filled in.
+    drive : Drive or Mechanism
+        A drive with grades and sizes filled in.
     spots : tuple of Spot
         What varies.
     questions : tuple of str
@@ -100,7 +101,7 @@ class DriveEvaluator:
         Whether so many points are asked that the kernel pays.
     """
 
-    drive: Drive
+    drive: Drive | Mechanism
     spots: tuple[VaryingField, ...]
     questions: tuple[str, ...]
     known: Catalogue = field(default_factory=catalogue)
@@ -109,7 +110,7 @@ class DriveEvaluator:
 
     @property
     def _asked(self) -> tuple[SweepQuestion, ...]:
-        return _named(self.questions)
+        return _named(self.questions, isinstance(self.drive, Mechanism))
 
     @property
     def points(self) -> tuple[Column, ...]:
@@ -128,6 +129,8 @@ class DriveEvaluator:
     @cached_property
     def fast(self) -> bool:
         """Whether all points are answered at once: motion is all that is asked, places and angles all that varies."""
+        if isinstance(self.drive, Mechanism):
+            return False
         alike = all(spot.moves for spot in self.spots) and not unlike_hooke(self.drive)
         return alike and all(question.of_many for question in self._asked)
 
@@ -175,6 +178,7 @@ class DriveEvaluator:
         return rows
 
     def _on_cpu(self, si: Mapping[str, Array], count: int) -> tuple[list[tuple[str, Array]], Array]:
+        assert isinstance(self.drive, Drive)
         found, real = many(self.drive, si, count, method=self._method)
         return [(name, np.broadcast_to(column, (count,))) for name, column in self._told(found)], real
 
@@ -217,7 +221,7 @@ class DriveEvaluator:
         for question in self._asked:
             told = question.columns(self.drive)
             try:
-                if question.of_many is not None:
+                if question.of_many is not None and isinstance(drive, Drive):
                     motion = motion or one(drive)
                     found: Sequence[Any] = [np.ravel(column)[0] for column in question.of_many(motion)]
                 else:
@@ -239,7 +243,7 @@ STATUS_COLUMN = Column(name=STATUS, unit="", role="status", text=TEXT_STATUS)  #
 
 
 def evaluator(
-    drive: Drive,
+    drive: Drive | Mechanism,
     paths: Sequence[str],
     ask: Sequence[str],
     *,
@@ -247,11 +251,11 @@ def evaluator(
     device: Device = "cpu",
     size: int = 0,
 ) -> DriveEvaluator:
-    """Return what answers questions about a drive at any values of some of its fields.
+    """Return what answers questions about a drive, or a mechanism, at any values of some of its fields.
 
     Parameters
     ----------
-    drive : Drive
+    drive : Drive or Mechanism
     paths : sequence of str
         What varies, with units, as in the drive file.
     ask : sequence of str
@@ -292,20 +296,15 @@ def evaluator(
     except InputError as error:
         problems += error.problems
     try:
-        named = asked(ask)
+        named = asked(ask, mechanism=isinstance(drive, Mechanism))
     except InputError as error:
         problems += error.problems
     check(problems)
     if device not in ("cpu", "gpu"):
         text = _("{value} is none of {choices}")
         problems.append(Problem("device", text.format(value=repr(device), choices="cpu, gpu")))
-    varied = {spot.bare for spot in spots}
-    if drive.duty.speed is None and "duty.speed" not in varied:
-        wanting = [one.name for one in named if one.needs_speed]
-        problems += [Problem("duty.speed", _("missing; the question {name} needs it").format(name=n)) for n in wanting]
-    if drive.form != "points":
-        text = _("only drives given by joint centres have lengths here")
-        problems += [Problem(f"ask.{one.name}", text) for one in named if one.needs_centres]
+    if isinstance(drive, Drive):
+        problems += _wanting(drive, {spot.bare for spot in spots}, named)
     made = DriveEvaluator(
         drive=drive,
         spots=spots,
@@ -319,6 +318,16 @@ def evaluator(
         problems.append(Problem("device", text))
     check(problems)
     return made
+
+
+def _wanting(drive: Drive, varied: Collection[str], named: Sequence[SweepQuestion]) -> Iterator[Problem]:
+    """Yield what questions need and a drive does not give."""
+    if drive.duty.speed is None and "duty.speed" not in varied:
+        text = _("missing; the question {name} needs it")
+        yield from (Problem("duty.speed", text.format(name=one.name)) for one in named if one.needs_speed)
+    if drive.form != "points":
+        text = _("only drives given by joint centres have lengths here")
+        yield from (Problem(f"ask.{one.name}", text) for one in named if one.needs_centres)
 
 
 # Motion of many drives by JAX: the same formulas on its arrays, compiled as one, on its default device.

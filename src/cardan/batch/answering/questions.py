@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from cardan.answers.question import Question
 from cardan.answers.sweepable import SweepQuestion
 from cardan.errors import Problem, check
 from cardan.register import QUESTIONS
@@ -11,24 +12,29 @@ from cardan.texts import _
 from cardan.units import nearest
 
 
-def questions() -> dict[str, SweepQuestion]:
-    """Return everything that a sweep may ask, by its name."""
-    return {one.name: one for question in QUESTIONS.values() for one in question.columns}
+def questions(*, mechanism: bool = False) -> dict[str, SweepQuestion]:
+    """Return everything that a sweep may ask of a drive, or of a mechanism, by its name."""
+    return {one.name: one for question in _every(mechanism) for one in question.columns}
 
 
-def _found(name: str) -> Iterator[SweepQuestion]:
+def _every(mechanism: bool) -> Sequence[Question]:
+    every = tuple(QUESTIONS.values())
+    return [one.of_mechanism for one in every if one.mechanism] if mechanism else every
+
+
+def _found(name: str, mechanism: bool) -> Iterator[SweepQuestion]:
     """Yield what a sweep may ask by a name, without importing more questions than need be."""
-    first = [QUESTIONS[name]] if name in QUESTIONS else []
-    yield from (one for question in (*first, *QUESTIONS.values()) for one in question.columns if one.name == name)
+    every = sorted(_every(mechanism), key=lambda one: one.name != name)
+    yield from (one for question in every for one in question.columns if one.name == name)
 
 
-def asked(names: Sequence[str]) -> tuple[SweepQuestion, ...]:
-    """Return questions by their names."""
-    found = {name: next(_found(name), None) for name in dict.fromkeys(names)}
+def asked(names: Sequence[str], *, mechanism: bool = False) -> tuple[SweepQuestion, ...]:
+    """Return questions about a drive, or about a mechanism, by their names."""
+    found = {name: next(_found(name, mechanism), None) for name in dict.fromkeys(names)}
     problems = [] if names else [Problem("ask", _("nothing is asked"))]
     for k, name in enumerate(names):
         if found[name] is None:
-            known = questions()
+            known = questions(mechanism=mechanism)
             near = nearest(name, known)
             text = _("unknown question {name}; the questions are {known}")
             said = text.format(name=repr(name), known=", ".join(known))

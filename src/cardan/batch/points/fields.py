@@ -16,6 +16,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import Place, bare_path, place, read, with_values
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
+from cardan.mechanism.mechanism import Mechanism
 from cardan.reading.fields import WORD_OR_FLAG
 from cardan.reading.ranges import in_range
 from cardan.texts import _, mark
@@ -94,8 +95,8 @@ class VaryingField:
         return one
 
 
-def spots_of(drive: Drive, paths: Iterable[str]) -> tuple[VaryingField, ...]:
-    """Return where paths lead in a drive."""
+def spots_of(drive: Drive | Mechanism, paths: Iterable[str]) -> tuple[VaryingField, ...]:
+    """Return where paths lead in a drive or a mechanism."""
     problems: list[Problem] = []
     spots: list[VaryingField] = []
     for path in paths:
@@ -126,7 +127,7 @@ def spread_out(path: str, values: Sequence[Any]) -> tuple[tuple[str, ...], list[
     return tuple(f"{path}[{k}]" for k in range(sizes.pop())), [tuple(one) for one in values]
 
 
-def present(drive: Drive, path: str) -> float | None:
+def present(drive: Drive | Mechanism, path: str) -> float | None:
     """Return the number at a path of a drive, in the path's unit; None where there is none."""
     value = read(drive, path)
     return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
@@ -136,21 +137,23 @@ def present(drive: Drive, path: str) -> float | None:
 class Maker:
     """Makes the drive of a point: the given one with other values, checked as a file would be."""
 
-    drive: Drive  # the drive that everything else stands in
+    drive: Drive | Mechanism  # the drive that everything else stands in
     spots: tuple[VaryingField, ...]
     known: Catalogue = field(default_factory=catalogue)  # where grades and sizes are looked up anew
 
     @cached_property
-    def _bare(self) -> Drive:
+    def _bare(self) -> Drive | Mechanism:
         """The drive as its file says it, so that a size that varies brings its own figures."""
+        if isinstance(self.drive, Mechanism):
+            return self.drive
         named = any(one.bare.endswith((".size", ".type", ".grade", ".bearing")) for one in self.spots)
         return shortened(self.drive, self.known) if named else self.drive
 
-    def drive_at(self, values: Mapping[str, Any]) -> Drive:
+    def drive_at(self, values: Mapping[str, Any]) -> Drive | Mechanism:
         """Return the drive of one point."""
         given = {one.path: one.plain(values[one.path]) for one in self.spots}
         made = with_values(self._bare, given)
-        return made if self._bare is self.drive else completed(made, self.known)
+        return made if self._bare is self.drive or isinstance(made, Mechanism) else completed(made, self.known)
 
 
 TEXT_STATUS = mark("0 where the point is answered, 1 where it makes no drive, 2 where a question has no answer")

@@ -14,6 +14,7 @@ from typing import Any, TypeVar, get_args, get_origin
 from cardan.answers.quantity import Joined, Written
 from cardan.drive.described import Described
 from cardan.errors import InputError, Problem, check
+from cardan.mechanism.mechanism import Mechanism
 from cardan.reading.fields import Field, fields_of, in_unit, spellings_of
 from cardan.reading.scalar import SCALARS, Wrong, as_given, scalar
 from cardan.texts import _
@@ -21,7 +22,8 @@ from cardan.units import DIMENSIONS, nearest
 
 from .keys import key_of, meant, spelled
 
-D = TypeVar("D", bound=Described)  # a drive, checked or not
+D = TypeVar("D", bound=Described | Mechanism)  # a drive, checked or not, or a mechanism
+P = TypeVar("P", bound=Described)
 
 _STEP = re.compile(r"([A-Za-z_][A-Za-z0-9_]*)((?:\[\d+\])*)$")
 
@@ -37,8 +39,8 @@ class Place:
     spelling: str  # how the path spells the field
 
 
-def place(drive: Described, path: str) -> Place:
-    """Return where a path leads in a drive."""
+def place(drive: Described | Mechanism, path: str) -> Place:
+    """Return where a path leads in a drive or a mechanism."""
     here: Any = drive
     steps: list[str | int] = []
     words = path.split(".")
@@ -66,7 +68,7 @@ def place(drive: Described, path: str) -> Place:
     raise _lost(path, _("it leads to a whole table, not to a value"))
 
 
-def read(drive: Described, path: str) -> Any:
+def read(drive: Described | Mechanism, path: str) -> Any:
     """Return the value a path leads to, in the path's unit."""
     there = place(drive, path)
     here: Any = drive
@@ -110,10 +112,10 @@ def with_values(drive: D, values: Mapping[str, Any]) -> D:
         raise error.renamed(lambda field: _as_given(field, given)) from None
 
 
-def _with_tops(drive: Described, values: Mapping[str, Any]) -> dict[str, Any]:
+def _with_tops(drive: Described | Mechanism, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the fields of a drive with other values put in."""
     problems: list[Problem] = []
-    tops = {name: getattr(drive, name) for name in fields_of(Described)}
+    tops = {name: getattr(drive, name) for name in fields_of(Described if isinstance(drive, Described) else Mechanism)}
     for path, value in values.items():
         try:
             there = place(drive, path)
@@ -126,7 +128,7 @@ def _with_tops(drive: Described, values: Mapping[str, Any]) -> dict[str, Any]:
     return tops
 
 
-def bare_path(drive: Described, path: str) -> str:
+def bare_path(drive: Described | Mechanism, path: str) -> str:
     """Return a path as Python writes it, without its unit."""
     words = (f"[{step}]" if isinstance(step, int) else f".{step}" for step in place(drive, path).steps)
     return "".join(words).removeprefix(".")
@@ -142,7 +144,7 @@ def _as_given(field: str, given: Mapping[str, str]) -> str:
     return spelled(field)
 
 
-def pose_drives(drive: D) -> tuple[D, ...]:
+def pose_drives(drive: P) -> tuple[P, ...]:
     """Return the drive in each of its poses, without poses of its own."""
     bare = replace(drive, poses=())
     return tuple(with_values(bare, dict(pose.set)) for pose in drive.poses)

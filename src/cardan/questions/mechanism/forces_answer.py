@@ -10,11 +10,13 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone, closely
 from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.mechanism.mechanism import PAIRS, Mechanism
 from cardan.questions.mobility.mobility import Mobility, mobility
-from cardan.texts import _, plural
+from cardan.texts import _, mark, plural
+from cardan.units import preferred
 
 from .figure import forces_figures
 from .forces import MechanismForces
@@ -23,7 +25,7 @@ from .motion import peak
 from .motion_answer import lacking as motion_lacking
 from .transfer import input_of
 
-__all__ = ["answer", "ask", "lacking"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
 BEYOND = 100.0
 """A force that is so many times its median over the turn grows beyond bounds near by: a dead point."""
@@ -361,3 +363,32 @@ def _trace(found: MechanismForces) -> Table:
         for j, axis in enumerate("xyz"):
             columns.append(Column(key=f"{name}_force_{axis}", values=found.reaction[:, k, 3 + j], dimension="force"))
     return Table(name="forces", columns=columns)
+
+
+def _told_of(mechanism: Mechanism) -> tuple[OutputColumn, ...]:
+    """Return what a sweep may ask of the forces."""
+    load = input_of(mechanism).load
+    unit = preferred(load)
+    text = mark("largest force that drives the input") if mechanism.slides else mark("largest input torque over a turn")
+    return (
+        OutputColumn(name=f"input_{load}_{unit}", dimension=load, unit=unit, text=text),
+        OutputColumn(name="joint_force_N", dimension="force", unit="N", text=mark("largest force in a joint")),
+        OutputColumn(name="efficiency_percent", dimension="share", unit="percent", text=mark("efficiency")),
+    )
+
+
+def _numbers(found: MechanismForces) -> tuple[float, ...]:
+    """Return the same in SI; the efficiency is nan where nothing rubs."""
+    share = found.efficiency
+    return peak(found.input_torque), float(np.nanmax(found.force)), float("nan") if share is None else share
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="forces",
+        doc=mark("what drives the mechanism, what its joints carry, and its efficiency"),
+        told=_told_of,
+        of_result=_numbers,
+    ),
+)
+"""What a sweep may ask of the forces in a mechanism."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import nan
 from typing import Any
 
 import numpy as np
@@ -10,18 +11,20 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, closely
 from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
+from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.ties import tidied
 from cardan.mechanism.mechanism import Mechanism
-from cardan.texts import _
-from cardan.units import deg
+from cardan.texts import _, mark
+from cardan.units import deg, preferred
 
 from .figure import motion_figures
 from .motion import WAYS, LinkMotion, MechanismMotion, PartErrors, peak
 from .motion import mechanism_motion as ask
 from .transfer import Input, input_of
 
-__all__ = ["answer", "ask", "lacking", "sentence"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking", "sentence"]
 
 EVEN = 1e-9
 """Fluctuation of a ratio below which it is constant."""
@@ -378,3 +381,45 @@ def _facts(result: MechanismMotion) -> dict[str, Any]:
         "input_range": Quantity([float(result.angle[0]), float(result.angle[-1])], by.place),
         "ways": {one.link: one.way for one in result.links},
     }
+
+
+def _told(mechanism: Mechanism) -> tuple[OutputColumn, ...]:
+    """Return what a sweep may ask of the output."""
+    by = input_of(mechanism)
+    unit = preferred(by.ratio) if by.ratio else ""
+    end = f"_{unit}" if unit else ""
+    return (
+        OutputColumn(name=f"ratio_min{end}", dimension=by.ratio, unit=unit, text=mark("least ratio of the output")),
+        OutputColumn(name=f"ratio_max{end}", dimension=by.ratio, unit=unit, text=mark("largest ratio of the output")),
+        OutputColumn(
+            name="speed_fluctuation_percent",
+            dimension="share",
+            unit="percent",
+            text=mark("speed fluctuation of the output"),
+        ),
+        OutputColumn(name="turn_deg", dimension="angle", unit="deg", text=mark("angle through which the output turns")),
+        OutputColumn(name="travel_mm", dimension="length", unit="mm", text=mark("way by which the output slides")),
+    )
+
+
+def _numbers(found: MechanismMotion) -> tuple[float, ...]:
+    """Return the same in SI, nan of what its output does not do."""
+    output = found.output
+    if output is None:
+        raise refuse("output_link", _("missing: a sweep tells how the output moves"), "missing")
+    low, high = map(tidied, _ends(output.ratio)) if output.turns else (nan, nan)
+    share = None if found.mechanism.slides or not output.turns else fluctuation(output, found.angle)
+    turn = _span(output.angle) if output.turns and output.axis.any() else nan
+    way = _span(output.path) if output.way in ("slides", "screws") else nan
+    return low, high, nan if share is None else share * (share > EVEN), turn, way
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="motion",
+        doc=mark("how the output of the mechanism moves: ratio, speed fluctuation, angle or way"),
+        told=_told,
+        of_result=_numbers,
+    ),
+)
+"""What a sweep may ask of the motion of a mechanism."""
