@@ -1,4 +1,4 @@
-"""A minus-2 group of cardan elements (Book Fig. 48), and a branched one, in the place of the last bearing of Fig. 47 b."""
+"""Minus-2 groups, of cardan elements (Book Fig. 48) and branched, in the place of the last bearing of Fig. 47 b."""
 
 from dataclasses import replace
 
