@@ -12,6 +12,7 @@ import numpy as np
 
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames, screws
+from cardan.texts import _
 
 from .mechanism import Pair
 
@@ -23,6 +24,9 @@ RESTS = 1e-13
 
 CLOSED = 1e-9
 """Misfit, lengths over the size, up to which loops count as closed: far above rounding, far below any real gap."""
+
+ROUNDED = 1e-4
+"""Gap, lengths over the size, below which numbers with few digits may be what opens loops that are held too often."""
 
 LONGEST = 0.3
 """Longest step taken, lengths over the size."""
@@ -173,6 +177,13 @@ class Linkage:
             for k, part in enumerate((self.row_way < 3, self.row_way >= 3)):
                 found[..., j, k] = np.max(np.abs(rest[..., part & (self.row_pair == j)]), axis=-1, initial=0.0)
         return np.where(np.isfinite(found), found, np.inf)
+
+
+def by_rounding(gap: float) -> str:
+    """Return what to do about a gap, lengths over the size, that rounded numbers may make; nothing of a larger one."""
+    if gap > ROUNDED:
+        return ""
+    return _("; if its numbers are rounded, give them more digits: what is held more than once closes no better")
 
 
 def _frame(pair: Pair) -> Array:

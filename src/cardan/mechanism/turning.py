@@ -19,7 +19,7 @@ from cardan.maths.kernel import frames, screws
 from cardan.texts import _
 from cardan.units import deg, label, mm
 
-from .closing import CLOSED, Linkage, moved_along
+from .closing import CLOSED, Linkage, by_rounding, moved_along
 from .constraints import FRAME
 from .kinetostatics import Placed, Rates, rates, speeds
 from .mechanism import Mechanism
@@ -279,7 +279,7 @@ class _Way:
             angle=angle / deg,
             path=angle / mm,
         )
-        raise InputError([Problem("input_link", said, "out_of_range")])
+        raise InputError([Problem("input_link", said + by_rounding(float(gap)), "out_of_range")])
 
 
 def _drawn_back(ahead: Array, twist: Array) -> Array:

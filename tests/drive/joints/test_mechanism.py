@@ -10,11 +10,12 @@ from scipy.optimize import root
 
 from cardan import Drive, InputError, example, forces, losses, motion
 from cardan.drive.cross import Cross
+from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke, MechanismJoint
 from cardan.io import dumps, load
 from cardan.io.drive_file import loads, loads_mechanism
 from cardan.io.examples import example_mechanism
-from cardan.mechanism.mechanism import Mechanism
+from cardan.mechanism.mechanism import Mechanism, Pair
 from cardan.questions.motion.joint_mechanism import joint_carried, rubbed_share
 from cardan.units import deg
 
@@ -202,8 +203,53 @@ def test_what_is_no_joint_is_refused_with_link_angle_and_amount():
     said = refusal(short)
     assert "cannot follow: with the driving link turned by" in said
     assert "mm and" in said
+    assert "more digits" not in said
     assert "needs one pair with the frame" in refusal(example_mechanism("crank-slider"))
     assert "missing: neither this key nor input_link" in refusal(replace(drawing, input_link=""))
+
+
+def sketched(joint_angle: float, turn: float, digits: int) -> Mechanism:
+    """Return a Thompson coupling as the page tells it, drawn at any joint angle and turn, its numbers rounded."""
+    half, mirror = 0.5 * joint_angle, np.asarray([-1.0, 1.0, 1.0])
+    shaft = np.asarray([np.cos(half), np.sin(half), 0.0])
+    centre = np.asarray([0.1, 0.05, 0.0])
+
+    def hinge(name, links, axis, reach=0.03):
+        point, axis = (tuple(np.round(one, digits).tolist()) for one in (centre + reach * axis, axis))
+        return Pair(id=name, type="R", links=links, point=point, axis=axis)
+
+    pin = turned(shaft, turn, [-np.sin(half), np.cos(half), 0.0])
+    yoke = np.cross(pin, mirror * pin) / np.linalg.norm(np.cross(pin, mirror * pin))
+    across = np.asarray([1.0, 0.0, 0.0])
+    joints = [
+        hinge("input bearing", ("frame", "input"), shaft, -0.1),
+        hinge("output bearing", ("frame", "output"), -mirror * shaft, 0.1),
+        hinge("driving pin", ("input", "driving cross"), pin),
+        hinge("driving pin of the yoke", ("driving cross", "yoke"), yoke),
+        hinge("driven pin of the yoke", ("yoke", "driven cross"), yoke),
+        hinge("driven pin", ("driven cross", "output"), mirror * pin),
+    ]
+    for k, tilt in ((1, 0.5), (2, 0.5 + 0.5 * np.pi)):
+        arm = (pin * (1.0 if k == 1 else -1.0) - shaft) / np.sqrt(2.0)
+        up = (arm + mirror * arm) / np.linalg.norm(arm + mirror * arm)
+        hinge_axis = turned(across, tilt, up if k == 1 else -up)
+        joints += [
+            hinge(f"arm {k} in", ("input", f"driving arm {k}"), arm),
+            hinge(f"scissor {k}", (f"driving arm {k}", f"driven arm {k}"), hinge_axis),
+            hinge(f"arm {k} out", (f"driven arm {k}", "output"), mirror * arm),
+            hinge(f"lever {k} on the yoke", ("yoke", f"lever {k}"), across, 0.02 if k == 1 else -0.02),
+            hinge(f"lever {k} on its scissor", (f"lever {k}", f"driving arm {k}"), hinge_axis),
+        ]
+    return Mechanism(frame="frame", input_link="input", output_link="output", joints=tuple(joints))
+
+
+def test_a_sketch_becomes_a_joint_and_answers_in_a_drive():
+    joint = MechanismJoint(drawing=sketched(20 * deg, 0.0, 15), joint_angle=12 * deg)
+    drive = Drive(joints=(joint, Hooke(joint_angle=12 * deg)), duty=Duty(torque=100.0, speed=100.0))
+    assert joint.even
+    assert np.abs(joint.deviation(ANGLE, np.asarray(0.25))[0]).max() < 1e-9
+    assert forces(drive).input_torque.max() == pytest.approx(100.0 / np.cos(12 * deg), rel=1e-6)
+    assert "give them more digits" in refusal(sketched(20 * deg, 0.0, 6))  # micrometres
 
 
 def test_a_joint_angle_at_which_it_binds_is_refused_where_the_motion_is_asked():

@@ -14,7 +14,7 @@ from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array, unit_complex
 from cardan.maths.kernel import frames, mobius, screws
 from cardan.maths.kernel.meshes import Surface, ball, joined, placed, revolved
-from cardan.mechanism.closing import CLOSED, Linkage, turn_about
+from cardan.mechanism.closing import CLOSED, Linkage, by_rounding, turn_about
 from cardan.mechanism.kinetostatics import Placed, carried
 from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _, mark
@@ -482,7 +482,7 @@ class Inside:
             "{joint_angle:.4g}°, {pair} stays open: its pairs lack {gap:.3g} mm and {lean:.3g}°"
         )
         link = next((one for one in pair.links[::-1] if one not in (*self.grounds, self.driving)), pair.links[1])
-        return text.format(
+        said = text.format(
             link=repr(link),
             pair=repr(pair.id),
             gap=float(gap) * self.linkage.size / mm,
@@ -490,6 +490,7 @@ class Inside:
             angle=theta / deg,
             joint_angle=joint_angle / deg,
         )
+        return said + by_rounding(float(gap))
 
 
 def steepness(leads: Array) -> float:
