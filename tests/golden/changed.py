@@ -55,6 +55,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
     ),
     (r"catalogue lubrication", r"rows\.(hours_h|years|distance_km)", GREASES),
     (r"torsion response examples/pto-flywheel\.toml --speeds", r".*", SEVERAL),
+    (r"torsion road examples/pto-baler", r"largest_torque_open_backlash_Nm", SEVERAL),
     (
         r"select examples/(pto-hitch|rolling-mill-(lower|upper)-spindle|truck-rear-axle)\.toml --torque-Nm",
         r"(need|sizes|types)\..*",
