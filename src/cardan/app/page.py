@@ -27,10 +27,10 @@ from cardan.report.block import capital
 from cardan.texts import _, visible
 
 from .parts import widgets as toasts
-from .parts.answers import Answers
+from .parts.answers import Answers, MechanismPages
 from .parts.diagnosis import Diagnosis
 from .parts.download import Exports
-from .parts.editor import Editor
+from .parts.editor import Editor, Source
 from .parts.header import Header
 from .parts.sweep import Sweep
 from .parts.verdicts import Verdicts
@@ -347,6 +347,14 @@ def _parts(session: Session, jobs: Jobs) -> Header:
     head = Header(session, jobs)
     if session.empty:
         Start(session)
+        return head
+    if session.document.of_mechanism:
+        with ui.element("main").classes("desk of-mechanism").props("id=main"):
+            with _pane("file", _("Mechanism file")):
+                Source(session)
+            _edge("--file", _("width of the drive file"), 23)
+            with _pane("answers", _("Answers")):
+                MechanismPages(session, jobs, Exports(session, jobs))
         return head
     with ui.element("main").classes("desk").props("id=main"):
         with _pane("file", _("Drive file")):

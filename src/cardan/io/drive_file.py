@@ -234,7 +234,7 @@ def load_either(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> D
 def loads_either(
     text: str,
     *,
-    folder: str | Path = ".",
+    folder: str | Path | Enclosed = ".",
     form: str = "toml",
     name: str = "file",
     catalogues: Sequence[str | Path] = (),

@@ -13,7 +13,7 @@ from nicegui import background_tasks, ui
 from cardan.app.state.jobs import Job, Jobs, own_fault
 from cardan.app.state.question import Question, asked
 from cardan.app.state.session import Session
-from cardan.app.state.work import SOON, result
+from cardan.app.state.work import MECHANISM, SOON, result
 from cardan.drive.drive import Drive
 from cardan.errors import CardanError, InputError
 from cardan.io.edit import edit
@@ -206,6 +206,7 @@ class Sheet:
         question = asked(self.session, self.name, **self._choices)
         if question is None:
             return
+        assert isinstance(question.drive, Drive)  # a mechanism has a desk of its own
         self._hold()
         self._asked += 1
         self.about = question.drive
@@ -372,6 +373,96 @@ class Progress:
         self._said.classes(**{"add" if failed else "remove": "wrong"})
 
 
+# What there is to say of a mechanism file: all pages of its report.
+
+
+class MechanismPages:
+    """All pages about a mechanism, one below the other; made in the background, since a turn of it is followed.
+
+    jobs: where they are made; export: takes a figure or a page along.
+    """
+
+    def __init__(self, session: Session, jobs: Jobs, export: Export) -> None:
+        self.session = session
+        self._jobs = jobs
+        self._export = export
+        self._job: Job | None = None
+        self._due: Timer | None = None
+        self._watch: Timer | None = None
+        self._views: dict[str, PageView] = {}
+        jobs.start()
+        jobs.leave(session)  # what an older page of the same window was waiting for
+        ui.context.client.on_delete(lambda: jobs.leave(session))
+        with ui.element("div").classes("sheets"), ui.element("div").classes("sheet") as self.body:
+            ui.label(
+                _("A mechanism file: verdicts and sweeps of the app are of drives; cardan sweep takes both.")
+            ).classes("hint").props('data-mark="of-mechanism"')
+            self._progress = Progress(self._cancel, self._begin)
+            self._wrong = ui.label().classes("wrong").props('role=status data-mark="mechanism-wrong"')
+            self._wrong.set_visibility(False)
+            self._pages = ui.element("div")
+        session.listen("text", self._follow)
+        session.listen("choices", self._begin)
+        self._begin()
+
+    def _follow(self) -> None:
+        """Follow an edit once the user is quiet."""
+        if self._due is not None:
+            self._due.cancel()
+        self._due = Timer(self.session, self.body, QUIET, self._begin, once=True)
+
+    def _begin(self) -> None:
+        question = asked(self.session, MECHANISM)
+        problems = self.session.document.problems
+        self._wrong.set_visibility(bool(problems))
+        self._wrong.set_text("; ".join(str(one) for one in problems[:4]))
+        self._pages.classes(**{"add" if problems else "remove": "stale"})
+        if question is None:
+            return
+        self._job = self._jobs.ask(question, self.session)
+        if self._job.finished:
+            self._look()
+        elif self._watch is None:
+            self._progress.show(self._job)
+            self._watch = Timer(self.session, self.body, LOOK, self._look, once=False)
+
+    def _look(self) -> None:
+        """See how far it is."""
+        job = self._job
+        if job is None:
+            return
+        if not job.finished:
+            self._progress.show(job)
+            return
+        if self._watch is not None:
+            self._watch.cancel()
+            self._watch = None
+        if job.state == "done":
+            self._progress.hide()
+            self._show(job)
+        elif job.state == "failed":
+            self._progress.fail(job.message)
+        else:
+            self._progress.stopped()
+
+    def _show(self, job: Job) -> None:
+        pages = {page.name: page for page in job.result}
+        if [*pages] != [*self._views]:
+            self._pages.clear()
+            with self._pages:
+                self._views = {}
+                for name, page in pages.items():
+                    ui.label(page.title).classes("head").props("role=heading aria-level=3")
+                    self._views[name] = PageView(self._export)
+        for name, page in pages.items():
+            self._views[name].show(page)
+
+    def _cancel(self) -> None:
+        if self._job is not None:
+            self._jobs.cancel(self._job)
+            self._look()
+
+
 def applied(session: Session, change: Applicable) -> None:
     """Put a change into the file of a session, and say so, or why not."""
     try:
@@ -389,6 +480,7 @@ def _answer(question: Question) -> tuple[Page, tuple[Applicable, ...]] | str:
         assert isinstance(page, Page)
         if question.name != "phasing":
             return page, ()
+        assert isinstance(question.drive, Drive)
         with speaking(question.language):
             return page, settings(subject(question.drive))
     except CardanError as error:

@@ -153,15 +153,18 @@ class ReportMenu:
     def json(self) -> None:
         """Give the drive to the browser as JSON."""
         with self.session.speaking():
-            if self.session.drive is None:
+            thing = self.session.document.mechanism or self.session.drive
+            if thing is None:
                 _no_drive()
                 return
-            text = dumps(self.session.drive, form="json")
+            text = dumps(thing, form="json")
             ui.download.content(text, f"{self._name()}.json", "application/json")
 
     async def picture(self) -> None:
         """Give the browser a picture of what the view in space shows."""
         if self.snapshot is None:
+            with self.session.speaking():
+                toasts.refused(_("There is no view in space here; each figure can be saved beside it."))
             return
         try:
             seen = await self.snapshot()
@@ -172,7 +175,7 @@ class ReportMenu:
         ui.download.content(seen, f"{self._name()}.png", "image/png")
 
     def _name(self) -> str:
-        drive = self.session.drive
+        drive = self.session.document.mechanism or self.session.drive
         return self.session.name.removesuffix(".toml") or papers.safe(drive.name if drive else "")
 
 

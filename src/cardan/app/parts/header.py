@@ -11,7 +11,7 @@ from cardan.app.state.document import full_name, read
 from cardan.app.state.jobs import Jobs
 from cardan.app.state.session import Session
 from cardan.app.state.variants import LONGEST
-from cardan.errors import InputError
+from cardan.errors import InputError, Problem
 from cardan.io import starter
 from cardan.reading.limits import MAX_BYTES
 from cardan.report.block import Page
@@ -323,7 +323,7 @@ class VariantsMenu:
     def keep(self) -> None:
         """Ask for a name and keep the drive as it is."""
         session = self.session
-        if not session.document.valid or session.drive is None:
+        if session.document.drive is None or session.drive is None:
             toasts.refused(_("Only a drive without mistakes can be kept as a variant."))
             return
         text, drive = session.document.text, session.drive
@@ -438,7 +438,7 @@ class VariantsMenu:
             try:
                 found = read(session.workspace.read(name), session.workspace.enclosed)
                 if found.drive is None:
-                    raise InputError(found.problems)
+                    raise InputError(found.problems or [Problem(name, _("describes a mechanism; variants are drives"))])
                 label = name.removesuffix(".toml")[:LONGEST]
                 session.keep(session.variants.keeping(label, found.text, found.drive))
             except InputError as error:

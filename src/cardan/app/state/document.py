@@ -13,8 +13,9 @@ from typing import Any, TypeAlias
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, refuse
 from cardan.files import Enclosed, write_text
-from cardan.io import dumps, loads
-from cardan.io.text import parsed, text_of
+from cardan.io import dumps, loads_either
+from cardan.io.text import describes_mechanism, parsed, text_of
+from cardan.mechanism.mechanism import Mechanism
 from cardan.reading.limits import check_size
 from cardan.texts import _
 
@@ -126,6 +127,8 @@ class Document:
 
     text: str  # the file, TOML
     drive: Drive | None = None  # what it describes; None while something is wrong with it
+    mechanism: Mechanism | None = None  # the same of a mechanism file
+    of_mechanism: bool = False  # whether it is one, right or wrong
     problems: tuple[Problem, ...] = ()  # all that is wrong with it, in the loader's own words
 
     @cached_property
@@ -135,19 +138,23 @@ class Document:
 
     @property
     def valid(self) -> bool:
-        """Whether it describes a drive."""
-        return self.drive is not None
+        """Whether it describes a drive, or a mechanism."""
+        return self.drive is not None or self.mechanism is not None
 
 
 def read(text: str, folder: Enclosed) -> Document:
     """Return the document that a text is, with all its problems.
 
-    text: a drive file; folder: where files that it names are looked for, and nowhere else.
+    text: a drive file, or a mechanism file; folder: where files that it names are looked for, and nowhere else.
     """
     try:
-        return Document(text=text, drive=loads(text, folder=folder))
+        found = loads_either(text, folder=folder)
     except InputError as error:
-        return Document(text=text, problems=error.problems)
+        tree = tree_of(text)
+        return Document(text=text, problems=error.problems, of_mechanism=bool(tree) and describes_mechanism(tree or {}))
+    if isinstance(found, Mechanism):
+        return Document(text=text, mechanism=found, of_mechanism=True)
+    return Document(text=text, drive=found)
 
 
 def changed(document: Document, change: Change, folder: Enclosed) -> Document:
@@ -195,6 +202,6 @@ def sent(name: str, content: bytes, folder: Enclosed) -> str:
     except UnicodeDecodeError as error:
         raise refuse(name, _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from None
     if name.lower().endswith(".json"):
-        return dumps(loads(text, folder=folder, form="json", name=name))
+        return dumps(loads_either(text, folder=folder, form="json", name=name))
     parsed(text, "toml", name)
     return text

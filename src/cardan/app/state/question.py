@@ -1,4 +1,4 @@
-"""A question about the drive that a user works on, as it goes to another process."""
+"""A question about the drive, or the mechanism, that a user works on, as it goes to another process."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 from cardan.answers.reader import USUAL, Reader
 from cardan.drive.drive import Drive
 from cardan.files import Enclosed
+from cardan.mechanism.mechanism import Mechanism
 
 from .session import Session
 
@@ -24,7 +25,7 @@ class Question:
 
     # a question of `cardan.register.QUESTIONS`, `VERDICTS`, `REMEDIES`, one of `papers`, or `recordings.DIAGNOSIS`
     name: str
-    drive: Drive  # about which drive
+    drive: Drive | Mechanism  # about which drive, or mechanism
     folder: Path  # where files that the drive names are looked for, and nowhere else
     language: str = "en"
     reader: Reader = USUAL  # in which units, with which decimal sign
@@ -40,7 +41,10 @@ class Question:
     def matter(self) -> str:
         """The same for questions with the same answer in the same language, whatever units it is told in."""
         files = []
-        for name in (*self.drive.settings.catalogues, *filter(None, [self.drive.report.logo])):
+        named: tuple[str, ...] = ()
+        if isinstance(self.drive, Drive):
+            named = (*self.drive.settings.catalogues, *filter(None, [self.drive.report.logo]))
+        for name in named:
             try:
                 told = (Enclosed(self.folder) / name).stat()
                 files.append((name, told.st_mtime_ns, told.st_size))
@@ -51,11 +55,10 @@ class Question:
 
 
 def asked(session: Session, name: str, **choices: Any) -> Question | None:
-    """Return the question about the drive that a user works on; None while there is none."""
-    if session.drive is None:
+    """Return the question about the drive, or the mechanism, that a user works on; None while there is none."""
+    drive = session.document.mechanism if session.document.of_mechanism else session.drive
+    if drive is None:
         return None
     folder = session.workspace.folder
     language = session.choices.language
-    return Question(
-        name=name, drive=session.drive, folder=folder, language=language, reader=session.reader, choices=choices
-    )
+    return Question(name=name, drive=drive, folder=folder, language=language, reader=session.reader, choices=choices)

@@ -332,7 +332,13 @@ class Session:
 
     def _now(self, document: Document) -> None:
         """Show another document: first what the user waits for, then all the rest, for several edits in a row once."""
+        if document.tree is None:  # no TOML for a moment: what it is of stays
+            document = replace(document, of_mechanism=self.document.of_mechanism)
+        other = document.of_mechanism != self.document.of_mechanism
         self.document = document
+        if other:
+            self.drive = document.drive
+            self.rebuild()
         changes: tuple[Change, ...] = ("text", "file")
         if document.drive is not None:
             self.drive = document.drive

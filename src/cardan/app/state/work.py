@@ -6,6 +6,7 @@ import re
 from collections import OrderedDict
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
@@ -15,16 +16,18 @@ from cardan.answers.answer import Answer
 from cardan.answers.reader import reading
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
+from cardan.drive.settings import TitleBlock
 from cardan.errors import CardanError, refuse
-from cardan.figures import Figure
 from cardan.files import Enclosed
 from cardan.io import dumps
 from cardan.io.drive_file import known_to
+from cardan.mechanism.mechanism import Mechanism
 from cardan.register import QUESTIONS
 from cardan.report.answers import answered, subject
-from cardan.report.block import Page
+from cardan.report.block import Page, Picture
 from cardan.report.compare import Variant, compared
-from cardan.report.content import content
+from cardan.report.content import Content, content
+from cardan.report.mechanism import content as of_mechanism
 from cardan.report.recorded import Recorded
 from cardan.report.render.exports import Exported, exported
 from cardan.report.render.renderer import renderer_for
@@ -41,11 +44,14 @@ from .session import Session
 
 Drawn: TypeAlias = tuple[Scene, dict[str, Any]]  # a drive in space, and the same as the browser draws it
 Judged: TypeAlias = tuple[Headline, tuple[Light, ...]]  # the number that stands first, and the verdicts
-Result: TypeAlias = Page | Judged | tuple[Light, ...] | Exported | Recorded | Swept | Drawn | Document
+Result: TypeAlias = (
+    Page | tuple[Page, ...] | Judged | tuple[Light, ...] | Exported | Recorded | Swept | Drawn | Document
+)
 
 
-VERDICTS, REMEDIES, SCENE, SWEEP = "verdicts", "remedies", "scene", "sweep"
-"""Questions beside those of the register: the verdicts, the same with what cures them, the drive in space, a sweep."""
+VERDICTS, REMEDIES, SCENE, SWEEP, MECHANISM = "verdicts", "remedies", "scene", "sweep", "mechanism"
+"""Questions beside those of the register: the verdicts, the same with what cures them, the drive in space, a sweep, all
+that there is to say of a mechanism."""
 
 RETOLD = 6  # long answers that a process keeps
 SOON = 60.0  # seconds that may be spent on what is quick but for heavy files
@@ -58,6 +64,8 @@ def result(question: Question | Edit, progress: Progress | None = None) -> Resul
         with speaking(question.language):
             return question.made()
     with speaking(question.language), reading(question.reader):
+        if isinstance(question.drive, Mechanism):
+            return _of_mechanism(question, question.drive)
         known = known_to(question.drive, Enclosed(question.folder)) if question.drive.settings.catalogues else None
         if question.name in (REPORT, PART, COMPARE):
             return made(question, known, progress)
@@ -74,6 +82,19 @@ def result(question: Question | Edit, progress: Progress | None = None) -> Resul
         if question.name == REMEDIES:
             return with_remedies(on, progress)
         return _told(question, on, progress)
+
+
+def _of_mechanism(question: Question, mechanism: Mechanism) -> Result:
+    """Return the pages about a mechanism, its report, or a part of it."""
+    how = dict(question.choices)
+    if question.name == PART:
+        return exported(how["thing"], how["kind"], title=mechanism.name)
+    whole = question.name == REPORT
+    said = of_mechanism(mechanism, TitleBlock(), source_text=how.get("source"), full=whole)
+    if whole:
+        return _written(said, how["form"])
+    first = said.pages[0]
+    return (replace(first, blocks=[Picture(figure=said.sketch), *first.blocks]), *said.pages[1:])
 
 
 _answers: OrderedDict[str, dict[str, Answer]] = OrderedDict()
@@ -149,11 +170,10 @@ def asked_for(session: Session, name: str, **choices: Any) -> Question | None:
 
 def of_report(session: Session, form: Form) -> Question | None:
     """Return the question for a report in a form."""
-    drive = session.drive
-    if drive is None:
-        return None
-    source = session.document.text if session.document.valid else dumps(drive)
-    return asked_for(session, REPORT, form=form, source=source)
+    drive, document = session.drive, session.document
+    if document.valid or drive is None:
+        return asked_for(session, REPORT, form=form, source=document.text)
+    return asked_for(session, REPORT, form=form, source=dumps(drive))
 
 
 def made(question: Question, known: Catalogue | None, progress: Progress | None = None) -> Exported | Page:
@@ -165,7 +185,7 @@ def made(question: Question, known: Catalogue | None, progress: Progress | None 
     if question.name == REPORT:
         return _report(question, how, known, progress)
     if question.name == PART:
-        return _part(question.drive, how)
+        return exported(how["thing"], how["kind"], title=question.drive.name)
     if question.name == COMPARE:
         variants = [Variant(name=name, drive=drive, known=known) for name, drive in how["variants"]]
         return compared(variants, progress)
@@ -173,22 +193,21 @@ def made(question: Question, known: Catalogue | None, progress: Progress | None 
 
 
 def _report(question: Question, how: dict[str, Any], known: Catalogue | None, progress: Progress | None) -> Exported:
-    form = how["form"]
-    suffix = "html" if form == "interactive" else form
-    write = None if form == "json" else renderer_for(Path(f"{_('report')}.{suffix}"), interactive=form == "interactive")
+    assert isinstance(question.drive, Drive)
     folder = Enclosed(question.folder)
     said = content(
         question.drive, source_text=how["source"], full=True, known=known, folder=folder, progress=_most(progress)
     )
+    return _written(said, how["form"])
+
+
+def _written(said: Content, form: Form) -> Exported:
+    """Return a report in a form."""
+    suffix = "html" if form == "interactive" else form
+    write = None if form == "json" else renderer_for(Path(f"{_('report')}.{suffix}"), interactive=form == "interactive")
     if write is None or form != "interactive":
         return exported(said, suffix, title="")
     return Exported(content=write(said), media_type="text/html; charset=utf-8", name=f"{safe(said.title)}.html")
-
-
-def _part(drive: Drive, how: dict[str, Any]) -> Exported:
-    thing: Page | Figure = how["thing"]
-    kind: str = how["kind"]
-    return exported(thing, kind, title=drive.name)
 
 
 def _most(progress: Progress | None) -> Callable[[float], object] | None:
