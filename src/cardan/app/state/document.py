@@ -15,7 +15,7 @@ from cardan.errors import InputError, Problem, refuse
 from cardan.files import Enclosed, write_text
 from cardan.io import dumps, loads_either
 from cardan.io.text import describes_mechanism, parsed, text_of
-from cardan.mechanism.mechanism import Mechanism
+from cardan.mechanisms import Mechanism
 from cardan.reading.limits import check_size
 from cardan.texts import _
 

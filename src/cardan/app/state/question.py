@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 from cardan.answers.reader import USUAL, Reader
 from cardan.drive.drive import Drive
 from cardan.files import Enclosed
-from cardan.mechanism.mechanism import Mechanism
+from cardan.mechanisms import Mechanism
 
 from .session import Session
 

@@ -21,7 +21,7 @@ from cardan.errors import CardanError, refuse
 from cardan.files import Enclosed
 from cardan.io import dumps
 from cardan.io.drive_file import known_to
-from cardan.mechanism.mechanism import Mechanism
+from cardan.mechanisms import Mechanism
 from cardan.register import QUESTIONS
 from cardan.report.answers import answered, subject
 from cardan.report.block import Page, Picture
