@@ -37,7 +37,6 @@ from .speeds import (
     half_critical,
     max_speed,
     rim_speed,
-    support_speed,
     whirl_amplitude,
 )
 from .strength import (
@@ -54,14 +53,13 @@ from .strength import (
     small_oscillation,
     spline_pressure,
     spline_strength,
-    support_life,
-    support_static,
     tube_buckling,
     tube_fatigue,
     tube_strength,
     twist,
     yoke_strength,
 )
+from .supports import support_life, support_speed, support_static
 from .torsion import parametric_stability, start_fatigue, torque_reversal, torsional_resonance
 from .verdict import Verdict
 

@@ -7,11 +7,10 @@ from collections.abc import Iterator
 from cardan.answers.quantity import Quantity, say
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.strength.bearing_life import rated
 from cardan.checks.verdict import Verdict
 from cardan.questions.life.support_loads import rated_supports
 from cardan.texts import _, mark
-
-from .bearing_life import rated
 
 STAYS = ("limits.", "duty.life", "duty.upkeep")
 """Beginnings of paths that do not change the loads of the supports."""
