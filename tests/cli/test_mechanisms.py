@@ -76,6 +76,8 @@ def test_torque_and_speed_of_the_command_line_stand_in_place_of_the_file(cardan)
         (("forces", "crank-slider.toml", "--torque-Nm", "-1"), "--torque-Nm: -1.0 is below zero"),
         (("motion", "maize-drive-offset.toml"), "input_link: 'shackle' cannot follow: with 'input shaft' turned by 4°"),
         (("motion", "three-joints-e.toml"), "'output shaft' is not held: with 'input shaft' at rest"),
+        (("motion", "boom-cylinder.toml", "--speed-rpm", "3"), "--speed-rpm: is of an input that turns; 'rod' slides"),
+        (("motion", "boom-cylinder.toml", "--angle-deg", "3"), "--angle-deg: is of an input that turns; 'rod' slides"),
         (("bending", "crank-slider.toml"), "of mechanisms cardan tells motion, forces, mobility and a report"),
     ],
 )
@@ -83,6 +85,21 @@ def test_what_cannot_be_is_one_message(cardan, words, said):
     done = cardan(words[0], FOLDER / words[1], *words[2:])
     assert done.code == 2
     assert said in one_line(done.err)
+
+
+def test_an_input_that_slides_is_told_by_its_path_and_force(cardan, tmp_path):
+    path = FOLDER / "boom-cylinder.toml"
+    said = cardan("motion", path, "--json").content
+    assert (said["speed_m_s"], said["input_range_mm"]) == (0.1, [0.0, 300.0])
+    said = cardan("forces", path, "--json").content
+    assert said["input"][0]["largest_N"] == pytest.approx(10167.458, rel=1e-6)
+    said = cardan("mobility", path, "--turn", "--json").content["turn"]
+    assert said["turns_through"]
+    assert (said["path_mm"][0], said["path_mm"][-1]) == pytest.approx((0.0, 300.0))
+    bare = tmp_path / "bare.toml"
+    bare.write_text(path.read_text("utf-8").replace("input_stroke_mm = [0, 300]", ""), "utf-8")
+    assert "input_stroke_mm: missing" in cardan("mobility", bare, "--turn").err
+    assert "input_stroke_mm: missing" in cardan("motion", bare).err
 
 
 def test_the_message_for_other_questions_names_what_a_mechanism_answers():

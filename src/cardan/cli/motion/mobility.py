@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 from cardan.choices import bearing_layouts_answer
 from cardan.choices.bearing_layouts import KEPT
+from cardan.cli.shared import mechanisms
 from cardan.cli.shared.apply import check_copy
 from cardan.cli.shared.asked import keys_of
 from cardan.cli.shared.changed import is_json
@@ -77,7 +78,8 @@ def mobility(
 
 
 def _told(thing: Drive | Mechanism, file: Path, *, turn: bool, json: bool, csv: bool, plot: Path | None) -> int:
-    with keys_of(file), watching(_("following a turn")) as progress:
+    keys = mechanisms.keys_of if isinstance(thing, Mechanism) else keys_of
+    with keys(file), watching(_("following a turn")) as progress:
         found = question(thing)
         around = turned(thing, progress) if turn else None
     return tell(answer(thing, found, around), file, thing, json=json, csv=csv, plot=plot)

@@ -69,7 +69,7 @@ def told(
 ) -> int:
     """Answer a question of the register about a mechanism; asked: at which angles; listed: a table of them too."""
     question = QUESTIONS[name].of_mechanism
-    with _keys_of(file), watching(_("following a turn")):
+    with keys_of(file), watching(_("following a turn")):
         needed = _("missing; the question {name} needs it").format(name=name)
         check(Problem(_(" or ").join(map(_key_of, some)), needed, "missing") for some in question.lacking(mechanism))
         ask: Callable[..., Any] = question.home.ask
@@ -80,7 +80,7 @@ def told(
 
 
 @contextmanager
-def _keys_of(file: Path) -> Iterator[None]:
+def keys_of(file: Path) -> Iterator[None]:
     """Name the file and its keys, with their units, in whatever an answer refuses."""
     with about(_("standard input") if file == STDIN else str(file)):
         try:

@@ -291,7 +291,7 @@ def turn_figures(found: MobilityTurn) -> tuple[Figure, ...]:
     return (
         Figure(
             name="mobility-turn",
-            title=_("Mobility over a turn of the input"),
+            title=_("Mobility over a turn of the input") if found.whole else _("Mobility over the range of the input"),
             sentence=_turn_sentence(found),
             source=_("Rank of the constraints at each position, loops closed by least squares"),
             rows=(Row(panels=(Panel(series=tuple(series), x=x, y=upright),)),),
