@@ -169,11 +169,14 @@ def told(question, drive):
 
 
 def answered(question, drive):
-    """Return what is said of a drive as `told` does; None where a kind of joint is refused, or holds no shaft."""
+    """Return what is said of a drive as `told` does; None where a kind of joint is refused, or holds no shaft.
+
+    A cross with offset carries the next joint around, unless its ball stands there: no bearings can follow.
+    """
     try:
         return told(question, drive)
     except InputError as error:
-        if all(one.field.endswith((".kind", "supports")) for one in error.problems):
+        if all(one.field.endswith((".kind", "supports", ".reach")) for one in error.problems):
             return None
         raise
 

@@ -11,7 +11,7 @@ from cardan.answers.quantity import Joined, Written, say
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths, spline_place
 from cardan.drive.support import Support
-from cardan.errors import InputError
+from cardan.errors import InputError, Problem
 from cardan.texts import _, plural
 
 from .geometry import geometry
@@ -165,10 +165,20 @@ def tables_of(supports: Iterable[Support]) -> str:
 
 @contextmanager
 def tables_proposed(drive: Drive) -> Iterator[None]:
-    """Give an error about the supports the tables that would hold the drive."""
+    """Give an error about the supports the tables that would hold the drive, and what is no table its name."""
     try:
         yield
     except InputError as error:
         tables = tables_of(proposed(drive))
-        named = [replace(one, paste=tables) if one.field == "supports" else one for one in error.problems]
+        told = [_of_a_table(drive, one) for one in error.problems]
+        named = [replace(one, paste=tables) if one.field == "supports" else one for one in told]
         raise InputError(named, where=error.where) from None
+
+
+def _of_a_table(drive: Drive, problem: Problem) -> Problem:
+    """Return a problem by name where it is with a machine or a ball that holds a shaft without a table of its own."""
+    for k, one in enumerate(machine_held(drive).supports):
+        if k >= len(drive.supports) and problem.field == f"supports[{k}].stiffness":
+            text = _("{name}: stiffness {problem}").format(name=one.name, problem=problem.message)
+            return replace(problem, field="supports", message=text)
+    return problem
