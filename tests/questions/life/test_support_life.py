@@ -206,6 +206,11 @@ def test_the_drive_lasts_as_long_as_the_first_of_both():
     (failed,) = [told(one.text, USUAL) for one in said.remarks if one.tone == "failed"]
     need = 3000.0 * (1000 * HOUR / found.drive) ** (1 / 3)
     assert f"a capacity of {need:,.0f} N".replace(",", "\u202f") in failed
+    bored = replace(small, supports=supports(capacity=3000.0, bore=0.015))
+    (larger,) = [
+        told(one.text, USUAL) for one in answer(bored, life(bored)).remarks if "bore of" in told(one.text, USUAL)
+    ]
+    assert larger.endswith("15 mm these have that capacity: 6002, 6002-2RS, 6202, 6202-2RS, 6302, 6302-2RS.")
     (over,) = [figure for figure in life_figures(found) if figure.name == "life"]
     assert "support 3" in [getattr(one, "label", "") for one in over.rows[0].panels[0].series]
     rows = "".join(as_csv(said.full(), Reader())).splitlines()

@@ -14,6 +14,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import catalogue, filled
 from cardan.catalogue.provenance import rows_behind, unconfirmed
+from cardan.catalogue.rows import Bearing
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
@@ -338,6 +339,7 @@ def _remarks(drive: Drive, result: Life, loose: tuple[str, ...]) -> Iterator[Rem
         values = {"need": Quantity(need, "force"), "now": Quantity(now, "force")}
         share = Quantity(result.torque_margin, "share")
         yield Remark(text=say(text, share=share, **values), tone="failed", alarm=True)
+        yield from _larger(drive, result, need)
     if loose:
         text = _("The lives rest on ratings that nothing confirms: {rows}.")
         yield Remark(text=say(text, rows=", ".join(loose)), tone="warning")
@@ -370,6 +372,16 @@ def _remarks(drive: Drive, result: Life, loose: tuple[str, ...]) -> Iterator[Rem
     if len(result.parts) > 1:
         text = _("Every part on its own, joint by joint:")
         yield Remark(text=text, command=("cardan", "life", FILE, "--csv"), tone="next")
+
+
+def _larger(drive: Drive, result: Life, need: float) -> Iterator[Remark]:
+    """Yield which bearings of the same bore have a capacity, where a support fails first."""
+    bore = drive.supports[result.governing_support - 1].bore if result.governing_support else None
+    rows = [row for row in catalogue().rows(Bearing).values() if bore and math.isclose(row.bore, bore)]
+    fit = sorted((row for row in rows if row.capacity >= need), key=lambda row: row.capacity)
+    if fit:
+        text = _("Of the bearings with a bore of {bore} these have that capacity: {rows}.")
+        yield Remark(text=say(text, bore=Quantity(bore, "length", trim=True), rows=", ".join(row.id for row in fit)))
 
 
 def _needed(result: Life) -> tuple[float, float]:
