@@ -357,8 +357,8 @@ def _remarks(drive: Drive, result: Life, loose: tuple[str, ...]) -> Iterator[Rem
     yield _vibration(drive, result)
     if result.supports is not None:
         text = _(
-            "Forces on the supports count weights where masses are given; torsional vibration and unbalance are not in "
-            "them."
+            "Forces on the supports count weights where masses are given; torsional vibration, unbalance and "
+            "misalignment are not in them."
         )
         yield Remark(text=text, once=True, code="support_forces")
     yield from _cautions(result)
