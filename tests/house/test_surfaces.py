@@ -86,33 +86,37 @@ def heavy(name, one, who):
     return name in FEW or turn % 3 == 0
 
 
-@pytest.mark.parametrize("who", READERS)
 @examples
-def test_every_question_is_told_on_every_surface(name, who, monkeypatch):
+def test_every_question_is_told_on_every_surface(name, monkeypatch):
+    """To all readers in one test, so that every answer is computed once."""
     monkeypatch.setenv("COLUMNS", "100")
-    language, reader = READERS[who]
-    found = 0
-    with speaking(language), reading(reader):
-        for one, question, drive, result in answers(name):
-            told = question.answer(drive, result)
-            page = surfaces.page(question, drive)
-            if who == "en":
-                assert [one.text for one in told.remarks if surfaces.sentences(shown(one.text)) > 1] == [], one
-            printed, tree = surfaces.terminal(told, drive), surfaces.as_data(told, reader)
-            assert printed, one
-            assert surfaces.csv(told, reader) or not told.tables, one
-            assert "<" in surfaces.app(page) or not page.blocks, one
-            said = list(surfaces.texts(page))
-            if heavy(name, one, who):
-                assert "<html" in surfaces.report(page), one
-                cells = surfaces.workbook(page)
-                assert page.title in cells, one
-                said += cells
-            assert [text for text in [*said, *printed.splitlines()] if "{" in text or "}" in text] == [], one
-            if who == "inches":
-                no_usual_unit_is_left(page, [*said, *printed.splitlines()], tree)
-            found += 1
-    assert found
+    for who, (language, reader) in READERS.items():
+        with speaking(language), reading(reader):
+            found = [told_on_every_surface(name, who, *one) for one in answers(name)]
+        assert found, who
+
+
+def told_on_every_surface(name, who, one, question, drive, result):
+    """Tell the answer to a question on every surface to a reader, and look at what is said."""
+    reader, where = READERS[who][1], (who, one)
+    told = question.answer(drive, result)
+    page = surfaces.page(question, drive)
+    if who == "en":
+        assert [one.text for one in told.remarks if surfaces.sentences(shown(one.text)) > 1] == [], where
+    printed, tree = surfaces.terminal(told, drive), surfaces.as_data(told, reader)
+    assert printed, where
+    assert surfaces.csv(told, reader) or not told.tables, where
+    assert "<" in surfaces.app(page) or not page.blocks, where
+    said = list(surfaces.texts(page))
+    if heavy(name, one, who):
+        assert "<html" in surfaces.report(page), where
+        cells = surfaces.workbook(page)
+        assert page.title in cells, where
+        said += cells
+    assert [text for text in [*said, *printed.splitlines()] if "{" in text or "}" in text] == [], where
+    if who == "inches":
+        no_usual_unit_is_left(page, [*said, *printed.splitlines()], tree)
+    return True
 
 
 def no_usual_unit_is_left(page, said, tree):

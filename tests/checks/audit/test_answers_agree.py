@@ -18,8 +18,9 @@ from cardan.io.examples import example_names
 from cardan.questions.motion.turning import each_shaft
 from tests.audit.running import audited
 
-QUICK, WHOLE = 200, 20
-"""Drives at random whose quick pairs are compared, and those of them all whose pairs are."""
+QUICK, WHOLE = 120, 12
+"""Drives at random whose quick pairs are compared, and those of them all whose pairs are; `python -m tests.audit` asks
+thousands."""
 
 
 def named(pair):
