@@ -18,6 +18,8 @@ COMMANDS = {
     "life": "life truck-duty-cycle.toml",
     "modes": "bending two-piece-rubber-bearing.toml",
     "slider": "motion mechanisms/crank-slider.toml",
+    "boom": "motion mechanisms/boom-cylinder.toml",
+    "differentiator": "sweep sweeps/differentiator.toml",
     "tubes": "strength car-propshaft.toml --size tube:2",
     "thompson": "motion thompson-drive.toml",
     "mixed": "motion double-cardan-propshaft.toml",

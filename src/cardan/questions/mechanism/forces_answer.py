@@ -369,7 +369,7 @@ def _told_of(mechanism: Mechanism) -> tuple[OutputColumn, ...]:
     """Return what a sweep may ask of the forces."""
     load = input_of(mechanism).load
     unit = preferred(load)
-    text = mark("largest force that drives the input") if mechanism.slides else mark("largest input torque over a turn")
+    text = mark("largest input force") if mechanism.slides else mark("largest input torque")
     return (
         OutputColumn(name=f"input_{load}_{unit}", dimension=load, unit=unit, text=text),
         OutputColumn(name="joint_force_N", dimension="force", unit="N", text=mark("largest force in a joint")),
