@@ -63,6 +63,8 @@ class FiniteMobility:
         Residual up to which loops count as closed.
     cancelled : bool
         Whether ``progress`` said "stop"; the arrays then end there.
+    slides : bool
+        Whether the driven joint slides.
     """
 
     mechanism: Mechanism
@@ -73,7 +75,7 @@ class FiniteMobility:
     displacement: Array
     tolerance: float
     cancelled: bool = False
-    slides: bool = False  # whether the driven joint slides
+    slides: bool = False
 
     @property
     def closes(self) -> bool:
@@ -483,6 +485,8 @@ class MobilityTurn:
         What keeps the loops from closing there [m, rad].
     cancelled : bool
         Whether ``progress`` said "stop"; the arrays then end there.
+    slides, whole : bool
+        Whether the input slides; whether it is asked all round.
     """
 
     angle: Array
@@ -491,8 +495,8 @@ class MobilityTurn:
     certain: Array
     residual: Array
     cancelled: bool = False
-    slides: bool = False  # whether the input slides
-    whole: bool = True  # whether it is asked all round
+    slides: bool = False
+    whole: bool = True
 
     @property
     def reached(self) -> Array:
