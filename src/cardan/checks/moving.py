@@ -11,8 +11,10 @@ import numpy as np
 
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.drive.conditions import in_poses
+from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import bare_path
 from cardan.drive.models.geometry import in_form
+from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import tops
 from cardan.questions.motion.moving_points import default_times
@@ -114,11 +116,19 @@ def _course(design: Design, judge: Callable[[Design], Sequence[Verdict]], *, sli
         none = np.full(times.shape, -np.inf)
         ends = [np.asarray(here.length(k), dtype=float) for k in range(1, design.joints)] if slides else []
         each = (found.get(row, none) for row in rows)
-        swung = standing_torques(design.drive, times) if vibrates else []
+        swung = _swung(design.drive, times) if vibrates else []
         table: Array = np.stack(np.broadcast_arrays(none, *each, *ends, *(-one for one in ends), *swung))[1:]
         return table
 
     return used
+
+
+def _swung(drive: Drive, times: Array) -> Sequence[Array]:
+    """Return the torques of torsional vibration at instants; none where it is not answered for a kind of joint."""
+    try:
+        return standing_torques(drive, times)
+    except InputError:
+        return []
 
 
 def _worst_of_instants(design: Design, judge: Callable[[Design], Sequence[Verdict]]) -> list[Verdict]:
