@@ -123,12 +123,12 @@ def _course(design: Design, judge: Callable[[Design], Sequence[Verdict]], *, sli
     return used
 
 
-def _swung(drive: Drive, times: Array) -> Sequence[Array]:
+def _swung(drive: Drive, times: Array) -> Array:
     """Return the torques of torsional vibration at instants; none where it is not answered for a kind of joint."""
     try:
         return standing_torques(drive, times)
     except InputError:
-        return []
+        return np.zeros((0, times.size))
 
 
 def _worst_of_instants(design: Design, judge: Callable[[Design], Sequence[Verdict]]) -> list[Verdict]:
