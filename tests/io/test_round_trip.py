@@ -72,7 +72,7 @@ def holding(kind: Any, one: Field) -> st.SearchStrategy[Any]:
     if kind is float:
         return inside(one)
     if kind is int:
-        return st.integers(int(max(one.key.low, 0)), 1000)
+        return st.integers(int(max(one.key.low, 0)), int(min(one.key.high, 1000)))
     if kind == WORD_OR_FLAG:
         return st.booleans() | st.sampled_from(one.key.choices)
     if one.key.choices:
