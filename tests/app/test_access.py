@@ -86,6 +86,12 @@ BESIDE = """() => [...document.querySelectorAll('.lights summary .value span')]
   .map((one) => one.textContent)"""
 """Limits of verdicts that reach beyond their pane."""
 
+OUT = """() => [...document.querySelectorAll('.view > .tools > *, .view .bar > *')]
+  .filter((one) => one.checkVisibility())
+  .filter((one) => one.getBoundingClientRect().bottom > one.parentElement.getBoundingClientRect().bottom + 1)
+  .map((one) => one.outerHTML.slice(0, 100))"""
+"""What stands out of the bars above and below the picture."""
+
 WIDER = "() => document.documentElement.scrollWidth - innerWidth"
 """By how much the page is wider than the window."""
 
@@ -136,7 +142,7 @@ def judge(page: Any, where: str, **how: Any) -> None:
     assert not told, f"{where}:\n" + "\n".join(told)
 
 
-LOOKS = {"letters": LETTERS, "targets": TARGETS, "cut": CUT, "beside": BESIDE, "charts": CHARTS}
+LOOKS = {"letters": LETTERS, "targets": TARGETS, "cut": CUT, "beside": BESIDE, "out": OUT, "charts": CHARTS}
 
 
 @pytest.mark.slow

@@ -70,6 +70,7 @@ def start(how: Start) -> None:
     app.on_shutdown(jobs.close)
     app.on_shutdown(close_all)
     page.serve_files(app)
+    app.config.quasar_config["loadingBar"]["skipHijack"] = True  # a bar without a name, at whatever the page fetches
 
     keeper = Keeper()
 
