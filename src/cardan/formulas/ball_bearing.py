@@ -49,7 +49,7 @@ def equivalent_load(radial: ArrayLike, axial: ArrayLike, static_capacity: ArrayL
     A 6207, TPI catalogue 2202/TE, p. 11: e = 0.29, Y = 1.48, P = 3.94 kN.
 
     >>> print(f"{equivalent_load(2.8e3, 1.6e3, 15.3e3):.0f} N")
-    3922 N
+    3921 N
     """
     across, along, static = np.broadcast_arrays(
         *(np.asarray(one, dtype=float) for one in (radial, axial, static_capacity))
