@@ -5,6 +5,7 @@ import signal
 import time
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -272,5 +273,6 @@ def test_nothing_starts_before_it_is_needed():
 def test_no_drive_no_question():
     class Empty:
         drive = None
+        document = SimpleNamespace(of_mechanism=False)
 
     assert asked(Empty(), "motion") is None

@@ -86,6 +86,7 @@ NAMES: dict[tuple[type, str], st.SearchStrategy[Any]] = {
     (Material, "grade"): st.just(""),
     (Material, "yield_strength"): st.none(),
     (Settings, "catalogues"): st.just(()),
+    (Support, "bearing"): st.just(""),
     (Shaft, "finish"): st.just("machined"),
     (Shaft, "notch"): st.none(),
     (Shaft, "layup"): st.none(),
