@@ -172,6 +172,20 @@ def test_options_and_file_ask_for_the_same(cardan, winch):
     assert own["need"] == pytest.approx(said["need"])
 
 
+def test_options_count_in_the_lives_of_sizes_too(cardan, winch):
+    """By hand: the life falls with the 10/3rd power of the torque, and with the joint angle."""
+
+    def life(*options):
+        rows = cardan("select", winch, *options, "--json").content["sizes"]
+        return next(row["life_h"] for row in rows if row["size"] == "gwb-687.25")
+
+    twice = ("--joint-angle-deg", 10, "--service-factor", 2.4)
+    once = ("--joint-angle-deg", 10, "--service-factor", 1.2)
+    assert life(*once) / life(*twice) == pytest.approx(2.0 ** (10.0 / 3.0))
+    assert life(*once) / life("--joint-angle-deg", 20, "--service-factor", 1.2) == pytest.approx(2.0)
+    assert life("--service-factor", 2.4) < 0.2 * life()
+
+
 def test_every_reason_says_its_limit_and_source(cardan):
     said = cardan(
         "select", "--torque-Nm", 700, "--joint-angle-deg", 30, "--speed-rpm", 2000, "--synchronous", "--json"

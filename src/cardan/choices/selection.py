@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -283,17 +283,20 @@ def joint_duty(
         outer=outer,
         life=used.life,
         reliability=used.reliability,
-        loads=_loads(whole, own),
     )
 
 
-def _loads(drive: Drive, own: Sequence[int]) -> tuple[DutyLoads, ...]:
-    """Return what some joints carry in every part of the duty; nothing where the duty says too little for that."""
+def over_time(need: JointDuty, drive: Drive, *, joint: int | None = None, known: Catalogue | None = None) -> JointDuty:
+    """Return what the joints of a drive must do, or one of them, with what they carry in every part of the duty.
+
+    The same as given where the duty says too little for that.
+    """
+    own = range(len(drive.joints)) if joint is None else [joint - 1]
     try:
-        found = duty_loads(drive)
+        found = duty_loads(filled(drive, known or catalogue()))
     except InputError:
-        return ()
-    return tuple(replace(one, loads=tuple(part.of(own) for part in one.loads)) for one in found)
+        return need
+    return replace(need, loads=tuple(replace(one, loads=tuple(part.of(own) for part in one.loads)) for one in found))
 
 
 def _top(values: Array) -> float:

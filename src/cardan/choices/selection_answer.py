@@ -17,7 +17,17 @@ from cardan.drive.yokes import yokes_estimated
 from cardan.errors import InputError
 from cardan.texts import _, plural
 
-from .selection import Candidate, JointDuty, Reason, SizeFit, fitting_sizes, joint_duty, reasons, select_joint
+from .selection import (
+    Candidate,
+    JointDuty,
+    Reason,
+    SizeFit,
+    fitting_sizes,
+    joint_duty,
+    over_time,
+    reasons,
+    select_joint,
+)
 
 TONES: dict[str, Tone] = {"ok": "good", "conditional": "warning", "unrated": "plain", "rejected": "failed"}
 
@@ -57,7 +67,8 @@ def selected(need: JointDuty, *, known: Catalogue | None = None, modern: bool = 
 
 def ask(drive: Drive, *, known: Catalogue | None = None, joint: int | None = None) -> Selection:
     """Return what could be taken for the joints of a drive, or for one of them."""
-    return selected(joint_duty(drive, joint=joint, known=known), known=known)
+    need = over_time(joint_duty(drive, joint=joint, known=known), drive, joint=joint, known=known)
+    return selected(need, known=known)
 
 
 def answer(drive: Drive | None, result: Selection) -> Answer:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from cardan.catalogue import Catalogue, catalogue, with_files
-from cardan.choices.selection import JointDuty, joint_duty
+from cardan.choices.selection import JointDuty, joint_duty, over_time
 from cardan.choices.selection_answer import answer, selected
 from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
 from cardan.cli.shared.options import argument, flag, option
@@ -125,8 +125,12 @@ def _of_drive(
     changes: dict[str, Any],
     known: Catalogue,
 ) -> JointDuty:
-    """Return the need of a drive, what the options say in place of it."""
+    """Return the need of a drive, what the options say in place of it: its loads over time are of its own angles."""
+    whole = on_duty(drive, speed_rpm, torque)
     try:
-        return replace(joint_duty(on_duty(drive, speed_rpm, torque), joint=joint, known=known), **changes)
+        need = joint_duty(whole, joint=joint, known=known)
+        if not {"joint_angle", "service_factor"} & changes.keys():
+            need = over_time(need, whole, joint=joint, known=known)
+        return replace(need, **changes)
     except InputError as error:
         raise error.renamed(_option) from error
