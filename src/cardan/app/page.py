@@ -296,6 +296,7 @@ def build(session: Session, jobs: Jobs, keep: Callable[[Kept], None]) -> None:
         ui.run_javascript(f"document.cookie='{CHOSEN}={kept}; path=/; max-age={YEAR}; samesite=strict'")
 
     ui.context.client.on_delete(session.recordings.close)
+    ui.context.client.on_delete(lambda: jobs.leave(session))
     session.listen("choices", chosen, lasting=True)
     whole = ui.element("div").classes("page")
     keeping = Keeping(session, keep, whole)
@@ -348,6 +349,8 @@ def _parts(session: Session, jobs: Jobs) -> Header:
     if session.empty:
         Start(session)
         return head
+    jobs.start()
+    jobs.leave(session)  # what an older page of the same window was waiting for
     if session.document.of_mechanism:
         with ui.element("main").classes("desk of-mechanism").props("id=main"):
             with _pane("file", _("Mechanism file")):
@@ -363,14 +366,14 @@ def _parts(session: Session, jobs: Jobs) -> Header:
         with _pane("view", _("The drive turning")):
             head.report.snapshot = View(session, jobs).scene.snapshot
         _edge("--view", _("height of the view"), 46)
+        _edge("--verdicts", _("width of the verdicts"), 20)
+        with _pane("verdicts", _("Verdicts")):
+            Verdicts(session, jobs, compare=head.variants.compare)
         with _pane("answers", _("Answers")):
             export = Exports(session, jobs)
             answers = Answers(session, jobs, export=export)
             answers.add(SWEEP, _("Sweep"), lambda: Sweep(session, jobs, export))
             answers.add(DIAGNOSIS, _("Diagnosis"), lambda: Diagnosis(session, jobs, export))
-        _edge("--verdicts", _("width of the verdicts"), 20)
-        with _pane("verdicts", _("Verdicts")):
-            Verdicts(session, jobs, compare=head.variants.compare)
     return head
 
 

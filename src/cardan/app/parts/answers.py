@@ -43,9 +43,6 @@ class Answers:
     def __init__(self, session: Session, jobs: Jobs, *, export: Export | None = None) -> None:
         self.session = session
         self.sheets: dict[str, Sheet] = {}  # those that were looked at: a sheet is built once it is
-        jobs.start()
-        jobs.leave(session)  # what an older page of the same window was waiting for
-        ui.context.client.on_delete(lambda: jobs.leave(session))
         tabs = groups()
         self._marked: dict[str, ui.tab] = {}
         with ui.element("div").classes("asked"):
@@ -211,7 +208,7 @@ class Sheet:
         self._asked += 1
         self.about = question.drive
         if self.name in QUESTIONS:
-            background_tasks.create(self._offered(question.drive), name=f"what {self.name} lacks")
+            self.session.later(partial(self._look_for_lacking, question.drive))
         if self.name == "selection":
             self._offer(question.drive)
         if self.name in AT_ONCE and self.quick:
@@ -233,6 +230,10 @@ class Sheet:
         """Give up a long answer."""
         self._jobs_end()
         self._look()
+
+    def _look_for_lacking(self, drive: Drive) -> None:
+        if not self.body.is_deleted:
+            background_tasks.create(self._offered(drive), name=f"what {self.name} lacks")
 
     async def _offered(self, drive: Drive) -> None:
         """Offer the keys that the drive lacks for it."""
@@ -390,9 +391,6 @@ class MechanismPages:
         self._due: Timer | None = None
         self._watch: Timer | None = None
         self._views: dict[str, PageView] = {}
-        jobs.start()
-        jobs.leave(session)  # what an older page of the same window was waiting for
-        ui.context.client.on_delete(lambda: jobs.leave(session))
         with ui.element("div").classes("sheets"), ui.element("div").classes("sheet") as self.body:
             ui.label(
                 _("A mechanism file: verdicts and sweeps of the app are of drives; cardan sweep takes both.")

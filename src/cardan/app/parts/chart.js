@@ -14,6 +14,7 @@ const CONFIG = {
 const TURN = 360;
 const STEP = 5;
 const QUIET = 250; // ms without an edit after which plotly draws everything anew
+const SOON = 30; // ms by which a chart that plotly has to draw anew follows what is shown at once
 
 const faded = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16)).join(",");
 
@@ -86,6 +87,7 @@ export default {
   unmounted() {
     this.gone = true;
     clearTimeout(this.waiting);
+    clearTimeout(this.due);
     for (const end of this.ends) end();
     if (this.Plotly && this.$refs.plot) this.Plotly.purge(this.$refs.plot);
   },
@@ -156,7 +158,7 @@ export default {
       this.dress(label);
       clearTimeout(this.waiting);
       if (!data && this.sketch(curves)) this.waiting = setTimeout(() => this.draw(), QUIET);
-      else this.draw();
+      else this.due ??= setTimeout(() => this.draw(), this.shown ? SOON : QUIET);
     },
     // Draw curves anew between the axes as they stand; false where that cannot be.
     sketch(curves) {
@@ -177,8 +179,9 @@ export default {
       });
     },
     async draw() {
-      if (!this.Plotly || this.gone) return;
       clearTimeout(this.waiting);
+      this.due = clearTimeout(this.due);
+      if (!this.Plotly || this.gone) return;
       this.drawnDark = this.isDark();
       let { data, layout } = this.held;
       if (this.drawnDark) {

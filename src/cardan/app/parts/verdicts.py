@@ -33,7 +33,6 @@ from .answers import applied
 from .widgets import Live, Timer, escaped, first
 
 QUIET = 0.4  # seconds without an edit after which cures are looked for
-SOON = 0.002  # seconds by which verdicts follow the curves
 LOOK = 0.2  # seconds between two looks whether they were found
 
 PRESSED = """(event) => {
@@ -74,18 +73,13 @@ class Verdicts:
             self._list = Live().classes("list").props('data-mark="verdicts"')
             self._list.on("click", lambda event: self._pressed(str(event.args)), js_handler=PRESSED)
         self._told.set_visibility(False)
-        session.listen("drive", self._soon, first=True)
+        session.listen("drive", self._follow, first=True)
         session.listen("text", self._judge)
         session.listen("choices", self._follow)
         session.listen("instant", self._stand)
         self._number: Headline | None = None
         self._follow()
         self._judge()
-
-    def _soon(self) -> None:
-        """Judge the drive once the curves have gone out."""
-        self._end()
-        self._due = Timer(self.session, self.body, SOON, self._follow, once=True)
 
     def _follow(self) -> None:
         """Judge the drive as it is now; cures come once the user is quiet."""
