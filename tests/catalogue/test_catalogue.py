@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from cardan.catalogue import TABLES, Catalogue, catalogue, material, with_files
+from cardan.catalogue.catalogue import FILES, shipped_file
 from cardan.catalogue.rows import (
     FLAGS,
     AnglePair,
@@ -24,6 +26,13 @@ from cardan.errors import InputError
 from cardan.texts import speaking
 
 ROWS = [row for rows in catalogue().tables.values() for row in rows.values()]
+
+
+def test_each_shipped_file_holds_the_tables_it_is_asked_for() -> None:
+    assert {name: tuple(shipped_file(name)) for name in FILES} == FILES
+    assert {path.name for path in files("cardan.catalogue").iterdir() if path.name.endswith(".toml")} == {
+        f"{name}.toml" for name in FILES
+    }
 
 
 def test_every_table_has_rows() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 import tomllib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from functools import cache, lru_cache
@@ -36,8 +36,30 @@ STRENGTH = re.compile(r"[sepl](\d{3})(?!\d)")
 
 STEEL = 7000.0  # what metals that count as steel weigh at least [kg/m³]
 
-FILES = ("materials", "joint_types", "example_sizes", "joint_sizes", "bearings", "norms", "limits", "factors", "faults")
-"""Shipped files, beside this one; rows of one table may stand in several."""
+NORMS = (
+    "angle_norms",
+    "speed_angle_limits",
+    "max_joint_angles",
+    "angle_pairs",
+    "balance_norms",
+    "balance_grades",
+    "part_limits",
+    "lubrication",
+    "life_factors",
+    "speed_angle_factors",
+)
+FILES: Mapping[str, tuple[str, ...]] = {
+    "materials": ("materials", "laminae"),
+    "joint_types": ("joint_types",),
+    "example_sizes": ("joint_sizes",),
+    "joint_sizes": ("joint_sizes",),
+    "bearings": ("bearings",),
+    "norms": NORMS,
+    "limits": ("limits",),
+    "factors": ("factors",),
+    "faults": ("faults",),
+}
+"""Shipped files, beside this one, and the tables in each; rows of one table may stand in several files."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -138,6 +160,36 @@ def _near(name: str, spelled: Mapping[str, str]) -> str:
     return text + (_(", then {others}").format(others=", ".join(found[1:])) if len(found) > 1 else "")
 
 
+class Shipped(Mapping[str, Mapping[str, Row]]):
+    """Tables of the shipped files; a table is read when it is first asked for: a command needs few of them."""
+
+    def __init__(self) -> None:
+        self._names = tuple(dict.fromkeys(name for names in FILES.values() for name in names))
+        self._read: dict[str, Mapping[str, Row]] = {}
+
+    def __getitem__(self, name: str) -> Mapping[str, Row]:
+        if name not in self._names:
+            raise KeyError(name)
+        if name not in self._read:
+            rows = [row for file, names in FILES.items() if name in names for row in shipped_file(file)[name]]
+            tables, problems = rows_of({name: rows})
+            check(problems)
+            self._read[name] = tables[name]
+        return self._read[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+
+@cache
+def shipped_file(name: str) -> Mapping[str, Any]:
+    """Return a shipped file as it stands: tables of rows."""
+    return tomllib.loads(files(__package__).joinpath(f"{name}.toml").read_text(encoding="utf-8"))
+
+
 @cache
 def catalogue() -> Catalogue:
     """Return the shipped catalogue.
@@ -147,15 +199,7 @@ def catalogue() -> Catalogue:
     >>> catalogue().grade("45").yield_strength
     355000000.0
     """
-    tree: dict[str, Any] = {}
-    for name in FILES:
-        for table, rows in tomllib.loads(
-            files(__package__).joinpath(f"{name}.toml").read_text(encoding="utf-8")
-        ).items():
-            tree[table] = [*tree.get(table, ()), *rows]
-    tables, problems = rows_of(tree)
-    check(problems)
-    return Catalogue(tables=tables)
+    return Catalogue(tables=Shipped())
 
 
 def with_files(base: Catalogue, paths: Iterable[str | Path]) -> Catalogue:
