@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Iterator
 from dataclasses import MISSING, dataclass, fields
 from functools import cache
 from types import UnionType
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Any, Union, get_args, get_origin
 
 from cardan.units import DIMENSIONS, KEY, Key, preferred
 
@@ -55,7 +56,7 @@ def fields_of(cls: Any) -> dict[str, Field]:
 
 @cache
 def _fields_of(cls: Any) -> dict[str, Field]:
-    hints = get_type_hints(cls)
+    hints = _hints(cls)
     foreign: frozenset[str] = getattr(cls, "foreign", frozenset())
     return {
         one.name: Field(
@@ -68,6 +69,21 @@ def _fields_of(cls: Any) -> dict[str, Field]:
         for one in fields(cls)
         if KEY in one.metadata and one.name not in foreign
     }
+
+
+def _hints(cls: Any) -> dict[str, Any]:
+    """Return the types of the annotations of a class, as `typing.get_type_hints` does at ten times the cost."""
+    return {
+        name: _type_of(kind, base.__module__) if isinstance(kind, str) else kind
+        for base in reversed(cls.__mro__)
+        for name, kind in vars(base).get("__annotations__", {}).items()
+    }
+
+
+@cache
+def _type_of(annotation: str, module: str) -> Any:
+    """Return what an annotation means in a module."""
+    return eval(annotation, vars(sys.modules[module]))
 
 
 def spellings_of(cls: Any) -> dict[str, tuple[str, float]]:

@@ -7,13 +7,20 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import Key, nearest
 
 from .fields import WORD_OR_FLAG
 from .ranges import in_range, out_of_range, range_code
 
 SCALARS = (float, int, bool, str, WORD_OR_FLAG)  # types of one value
+WANTED = {
+    float: mark("a number"),
+    int: mark("a whole number"),
+    bool: mark("true or false"),
+    WORD_OR_FLAG: mark("true, false or a word"),
+}
+TEXT = mark("a text")
 ANY = Key("")  # key of a number of any size, which is no quantity of a drive
 
 
@@ -33,25 +40,27 @@ def scalar(kind: Any, value: Any, key: Key, factor: float = 1.0, unit: str = "")
     unit: in which the range is told; the preferred one when empty.
     """
     number = isinstance(value, int | float) and not isinstance(value, bool)
-    fits, wanted = {
-        float: (number, _("a number")),
-        int: (number and isinstance(value, int), _("a whole number")),
-        bool: (isinstance(value, bool), _("true or false")),
-        WORD_OR_FLAG: (isinstance(value, bool | str), _("true, false or a word")),
-    }.get(kind, (isinstance(value, str), _("a text")))
+    fits = {
+        float: number,
+        int: number and isinstance(value, int),
+        bool: isinstance(value, bool),
+        WORD_OR_FLAG: isinstance(value, bool | str),
+    }.get(kind, isinstance(value, str))
     if key.choices and (kind is str or isinstance(value, str)) and value not in key.choices:
         text = _("{value} is none of {choices}").format(value=as_given(value), choices=", ".join(key.choices))
         return Wrong(text + nearest_of(value, key.choices), "out_of_range")
     if not fits:
         code = "" if not number or kind is not int else "out_of_range" if math.isfinite(value) else "not_finite"
-        return Wrong(_("must be {wanted}, not {given}").format(wanted=wanted, given=as_given(value)), code)
+        return Wrong(
+            _("must be {wanted}, not {given}").format(wanted=_(WANTED.get(kind, TEXT)), given=as_given(value)), code
+        )
     if kind is float or kind is int:
         result = in_si(value, factor) + 0.0
         if in_range(key, result) or (key == ANY and math.isfinite(result)):
             return value if kind is int else result
         text = out_of_range(as_given(value), key, result, unit, mirrored=factor < 0)
         return Wrong(text, range_code(key, result))
-    if isinstance(value, str) and any("\ud800" <= letter <= "\udfff" for letter in value):
+    if isinstance(value, str) and not value.isascii() and any("\ud800" <= letter <= "\udfff" for letter in value):
         return Wrong(_("holds half a character (a lone surrogate), which no file can keep"))
     return value
 
