@@ -311,7 +311,8 @@ def test_every_result_with_figures_is_found_from_its_own_folder():
     """A folder of results tells in `figure` or `figures` beside it, or in one above, what makes their figures."""
     root = Path(figures.__file__).parent.parent
     homes = [*root.rglob("figure.py"), *root.rglob("figures/__init__.py")]
-    tables = [import_module(".".join(("cardan", *home.relative_to(root).with_suffix("").parts))) for home in homes]
+    names = [".".join(("cardan", *home.relative_to(root).with_suffix("").parts)) for home in homes]
+    tables = [import_module(name.removesuffix(".__init__")) for name in names]
     found = {kind: made for one in tables for kind, made in getattr(one, "FIGURES", {}).items()}
     assert len(found) > 40
     for kind, made in found.items():

@@ -6,6 +6,7 @@ cardan itself; 130 interrupted.
 
 from __future__ import annotations
 
+import gc
 import gettext
 import os
 import sys
@@ -21,6 +22,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 """cardan solves many small systems: threads of the linear algebra itself cost more than they gain, six times as much
 on a machine that is busy. Set before numpy is loaded; what the user says counts."""
 
+SELDOM = 20_000
+"""New objects before garbage is looked for: all that loading makes stays."""
+
 app, failure = later("cardan.cli.app"), later("cardan.cli.shared.failure")
 """The parser, and what is said when something goes wrong: they load while an early ctrl-C is answered already."""
 limits = later("cardan.reading.limits")
@@ -33,6 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     arguments: what follows ``cardan`` on the command line; that of the process by default.
     """
     given = list(sys.argv[1:] if arguments is None else arguments)
+    gc.set_threshold(SELDOM)
     try:
         with speaking(os.environ.get("CARDAN_LANG", "")):
             asked, rest = _asked(given)

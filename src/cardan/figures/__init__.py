@@ -16,16 +16,14 @@ from cardan.files import write_bytes
 from cardan.later import later
 from cardan.texts import _
 
-from .drive import drive_figures
 from .figure import Figure
 from .for_reader import for_reader
-from .render_plotly import render as page
-from .render_svg import document
 
-pixels = later("cardan.figures.render_matplotlib")
-"""What draws by pixels and as PDF, by a heavy library."""
+drives = later("cardan.figures.drive")
+pages, vectors, pixels = (later(f"cardan.figures.render_{by}") for by in ("plotly", "svg", "matplotlib"))
+"""What draws pages to turn, vectors, and pixels or PDF: most commands draw nothing."""
 
-FIGURES = {Drive: drive_figures}
+FIGURES = {Drive: lambda drive: drives().drive_figures(drive)}
 """Sort of result -> what makes its figures; a folder of results has such a table in `figure` or `figures` beside it."""
 
 
@@ -122,9 +120,9 @@ def drawn(figures: Figure | Sequence[Figure], suffix: str, name: str = "") -> by
     given = (figures,) if isinstance(figures, Figure) else tuple(figures)
     several = tuple(for_reader(one, reader()) for one in given)
     if suffix == ".html":
-        return page(several).encode("utf-8")
+        return str(pages().render(several)).encode("utf-8")
     if suffix == ".svg":
-        return document(several).encode("utf-8")
+        return str(vectors().document(several)).encode("utf-8")
     stream = io.BytesIO()
     pixels().render(several, stream, suffix[1:])
     return stream.getvalue()
