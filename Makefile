@@ -7,9 +7,12 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
 EXAMPLE ?= truck-printed-angles
-WORKERS ?= 2
+WORKERS ?= 3
 
 FILE ?=
+
+# Every process that tests, pages and examples start would compile the modules anew.
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: help report app test quick lint docs dist bench clean all
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import tempfile
@@ -14,8 +15,12 @@ EXAMPLE = Path(__file__).parent.parent / "examples" / "truck-printed-angles.toml
 SINGLE = "from cardan import Drive, motion; motion(Drive.from_angles([0.3, 0.3])).ratio"
 
 
+KEPT = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+"""Compiled modules are kept, as an installation keeps them."""
+
+
 def run(*arguments: str) -> None:
-    subprocess.run([sys.executable, *arguments], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([sys.executable, *arguments], check=True, stdout=subprocess.DEVNULL, env=KEPT)
 
 
 def figures(quick: bool) -> Iterator[Figure]:
