@@ -60,3 +60,15 @@ def test_the_page_is_told_in_the_units_of_the_reader():
     told = rows(example("car-propshaft"), who)
     assert told["Duty cycle"]["torque"][0].startswith("110,6 ")
     assert told["Tubes, materials, splines"]["outer diameter"] == ["2,992 in"]
+
+
+def test_poses_and_movements_stand_on_the_page_with_what_they_change():
+    told = rows(example("truck-rear-axle"))
+    assert told["Poses"]["share of the whole time"] == ["35 %", "25 %", "40 %"]
+    assert told["Poses"]["joint 2: centre"][0] == "1\u202f450 mm, 45 mm, −316 mm"
+    assert told["Movements"]["amplitude of the shift"] == ["0 mm, 0 mm, 70 mm"]  # of a body; an arm has another one
+    assert "joint 2, output" in next(inputs_heads(example("truck-rear-axle"), "Movements"))
+
+
+def inputs_heads(drive, title):
+    return (one.heading for table in inputs(drive) if table.title == title for one in table.columns[1:])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from typing import Any
@@ -10,9 +11,11 @@ from cardan.answers import answer
 from cardan.answers.answer import Column, Value
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.drive.drive import Drive
-from cardan.drive.fields.paths import in_words
+from cardan.drive.fields.paths import bare_path, in_words, place
 from cardan.drive.joint_parts import Rating
 from cardan.drive.joints.hooke import Hooke
+from cardan.drive.movement import Movement
+from cardan.drive.pose import Pose
 from cardan.reading.fields import fields_of
 from cardan.texts import _
 
@@ -30,6 +33,7 @@ SHOWN = {
     "blocks": (),
     "duty": ("cases", "blocks"),
     "limits": (),
+    "movements": ("name", "moves"),
 }
 """Part of the drive -> what of it stands in other tables of the page, or above its column."""
 
@@ -68,6 +72,7 @@ def inputs(drive: Drive, known: Catalogue | None = None) -> Iterator[answer.Tabl
         "supports": (_("Supports"), _numbered(whole.supports, _("support {number}"))),
         "stations": (_("Masses that turn with the shafts"), _numbered(whole.stations, _("station {number}"))),
         "limits": (_("Limits set in the file"), [""]),
+        "movements": (_("Movements"), [_moving(one) for one in whole.movements]),
     }
     for name, (title, heads) in names.items():
         start = "duty." if name in ("cases", "blocks") else ""
@@ -76,6 +81,40 @@ def inputs(drive: Drive, known: Catalogue | None = None) -> Iterator[answer.Tabl
         given = [_Given(head, _of(own, full, path, SHOWN[name])) for head, own, full, path in parts]
         if any(one.values for one in given):
             yield _table(title, [one for one in given if one.values])
+    if drive.poses:
+        yield _table(_("Poses"), [_posed(drive, one) for one in drive.poses])
+
+
+def _moving(one: Movement) -> str:
+    """Return what moves how."""
+    numbered = re.compile(r"joints\[(\d+)\]")
+    ends = {"input": _("input"), "output": _("output")}
+    points = (
+        ends.get(name) or numbered.sub(lambda k: _("joint {number}").format(number=int(k[1]) + 1), name)
+        for name in one.moves
+    )
+    return f"{one.name or one.kind}: {', '.join(points)}"
+
+
+def _posed(drive: Drive, pose: Pose) -> _Given:
+    """Return what a pose changes, and how long the drive stands so."""
+    found = _Given(pose.name)
+    if pose.share is not None:
+        found.values["", _("share of the whole time")] = _value(pose.share, "share", ())
+    for path, value in pose.set:
+        there = place(drive, path)
+        key = there.field.key
+        found.values["", in_words(bare_path(drive, path))] = _value(
+            _in_si(value, there.factor), key.dimension or "", key.choices
+        )
+    return found
+
+
+def _in_si(value: Any, factor: float) -> Any:
+    """Return numbers of a key with a unit in SI."""
+    if isinstance(value, tuple):
+        return tuple(_in_si(one, factor) for one in value)
+    return value * factor if isinstance(value, float | int) and not isinstance(value, bool) else value
 
 
 def sources(drive: Drive, known: Catalogue | None = None) -> Iterator[Text]:
@@ -162,7 +201,7 @@ def _leaves(
         if name in left_out or name not in usual or value is None or value == one.default:
             continue
         below = f"{path}.{name}"
-        said = in_words(below, inside=path)
+        said = in_words(below, inside=path, doc=one.key.doc)
         if is_dataclass(value):
             yield from _leaves(value, below, part=f"{part}: {said}" if part else said)
         elif isinstance(value, tuple) and value and is_dataclass(value[0]):

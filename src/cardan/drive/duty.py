@@ -93,7 +93,7 @@ class Upkeep:
     distance: float | None = quantity("length", None, doc="distance run since the last lubrication", low=0.0)
     years: float | None = plain(None, doc="years since the last lubrication", low=0.0)
     items: tuple[str, ...] = plain((), doc="rows of the lubrication table that the drive has; needle bearings if none")
-    severe: bool = plain(False, doc="water, mud or dust: half the intervals")
+    severe: bool = plain(False, doc="severe use, water, mud or dust: half the intervals")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -119,16 +119,26 @@ def percent(share: float, digits: int = 3) -> str:
 
 
 def decades(low: float, high: float) -> tuple[float, ...]:
-    """Return round values along a logarithmic axis: powers of ten, with steps of 2 and 5 where these are few.
+    """Return round values along a logarithmic axis: powers of ten, steps of 2 and 5 where these are few, or even ones.
 
     >>> decades(0.5, 2000.0), decades(8.0, 300.0)
     ((1.0, 10.0, 100.0, 1000.0), (10.0, 20.0, 50.0, 100.0, 200.0))
+    >>> decades(55.0, 130.0)
+    (60.0, 80.0, 100.0, 120.0)
     """
     first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
     powers = [10.0**k for k in range(first, last + 1) if low <= 10.0**k <= high]
     if len(powers) >= 3:
         return tuple(powers[:: math.ceil(len(powers) / 6)])
-    return tuple(m * 10.0**k for k in range(first, last + 1) for m in (1, 2, 5) if low <= m * 10.0**k <= high)
+    marks = tuple(m * 10.0**k for k in range(first, last + 1) for m in (1, 2, 5) if low <= m * 10.0**k <= high)
+    return marks if len(marks) >= 3 else steps(low, high, 4)
+
+
+def log_axis(label: str, unit: str, low: float, high: float, *, dimension: str) -> Axis:
+    """Return a logarithmic axis between two bounds; label, unit, dimension: what runs along it, see `Axis`."""
+    ticks = decades(low, high)
+    texts = tuple(written((one,))[0] for one in ticks)
+    return Axis(label=label, unit=unit, dimension=dimension, low=low, high=high, ticks=ticks, texts=texts, log=True)
 
 
 def powers_of_ten(values: Sequence[float]) -> tuple[str, ...]:

@@ -12,12 +12,13 @@ from cardan.maths.arrays import Array
 
 from . import palette
 from .figure import Axis, Band, Bars, Cells, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
-from .page import LINE, Box, Entry, Label, Page, facets, labels, laid_out, onto, ranges, share
+from .page import LETTER, LINE, Box, Entry, Label, Page, breadth, facets, labels, laid_out, onto, ranges, share
 
 FONTS = "'Inter', 'Segoe UI', 'Helvetica Neue', Arial, 'DejaVu Sans', sans-serif"
 """Fonts of the words: that of the page they stand in, the widest one last, for which room is left."""
 
 INCH, POINT = 7200.0, 100.0
+BOLD = 1.1  # how much wider than other letters those of headings are
 """Inch and point in the unit of the drawing."""
 
 FAR = 1e6
@@ -211,8 +212,10 @@ class _Plot:
         """Yield grid, line at the bottom, ticks and titles."""
         panel, bottom = self.panel, self.top + self.height
         if panel.heading:
-            place = self.left, self.top - 6.0 * POINT
-            yield _word(panel.heading, *place, 8.4, "ink", level="bottom", bold=True)
+            over = BOLD * LETTER * breadth(panel.heading) * INCH > self.width  # it goes on to the left, over the names
+            place = self.left + (self.width if over else 0.0), self.top - 6.0 * POINT
+            side = "right" if over else "left"
+            yield _word(panel.heading, *place, 8.4, "ink", side=side, level="bottom", bold=True)
         if panel.bare:
             return
         for text, at in _ticks(panel.x, self.x, self.left, self.width):

@@ -221,7 +221,7 @@ def _no_index(here: Any, k: int) -> str:
         return _("there is no index {k}; this is not a list").format(k=k)
     if not here:
         return _("there is no index {k}; the list is empty").format(k=k)
-    return _("there is no index {k}; the last one is {last}").format(k=k, last=len(here) - 1)
+    return _("there is no index {k}: they count from 0, and the last one is {last}").format(k=k, last=len(here) - 1)
 
 
 def _lost(path: str, message: str, code: str = "") -> InputError:
@@ -265,10 +265,11 @@ def with_key(path: str) -> str:
     return f"{in_words(path)} ({key_of(path)})"
 
 
-def in_words(path: str, *, inside: str = "") -> str:
+def in_words(path: str, *, inside: str = "", doc: str = "") -> str:
     """Return what stands at a path of the drive file, in words, with parts counted as people count them.
 
     inside: the path of a part that need not be named.
+    doc: what it means, not translated, where kinds of a part mean different things by one key.
     """
     owners = {
         "joints": _("joint {number}"),
@@ -289,13 +290,15 @@ def in_words(path: str, *, inside: str = "") -> str:
         "size": _("size"),
         "yield_strength": _("yield strength"),
         **({"torque": _("torque")} if path.startswith("duty.") else {}),
+        **({"point": _("point of the input axis")} if path.startswith("input.") else {}),
+        **({"point": _("point of the output axis")} if path.startswith("output.") else {}),
         "speed_range[1]": _("highest speed"),
     }
     name = path.rpartition(".")[2]
     axis = AXES.search(name) if name.startswith(("centre[", "point[")) else None
     bare = AXES.sub("", path)
     field = bare.rpartition(".")[2]
-    doc = meant(bare)
+    doc = doc or meant(bare)
     said = short.get(name) or short.get(field) or CLAUSE.split(_(doc) if doc else field.replace("_", " "))[0].strip()
     if axis:
         said += f", {'xyz'[int(axis[1])]}"

@@ -9,9 +9,8 @@ import numpy as np
 
 from cardan.answers.answer import Tone
 from cardan.answers.quantity import Quantity, Say, numbered, say
-from cardan.answers.reader import significant
 from cardan.drive.drive import Drive
-from cardan.figures.axes import axis, decades, steps, written
+from cardan.figures.axes import axis, log_axis, steps, written
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
 from cardan.figures.palette import DASHES, dash_of, shaft
 from cardan.formulas.critical_speed import ARTICLE
@@ -290,9 +289,7 @@ def _decades(label: str, unit: str, value: np.ndarray) -> Axis:
     low, high = float(np.min(value)), float(np.max(value))
     if low == high:
         low, high = 0.5 * low, 2.0 * high
-    ticks = decades(low, high)
-    texts = tuple(significant(one, 1) if one < 1.0 else written((one,))[0] for one in ticks)
-    return Axis(label=label, unit=unit, dimension="stiffness", low=low, high=high, ticks=ticks, texts=texts, log=True)
+    return log_axis(label, unit, low, high, dimension="stiffness")
 
 
 def _map_sentence(found: CriticalSpeedMap) -> Say:
@@ -435,17 +432,7 @@ def _rotor_decades(label: str, rows: list[Array], least: float) -> Axis:
     """Return a logarithmic axis of displacements."""
     low = max(min(float(np.nanmin(row)) for row in rows), least) / 1.2
     high = max(float(np.nanmax(row)) for row in rows) * 1.3
-    ticks = decades(low, high)
-    return Axis(
-        label=label,
-        unit="um",
-        dimension="displacement",
-        low=low,
-        high=high,
-        ticks=ticks,
-        texts=tuple(significant(one, 1) for one in ticks),
-        log=True,
-    )
+    return log_axis(label, "um", low, high, dimension="displacement")
 
 
 def _way(z: Array, title: str, reach: float, *, role: str = "accent") -> Panel:

@@ -9,8 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from cardan.answers.quantity import Quantity, Say, Text, say
-from cardan.answers.reader import significant
-from cardan.figures.axes import axis, decades, steps, written
+from cardan.figures.axes import axis, log_axis, steps, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule
 from cardan.figures.palette import dash_of, shaft
 from cardan.maths.ties import foremost
@@ -290,9 +289,7 @@ def _sentence(found: Life) -> Say | str:
 def _decades(label: str, values: np.ndarray) -> Axis:
     """Return a logarithmic axis of hours over whole decades and their halves."""
     low, high = float(np.min(values)) / 1.15, float(np.max(values)) * 1.15
-    ticks = decades(low, high)
-    texts = tuple(significant(value, 1) for value in ticks)
-    return Axis(label=label, unit="h", dimension="duration", low=low, high=high, ticks=ticks, texts=texts, log=True)
+    return log_axis(label, "h", low, high, dimension="duration")
 
 
 FIGURES = {Life: life_figures}

@@ -123,7 +123,9 @@ def _answer(
                 title=_("redundant constraints"),
                 value=Quantity(float(result.redundant), decimals=0),
             ),
-        ),
+        )
+        if result.redundant
+        else (),
         facts=_facts(thing, result, counted, remedies, around),
         full=lambda: _joints(result, result.joints, links=True),
     )

@@ -652,7 +652,9 @@ def _keys(drive: Drive, found: Phasing) -> Iterator[KeyFigure]:
     if posed.size and float(np.max(posed)) > share + UTMOST:
         place = say(_("in the pose {name}"), name=found.poses[int(foremost(posed))])
         value = Quantity(float(np.max(posed)), "share")
-        yield KeyFigure(name="pose_speed_fluctuation", title=title, place=place, value=value)
+        yield KeyFigure(
+            name="pose_speed_fluctuation", title=title, place=place, value=value, repeats="speed_fluctuation"
+        )
     for one in found.steering[:1]:
         ripple = Quantity(one.ripple, "share")
         yield KeyFigure(name="torque_ripple", title=_("torque ripple at the steering wheel"), value=ripple)

@@ -17,7 +17,7 @@ import numpy as np
 
 from cardan.errors import Problem, check
 from cardan.figures.figure import Bars, Figure, Panel, Row
-from cardan.figures.page import LETTER, breadth
+from cardan.figures.page import LETTER, breadth, share
 from cardan.figures.render_svg import inline_svg
 from cardan.later import later
 from cardan.reading.fields import fields_of
@@ -37,6 +37,8 @@ NARROW = 4.6  # width [inch] of a figure that is drawn for half of the paper
 WIDE = 8.2  # width [inch] of a figure with its panels side by side
 LOWER = 0.62  # height of curves on paper over that on a screen
 USUAL = Look()
+FULL = 2.0 / 3.0  # share of the last page that is filled where nothing has to be drawn closer
+CLOSER = (1.0, 0.94, 0.88, 0.82)  # shares of their height that pictures and gaps keep, one after the other
 STANDARD: Final = "ua-1"  # the PDF can be read aloud: tagged, with words for every picture
 
 
@@ -70,12 +72,33 @@ def excerpt(part: Excerpt) -> bytes:
 
 
 def compiler(data: dict[str, Any], look: Look = USUAL) -> Any:
-    """Return what sets a report, as PDF or in pictures of its pages; data: as of `as_data`."""
+    """Return what sets a report, as PDF or in pictures of its pages; data: as of `as_data`.
+
+    What would end on a page of which more than a third stays blank is drawn closer until it ends on the page before,
+    where that can be.
+    """
+    made = _compiler(data, look, CLOSER[0])
+    pages, share = _end(made)
+    for tight in CLOSER[1:] if pages > 1 and share < FULL else ():
+        closer = _compiler(data, look, tight)
+        if _end(closer)[0] < pages:
+            return closer
+    return made
+
+
+def _end(made: Any) -> tuple[int, float]:
+    """Return on which page a report ends, and how much of that page it fills."""
+    (end,) = json.loads(made.query("<end>", field="value"))
+    return int(end["page"]), float(end["share"])
+
+
+def _compiler(data: dict[str, Any], look: Look, tight: float) -> Any:
+    """Return what sets a report whose pictures and gaps keep a share of their height."""
     return typst().Compiler(
         TEMPLATE,
         root=TEMPLATE.parent,
         font_paths=[Path(matplotlib().get_data_path()) / "fonts" / "ttf", *([look.fonts] if look.fonts else [])],
-        sys_inputs={"report": json.dumps(_printable(data), ensure_ascii=False)},
+        sys_inputs={"report": json.dumps(_printable(data), ensure_ascii=False), "tight": str(tight)},
     )
 
 
@@ -224,14 +247,17 @@ def _roomy(row: Row, width: float) -> Row:
 
 
 def _with_room(panel: Panel, width: float) -> Panel:
-    frame = width - 0.4 - LETTER * max(map(len, panel.y.texts), default=0)
+    frame = width - 0.4 - LETTER * max(map(breadth, panel.y.texts), default=0.0)
     x = panel.x
     lying = [one for one in panel.series if isinstance(one, Bars) and one.lying and one.texts]
     for one in lying if not x.log else ():
         words = min(0.5, (LETTER * max(map(len, one.texts)) + 0.1) / frame)
         x = replace(x, high=max(x.high, float(np.max(one.ends, initial=0.0)) / (1.0 - words)))
-    step = math.ceil(len(x.ticks) * (LETTER * max(map(len, x.texts), default=0) + 0.06) / frame) if x.numeric else 1
-    return replace(panel, x=replace(x, ticks=x.ticks[::step], texts=x.texts[::step]) if step > 1 else x)
+    if not x.numeric or len(x.ticks) < 2:
+        return replace(panel, x=x)
+    gap = frame * float(np.min(np.diff(share(x, x.low, x.high, np.asarray(x.ticks)))))
+    step = math.ceil((LETTER * max(map(breadth, x.texts)) + 0.06) / gap)
+    return replace(panel, x=replace(x, ticks=x.ticks[::step], texts=x.texts[::step]))
 
 
 def _curves(row: Row) -> bool:
@@ -240,6 +266,6 @@ def _curves(row: Row) -> bool:
     return not any(lying) and not any(panel.equal or panel.view for panel in row.panels)
 
 
-def _scale(row: Row, share: float) -> float:
-    """Return how much of its height a row keeps that gets a share of its width."""
-    return share if all(panel.equal for panel in row.panels) else 1.0
+def _scale(row: Row, part: float) -> float:
+    """Return how much of its height a row keeps that gets this part of its width."""
+    return part if all(panel.equal for panel in row.panels) else 1.0

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from cardan.answers.quantity import Quantity, say
-from cardan.figures.axes import axis, decades, written
+from cardan.figures.axes import axis, log_axis
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule, Series
 from cardan.maths.arrays import Array
 from cardan.texts import _
@@ -104,10 +104,7 @@ def logarithmic(label: str, curves: Sequence[Array]) -> Axis:
     high = float(np.max(every, initial=0.0)) or 1.0
     every = every[every > LEAST * high]
     low = max(float(np.min(every, initial=high)), high * 10.0**-DECADES)
-    low, high = low / 1.25, high * 1.35
-    ticks = decades(low, high)
-    texts = tuple(written([one])[0] for one in ticks)
-    return Axis(label=label, unit="Nm", dimension="torque", low=low, high=high, ticks=ticks, texts=texts, log=True)
+    return log_axis(label, "Nm", low / 1.25, high * 1.35, dimension="torque")
 
 
 FIGURES = {Absorber: absorber_figures}
