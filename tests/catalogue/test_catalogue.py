@@ -117,7 +117,10 @@ def test_figures_that_the_source_does_not_give_are_named_and_count_as_recalled()
 
 
 def test_an_unknown_grade_is_answered_by_its_standard_and_strength() -> None:
-    with pytest.raises(InputError, match="it stands there for states of delivery and sizes: S355J2H-16, S355J2H-40"):
+    with pytest.raises(
+        InputError,
+        match="by that name alone: name its state of delivery or its thickness, as in S355J2H-16, S355J2H-40",
+    ):
         catalogue().grade("S355")
     with pytest.raises(InputError, match="nearest to its yield strength of 460 MPa are"):
         catalogue().grade("S460")

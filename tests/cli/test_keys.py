@@ -1,5 +1,8 @@
 """``cardan keys`` and ``cardan help``: every key with its meaning, and what words of the trade lead to."""
 
+import re
+from pathlib import Path
+
 import pytest
 
 from cardan.cli.shared.words import SYNONYMS, finds
@@ -7,6 +10,8 @@ from cardan.drive.drive import Drive
 from cardan.io import schema
 from cardan.io.keys import file_keys, written_in_examples
 from cardan.reading.fields import spellings_of
+
+GLOSSARY = Path(__file__).parents[2] / "docs" / "glossary.md"
 
 
 def properties(tree, root):
@@ -39,7 +44,7 @@ def test_every_key_that_cardan_writes_by_the_schema_is_told():
     assert plain - told - {one for key in file_keys() for one in (key.name.rpartition("_")[0],)} == set()
 
 
-@pytest.mark.parametrize("path", ["joints.cross.span_mm", "joints[1].cross.span_mm", "joints.cross.span"])
+@pytest.mark.parametrize("path", ["joints.cross.span_mm", "joints[1].cross.span_in", "joints.cross.span"])
 def test_a_key_is_told_under_any_way_of_writing_its_path(cardan, path):
     done = cardan("keys", path, "--json")
     (key,) = done.content["keys"]
@@ -88,3 +93,30 @@ def test_an_unknown_command_is_met_by_its_meaning(cardan):
     assert "Did you mean strength?" in cardan("stress", "truck.toml").err
     assert "bending" in cardan("whirl").err
     assert "Did you mean" not in cardan("brkt").err
+
+
+def test_every_term_of_the_glossary_leads_somewhere():
+    rows = [line.split("|")[1] for line in GLOSSARY.read_text("utf-8").splitlines() if line.startswith("| ")]
+    terms = [one.strip() for row in rows for one in re.split("[,;]", re.sub(r"[*`]|\(.*?\)|\$.*?\$", "", row))]
+    assert len(terms) > 100
+    assert [one for one in terms if one not in ("", "term") and not finds(one)] == []
+
+
+@pytest.mark.parametrize(
+    ("word", "sort", "name"),
+    [
+        ("telescope", "key", "shafts[].spline"),
+        ("wide-angle joint", "kind", "double_cardan"),
+        ("sprayer", "example", "pto-drive"),
+        ("profile tube", "key", "shafts[].profile"),
+        ("torque", "command", "forces"),
+        ("errors tolerances", "command", "accuracy"),  # two words that never stand side by side
+    ],
+)
+def test_words_of_the_trade_lead_where_they_should(word, sort, name):
+    assert name in [one.name for one in finds(word) if one.sort == sort]
+
+
+def test_a_key_is_found_in_the_unit_that_people_write(cardan):
+    (key,) = cardan("keys", "duty.life_h", "--json").content["keys"]
+    assert (key["key"], key["value"]) == ("duty.life_h", "number, more than 0 h")

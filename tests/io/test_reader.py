@@ -36,7 +36,7 @@ def problems(text: str, **how: str) -> dict[str, str]:
         (TWO + "[duty]\nspeeed_rpm = 3", "duty.speeed_rpm", "the nearest known one is speed_rpm"),
         (TWO + "[duty]\nyoke_fixed = true", "duty.yoke_fixed", "it belongs to [[shafts]]"),
         (TWO + "[duty]\nteeth = 3", "duty.teeth", "it belongs to [[shafts]] spline"),
-        (TWO + "duty = 3", "joints[1].duty", "unknown here; it belongs to the head of the file"),
+        (TWO + "duty = 3", "joints[1].duty", "unknown here; it belongs to the head of the file, above its first table"),
         (HEAD + "[[joints]]\njoint_angle_deg = 90", "joints[0].joint_angle_deg", "less than 90°"),
         (HEAD + "[[joints]]\njoint_angle_deg = -1", "joints[0].joint_angle_deg", "at least 0°"),
         (HEAD + "[[joints]]\njoint_angle_deg = nan", "joints[0].joint_angle_deg", "nan is not allowed"),

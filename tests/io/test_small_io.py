@@ -19,7 +19,7 @@ def test_plain():
 
 def test_tables():
     assert [title for title, cls in tables()][:6] == [
-        "the head of the file",
+        "the head of the file, above its first table",
         "[report]",
         "[settings]",
         "[input]",

@@ -138,7 +138,7 @@ def _like(name: str, rows: Sequence[Grade]) -> str:
     """Return which grades are meant by a name that none has: by its standard, else by the strength it says."""
     meant = [row.id for row in rows if any(one.casefold().startswith(name) for one in row.every_name)]
     if meant:
-        text = _("; it stands there for states of delivery and sizes: {grades}")
+        text = _(" by that name alone: name its state of delivery or its thickness, as in {grades}")
         return text.format(grades=", ".join(meant[:SHOWN]) + (" …" if len(meant) > SHOWN else ""))
     said = STRENGTH.match(name)
     if said is None:

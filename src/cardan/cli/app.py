@@ -288,7 +288,7 @@ COMMANDS = {
     "help": Entry(
         "files.lookup",
         FORMULAS,
-        _("Find commands, checks, keys and formulas by a word of the trade."),
+        _("Find commands, checks, keys, formulas and examples by a word of the trade."),
         ("cardan help stress", "cardan help u-joint"),
     ),
     "catalogue": Entry(

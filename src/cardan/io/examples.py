@@ -293,10 +293,15 @@ def template(use: str, name: str) -> str:
     if name:
         line = f"name = {json.dumps(name, ensure_ascii=False)}"
         body = re.sub(r'^name = ".*"$', lambda _found: line, body, count=1, flags=re.MULTILINE)
-    return f"# {_(STARTED)}\n\n{body}"
+    return f"{_(STARTED)}\n{body}"
 
 
-STARTED = mark("Put your own numbers in: `cardan keys` tells every key, `cardan select` finds sizes of joints.")
+STARTED = mark("""\
+# Put your own numbers in: `cardan keys duty` tells the keys of a table, any usual unit will do; `cardan select` finds
+# sizes of joints, and those of the series `example` that stand here are made up. Lengths along x run with the power
+# flow, y to the left, z up. Shaft 1 is the input shaft; shaft k lies between joint k-1 and joint k. What belongs to the
+# head of the file, as name, input and output, stands above the first table.
+""")
 
 
 def from_points(path: Path, name: str) -> Drive:

@@ -9,7 +9,7 @@ from functools import cache
 from typing import Any, get_args, get_origin
 
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import KINDS
+from cardan.drive.fields.keys import KINDS, USUAL
 from cardan.io.examples import example_names, example_text
 from cardan.reading.fields import Field, fields_of
 from cardan.texts import _
@@ -43,16 +43,20 @@ def file_keys(under: str = "") -> tuple[FileKey, ...]:
 
     >>> [key.path for key in file_keys("input")]
     ['input', 'input.point_mm', 'input.start_phase_deg']
-    >>> file_keys("joints[1].cross.span_mm")[0].value
-    'number, more than 0 mm'
+    >>> file_keys("joints[1].cross.span_in")[0].path
+    'joints[].cross.span_mm'
     """
     wanted = re.sub(r"\[\d*\]", "", under)
     found = (_key(path, fields) for path, fields in _paths().items())
-    return tuple(key for key in found if _at(re.sub(r"\[\]", "", key.path), wanted))
+    return tuple(key for key in found if _at(key, wanted))
 
 
-def _at(path: str, wanted: str) -> bool:
-    return not wanted or path == wanted or path.startswith((f"{wanted}.", f"{wanted}_"))
+def _at(key: FileKey, wanted: str) -> bool:
+    path = key.path.replace("[]", "")
+    stem = path.rpartition("_")[0]
+    if not wanted or path == wanted or path.startswith((f"{wanted}.", f"{wanted}_")):
+        return True
+    return wanted in {f"{stem}_{unit}" for unit in key.units}
 
 
 def _key(path: str, fields: list[tuple[str, Field]]) -> FileKey:
@@ -61,7 +65,7 @@ def _key(path: str, fields: list[tuple[str, Field]]) -> FileKey:
         path=path,
         kinds=() if any(not kind for kind, _one in fields) else tuple(kind for kind, _one in fields),
         units=tuple(DIMENSIONS[one.key.dimension]) if one.key.dimension else (),
-        value=kind_of(one).replace("`", ""),
+        value=kind_of(one, USUAL.get(one.name, "") if one.key.dimension else "").replace("`", ""),
         default="" if one.required else default_of(one).replace("`", ""),
         required=one.required,
         meaning=_(one.key.doc),
@@ -83,7 +87,8 @@ def _below(cls: Any, before: str, kind: str) -> Iterator[tuple[str, str, Field]]
         inner, many = one.type, False
         if get_origin(inner) is tuple and is_dataclass(get_args(inner)[0]):
             inner, many = get_args(inner)[0], True
-        path = f"{before}{one.spelling}{'[]' if many else ''}"
+        spelling = f"{one.name}_{USUAL[one.name]}" if one.name in USUAL and one.key.dimension else one.spelling
+        path = f"{before}{spelling}{'[]' if many else ''}"
         yield path, kind, one
         if inner in KINDS:
             every = KINDS[inner][0]

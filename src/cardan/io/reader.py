@@ -244,7 +244,7 @@ def _knows(cls: type, key: str) -> bool:
 
 def tables() -> tuple[tuple[str, type], ...]:
     """Return every table of a drive file: how the file names it, and its class."""
-    return _all_tables(_("the head of the file"))
+    return _all_tables(_("the head of the file, above its first table"))
 
 
 @cache

@@ -276,9 +276,9 @@ def _section(title: str, cls: type) -> Iterator[str]:
     yield ""
 
 
-def kind_of(one: Field) -> str:
-    """Return what a field holds in words, and which values are allowed."""
-    limits = allowed(one.key)
+def kind_of(one: Field, unit: str = "") -> str:
+    """Return what a field holds in words, and which values are allowed; in a unit, the preferred one when empty."""
+    limits = allowed(one.key, unit)
     ending = "" if limits == _("a finite number") else f", {limits}"
     return _reference_shape(one.type, one) + ending
 

@@ -1,4 +1,4 @@
-"""``cardan help``: commands, checks, keys and formulas by the words of the trade and their synonyms."""
+"""``cardan help``: commands, checks, keys, formulas and examples by the words of the trade and their synonyms."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from cardan.cli.shared.output import check_common
 from cardan.cli.shared.source import AsJson
 from cardan.cli.shared.tell import tell
 from cardan.cli.shared.words import finds
-from cardan.texts import _
+from cardan.texts import _, plural
 
 SHOWN = 12  # finds of each sort that are told
 
@@ -18,7 +18,7 @@ SHOWN = 12  # finds of each sort that are told
 def lookup(
     word: Annotated[str, argument("WORD", _("Word of the trade, as stress or phasing."))], json: AsJson = False
 ) -> int:
-    """Find commands, checks, keys and formulas by a word of the trade."""
+    """Find commands, checks, keys, formulas and examples by a word of the trade."""
     check_common(json=json, csv=False)
     return tell(answer(word), json=json)
 
@@ -32,9 +32,11 @@ def answer(word: str) -> Answer:
         "check": _("Checks"),
         "key": _("Keys of the drive file"),
         "formula": _("Formulas"),
+        "example": _("Examples"),
     }
     own = {sort: [one for one in found if one.sort == sort] for sort in heads}
-    text = _("{word} leads to {count} places.") if found else _("Nothing is found for {word}.")
+    several = plural("{word} leads to {count} place.", "{word} leads to {count} places.", len(found))
+    text = several if found else _("Nothing is found for {word}.")
     return Answer(
         name="help",
         title=_("Help"),
@@ -55,6 +57,7 @@ def answer(word: str) -> Answer:
             if some
         ),
         remarks=(
+            Remark(text=_("Rows of the catalogue:"), command=("cardan", "catalogue", word), tone="next"),
             Remark(text=_("Every command:"), command=("cardan", "--help"), tone="next"),
             Remark(text=_("Every key of the drive file:"), command=("cardan", "keys"), tone="next"),
         ),

@@ -38,7 +38,7 @@ def spelled(path: str, root: Any = Described) -> str:
     return ".".join(steps)
 
 
-USUAL = {"life": "h", "hours": "h", "distance": "km", "wheelbase": "m", "wheel_radius": "m"}
+USUAL = {"life": "h", "hours": "h", "distance": "km", "wheelbase": "m", "wheel_radius": "m", "engine_power": "kW"}
 """Fields that people give in another unit than most of their dimension."""
 
 
