@@ -103,8 +103,10 @@ def floats(*values: ArrayLike) -> tuple[Array, ...]:
 
 
 def complex_of(value: Array, xp: Any) -> Array:
-    """Return a real array as a complex one."""
-    return xp.astype(value, xp.complex128)
+    """Return a real array as a complex one; NumPy's own methods cost a fifth of its part of the standard."""
+    if type(value) is np.float64:
+        return np.complex128(value)
+    return value.astype(np.complex128) if type(value) is np.ndarray else xp.astype(value, xp.complex128)
 
 
 def unit_complex(angle: Array) -> Array:
