@@ -169,12 +169,13 @@ class MechanismJoint(Joint):
         if self.drawing is None:
             return 0.0 * angle, 1.0 + 0.0 * angle, 0.0 * angle
         whole = np.broadcast_arrays(np.asarray(angle, dtype=float), np.asarray(joint_angle, dtype=float))
-        found = np.zeros((3, *whole[0].shape))
-        known = np.unique(whole[1])
-        for alpha, leads in zip(known, self._inside().several(known), strict=True):
-            here = whole[1] == alpha
-            found[:, here] = waved(whole[0][here], leads)
-        return found[0], found[1], found[2]
+        known, which = np.unique(whole[1], return_inverse=True)
+        theta, which = np.ravel(whole[0]), np.ravel(which)
+        places = np.split(np.argsort(which, kind="stable"), np.cumsum(np.bincount(which, minlength=len(known)))[:-1])
+        found = np.zeros((3, theta.size))
+        for here, leads in zip(places, self._inside().several(known), strict=True):
+            found[:, here] = waved(theta[here], leads)
+        return tuple(np.reshape(found, (3, *whole[0].shape)))
 
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the pairs of its mechanism, where they stand, without the bearings of the shafts."""
@@ -377,22 +378,24 @@ class Inside:
 
         Many by polynomials in the joint angle through the nearest `NODES` full degrees: they miss the law by rounding.
         """
+        tables: dict[int, Array] = {}
         for alpha in joint_angles.tolist():
             first = math.floor(alpha / DEGREE) - NODES // 2 + 1
-            near = [(first + k) * DEGREE for k in range(NODES)] if len(joint_angles) > MANY else []
-            table = [self._fine(abs(one)) for one in near]
-            if not near or not np.all(np.isfinite(table)):
+            if len(joint_angles) > MANY and first not in tables:
+                tables[first] = np.stack([self._fine((first + k) * DEGREE) for k in range(NODES)])
+            if first not in tables or not np.all(np.isfinite(tables[first])):
                 yield self.law(alpha)
                 continue
+            near = [(first + k) * DEGREE for k in range(NODES)]
             weight = [math.prod((alpha - b) / (a - b) for b in near if b != a) for a in near]
-            # a joint bent the other way stands as half a turn on
-            turned = [np.roll(row, FINEST // 2) if one < 0.0 else row for one, row in zip(near, table, strict=True)]
-            yield np.tensordot(np.asarray(weight), np.stack(turned), axes=1)
+            yield np.asarray(weight) @ tables[first]
 
     def _fine(self, joint_angle: float) -> Array:
-        """Return leads at `FINEST` places of a turn."""
-        leads = self.law(joint_angle)
-        return leads if len(leads) == FINEST else waved(np.arange(FINEST) * (2.0 * np.pi / FINEST), leads)[0]
+        """Return leads at `FINEST` places of a turn; a joint bent the other way stands as half a turn on."""
+        leads = self.law(abs(joint_angle))
+        if len(leads) < FINEST:
+            leads = waved(np.arange(FINEST) * (2.0 * np.pi / FINEST), leads)[0]
+        return np.roll(leads, FINEST // 2) if joint_angle < 0.0 else leads
 
     @property
     def mapped(self) -> bool:
