@@ -198,6 +198,12 @@ def _remarks(work: SweepWork, found: Sweep, plan: Path, keeps: bool) -> Iterator
                 "{count} points make no drive, the first of them in row {row}: {why}",
                 n,
             )
+            if isinstance(work.ask.drive, Mechanism):
+                text = plural(
+                    "{count} point makes no mechanism, row {row}: {why}",
+                    "{count} points make no mechanism, the first of them in row {row}: {why}",
+                    n,
+                )
         why = "; ".join(str(one) for one in work.why(int(row))[:3])
         yield Remark(text=say(text, count=counted(n), row=int(row), why=why), tone="warning")
     yield from _as_drawn(work)

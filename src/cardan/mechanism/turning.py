@@ -39,10 +39,10 @@ LOOKED = (0.21, 0.47, 0.83)
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Turned:
-    """A mechanism at angles of its input link, or at paths of one that slides."""
+    """A mechanism at positions of its input link: angles of one that turns, paths of one that slides."""
 
     mechanism: Mechanism
-    angle: Array  # (p,) [rad], of an input that slides [m]: of the input link, from where it is drawn
+    position: Array  # (p,) [rad], of an input that slides [m]: of the input link, from where it is drawn
     displacement: Array  # (p, n, 4, 4): of every moving link, from where it is drawn
     misfit: Array  # (p, m, 2): gap [m] and lean [rad] that each pair keeps
     placed: Placed  # pairs where they stand
@@ -75,7 +75,7 @@ class Turned:
         return found
 
 
-def turned(mechanism: Mechanism, angle: Array | None = None) -> Turned:
+def turned(mechanism: Mechanism, position: Array | None = None) -> Turned:
     """Return a mechanism at angles of its input link (p,) [rad]; each degree of its range when not given.
 
     Of an input that slides at paths [m]. Raises InputError: no input link that turns or slides in the frame, a link
@@ -83,7 +83,7 @@ def turned(mechanism: Mechanism, angle: Array | None = None) -> Turned:
     """
     check_driven(mechanism)
     low, high = travel(mechanism)
-    wanted = grid(mechanism) if angle is None else np.asarray(angle, dtype=float)
+    wanted = grid(mechanism) if position is None else np.asarray(position, dtype=float)
     way = _Way(mechanism, Linkage(mechanism.joints))
     way.walk(min(low, float(np.min(wanted))), max(high, float(np.max(wanted))))
     _check_held(way, np.asarray([low + share * (high - low) for share in LOOKED]))
@@ -91,7 +91,7 @@ def turned(mechanism: Mechanism, angle: Array | None = None) -> Turned:
     placed = way.placed(poses)
     return Turned(
         mechanism=mechanism,
-        angle=wanted,
+        position=wanted,
         displacement=poses[:, way.order],
         misfit=misfit * np.asarray([way.linkage.size, 1.0]),
         placed=placed,

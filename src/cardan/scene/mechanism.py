@@ -35,7 +35,7 @@ def mechanism_scene(mechanism: Mechanism) -> Scene:
     (4, 4, 72)
     """
     found = mechanism_motion(mechanism, grid(mechanism, STEP))
-    poses, angle = found.turned.displacement, found.angle
+    poses, angle = found.turned.displacement, found.position
     if mechanism.slides:  # frames are told by an angle: the stroke is one turn
         angle = np.linspace(0.0, 2.0 * np.pi, len(angle))
     size = found.turned.placed.size

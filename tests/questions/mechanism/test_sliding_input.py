@@ -79,7 +79,7 @@ def test_a_piston_turns_its_crank_as_the_crank_moves_the_piston():
     forth = mechanism_motion(piston_drives())
     theta = -forth.output.angle if forth.output.axis[2] < 0.0 else forth.output.angle
     back = mechanism_motion(example_mechanism("crank-slider"), theta).output
-    np.testing.assert_allclose(back.path, forth.angle, atol=1e-10)
+    np.testing.assert_allclose(back.path, forth.position, atol=1e-10)
     np.testing.assert_allclose(forth.output.ratio * back.speed, 1.0, atol=1e-9)
     np.testing.assert_allclose(forth.output.slope, -back.curve / back.speed**3, rtol=1e-8)
     force = mechanism_forces(piston_drives()).input_torque

@@ -165,13 +165,13 @@ def _three(
         unit, size = next(iter(DIMENSIONS[dimension].items())) if dimension else ("–", 1.0)
         values = [value / size for value in told]
         curves = [
-            _curve(by.units(found.angle), value, one.link, n)
+            _curve(by.units(found.position), value, one.link, n)
             for n, (value, one) in enumerate(zip(values, links, strict=True), 1)
         ]
         if k == 1:  # rates that vary by less are drawn as a flat line
             still = 0.02 * float(np.nanmax(np.abs(values)))
         upright = axis(label, unit, values, dimension=dimension, least=max(1e-6, still if k else 0.0))
-        panel = Panel(series=tuple(curves), x=by.axis(found.angle, named=k == len(panels) - 1), y=upright)
+        panel = Panel(series=tuple(curves), x=by.axis(found.position, named=k == len(panels) - 1), y=upright)
         rows.append(Row(panels=(panel,), height=1.5))
     return rows
 
@@ -191,7 +191,7 @@ def forces_figure(found: MechanismForces) -> Figure:
     Of an input that slides the force that drives it, over its path.
     """
     by, slides = input_of(found.mechanism), found.mechanism.slides
-    angle = by.units(found.angle)
+    angle = by.units(found.position)
     drives = _("input force") if slides else _("input torque")
     torque = [Curve(x=angle, y=found.input_torque, role="ink", label=drives, width=1.8)]
     if not np.allclose(found.input_torque, found.still_torque, equal_nan=True):
@@ -202,7 +202,7 @@ def forces_figure(found: MechanismForces) -> Figure:
     panels = (
         Panel(
             series=(Rule(value=0.0, dash="solid", role="faint"), *torque),
-            x=by.axis(found.angle),
+            x=by.axis(found.position),
             y=axis(
                 _("Input force") if slides else _("Input torque"),
                 "N" if slides else "Nm",
@@ -214,7 +214,7 @@ def forces_figure(found: MechanismForces) -> Figure:
         ),
         Panel(
             series=tuple(pairs),
-            x=by.axis(found.angle, named=True),
+            x=by.axis(found.position, named=True),
             y=axis(
                 _("Force in the pairs"), "N", [one.y for one in pairs], dimension="force", include=(0.0,), least=1e-6
             ),

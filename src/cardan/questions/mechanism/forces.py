@@ -56,9 +56,9 @@ class MechanismForces:
         return self.motion.mechanism
 
     @property
-    def angle(self) -> Array:
-        """Angles of the input link from where it is drawn, array (p,) [rad]; paths [m] of one that slides."""
-        return self.motion.angle
+    def position(self) -> Array:
+        """Where the input link is, from where it is drawn, array (p,): angles [rad]; paths [m] of one that slides."""
+        return self.motion.position
 
     @property
     def efficiency(self) -> float | None:
@@ -83,14 +83,14 @@ class MechanismForces:
         return tuple((k, pair) for k, pair in enumerate(self.mechanism.joints) if pair.kind.rolls)
 
 
-def mechanism_forces(mechanism: Mechanism, angle: Array | None = None) -> MechanismForces:
+def mechanism_forces(mechanism: Mechanism, position: Array | None = None) -> MechanismForces:
     """Return what drives a mechanism and what its pairs carry while its input link turns or slides uniformly.
 
     Parameters
     ----------
     mechanism : Mechanism
         With loads, a resistance of its output, or masses; inertia counts where it has a speed.
-    angle : array (p,) [rad], optional
+    position : array (p,) [rad], optional
         Angles of the input link; each degree of its range by default. Paths [m] of an input that slides.
 
     Returns
@@ -122,7 +122,7 @@ def mechanism_forces(mechanism: Mechanism, angle: Array | None = None) -> Mechan
     >>> [round(float(one[0]), 6) for one in (found.input_torque, found.force[:, 2])]
     [3.0, 50.0]
     """
-    motion = mechanism_motion(mechanism, angle)
+    motion = mechanism_motion(mechanism, position)
     turned = motion.turned
     speed = mechanism.pace or 0.0
     rates = turned.rates
@@ -139,7 +139,7 @@ def mechanism_forces(mechanism: Mechanism, angle: Array | None = None) -> Mechan
     rows = [each_carried(placed, [rubbing], load=one, **turned.driven)[0] for one in (still, moving)]
     here = rows[1]
     told = ~(turned.special | (here.unbalanced > BALANCED))
-    _check_turns(mechanism, turned.angle, here.locked & told & any(rubbing[0]))
+    _check_turns(mechanism, turned.position, here.locked & told & any(rubbing[0]))
     blank = np.where(told, 1.0, np.nan)
     pace = abs(speed) or 1.0
     loss = pace * here.loss

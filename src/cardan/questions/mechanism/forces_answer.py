@@ -84,7 +84,7 @@ def _sentence(result: MechanismForces) -> Say:
 
 
 def _tables(result: MechanismForces, held: Mobility) -> Iterator[Table]:
-    angle, pairs, by = result.angle, result.mechanism.joints, input_of(result.mechanism)
+    angle, pairs, by = result.position, result.mechanism.joints, input_of(result.mechanism)
     rows = [
         (_("input force") if result.mechanism.slides else _("input torque"), result.input_torque),
         *(
@@ -239,7 +239,7 @@ def _slips(result: MechanismForces) -> Iterator[tuple[int, float, float, float]]
 
 
 def _remarks(result: MechanismForces, held: Mobility) -> Iterator[Remark]:
-    mechanism, angle, place = result.mechanism, result.angle, input_of(result.mechanism).place
+    mechanism, angle, place = result.mechanism, result.position, input_of(result.mechanism).place
     for k, traction, safe, needed in _slips(result):
         if safe < 1.0:
             pair = mechanism.joints[k]
@@ -350,7 +350,7 @@ def _trace(found: MechanismForces) -> Table:
     """Return input torque and reactions at every position."""
     by = input_of(found.mechanism)
     columns = [
-        Column(key=by.key, values=found.angle, dimension=by.place),
+        Column(key=by.key, values=found.position, dimension=by.place),
         Column(key=f"input_{by.load}", values=found.input_torque, dimension=by.load),
         Column(key=f"input_{by.load}_without_inertia", values=found.still_torque, dimension=by.load),
     ]

@@ -126,9 +126,9 @@ class MechanismMotion:
         return self.turned.mechanism
 
     @property
-    def angle(self) -> Array:
-        """Angles of the input link from where it is drawn, array (p,) [rad]; paths [m] of one that slides."""
-        return self.turned.angle
+    def position(self) -> Array:
+        """Where the input link is, from where it is drawn, array (p,): angles [rad]; paths [m] of one that slides."""
+        return self.turned.position
 
     @property
     def output(self) -> LinkMotion | None:
@@ -137,14 +137,14 @@ class MechanismMotion:
         return named[0] if named else None
 
 
-def mechanism_motion(mechanism: Mechanism, angle: Array | None = None) -> MechanismMotion:
+def mechanism_motion(mechanism: Mechanism, position: Array | None = None) -> MechanismMotion:
     """Return how every link of a mechanism moves while its input link turns or slides.
 
     Parameters
     ----------
     mechanism : Mechanism
         With an input link that turns in its frame, or slides in it over a stroke.
-    angle : array (p,) [rad], optional
+    position : array (p,) [rad], optional
         Angles of the input link from where it is drawn; each degree of its range by default. Paths [m] of an input
         that slides.
 
@@ -171,7 +171,7 @@ def mechanism_motion(mechanism: Mechanism, angle: Array | None = None) -> Mechan
     >>> found.output.way, round(float(np.ptp(found.output.path)), 4)
     ('slides', 0.1)
     """
-    found = turned(mechanism, angle)
+    found = turned(mechanism, position)
     size = found.placed.size
     links = tuple(_moved(found, k, size) for k in range(len(mechanism.links)))
     whole = MechanismMotion(turned=found, links=links)
@@ -239,7 +239,7 @@ def _moved(found: Turned, k: int, size: float) -> LinkMotion:
         way=way,
         moves=moves and way != "turns",
         axis=axis,
-        angle=_angle(pose[:, :3, :3], about, ratio, found.angle / per),
+        angle=_angle(pose[:, :3, :3], about, ratio, found.position / per),
         ratio=ratio * blank / per,
         slope=slope * blank / per**2,
         path=(point - at) @ axis if straight else np.zeros(len(point)),

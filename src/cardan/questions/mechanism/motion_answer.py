@@ -85,9 +85,9 @@ def sentence(result: MechanismMotion) -> Say:
             text = _("{output} turns at a constant ratio of {ratio} to {input}.")
             return say(text, output=output.link, input=given, ratio=Quantity(tidied(0.5 * (low + high))))
         text = _("{output} turns at {low} to {high} of the speed of {input}; speed fluctuation δ = {share}.")
-        if fluctuation(output, result.angle) is None:
+        if fluctuation(output, result.position) is None:
             text = _("{output} rocks through {angle}; it turns at {low} to {high} of the speed of {input}.")
-        share = Quantity(fluctuation(output, result.angle) or 0.0, "share")
+        share = Quantity(fluctuation(output, result.position) or 0.0, "share")
         values = {"angle": Quantity(_span(output.angle), "angle"), "share": share}
         return say(text, output=output.link, input=given, low=Quantity(low), high=Quantity(high), **values)
     text = _("{output} shifts without turning, at most {speed} for a radian of {input}.")
@@ -238,7 +238,7 @@ def _errors(result: MechanismMotion, errors: PartErrors) -> Table:
             Column(
                 key="output_error_at",
                 heading=_("at"),
-                values=[float(result.angle[at]) for at in worst],
+                values=[float(result.position[at]) for at in worst],
                 dimension=input_of(result.mechanism).place,
                 decimals=0,
             ),
@@ -301,7 +301,7 @@ def _listed(found: MechanismMotion) -> Table:
         for one in links
         for key, text, values, dim in _columns(one, by)
     ]
-    first = Column(key=by.key, heading=by.head, values=found.angle, dimension=by.place, digits=7, trim=True)
+    first = Column(key=by.key, heading=by.head, values=found.position, dimension=by.place, digits=7, trim=True)
     title = _("Over the input path") if found.mechanism.slides else _("Over the input angle")
     return Table(title=title, columns=(first, *columns))
 
@@ -309,7 +309,7 @@ def _listed(found: MechanismMotion) -> Table:
 def _trace(found: MechanismMotion) -> Table:
     """Return how every link moves at every position."""
     by = input_of(found.mechanism)
-    columns = [Column(key=by.key, values=found.angle, dimension=by.place)]
+    columns = [Column(key=by.key, values=found.position, dimension=by.place)]
     for one in found.links:
         name = one.link.replace(" ", "_")
         columns += [Column(key=f"{name}_{key}", values=v, dimension=dim) for key, _text, v, dim in _columns(one, by)]
@@ -325,7 +325,7 @@ def _remarks(result: MechanismMotion) -> Iterator[Remark]:
         text = _("Free to spin while the input rests, and told as at rest in that: {links}.")
         yield Remark(text=say(text, links=", ".join(turned.loose)))
     if np.any(turned.special):
-        places: list[Text] = [Quantity(float(one), by.place, decimals=0) for one in result.angle[turned.special][:8]]
+        places: list[Text] = [Quantity(float(one), by.place, decimals=0) for one in result.position[turned.special][:8]]
         text = _(
             "Warning: in a change point at {angles}: it could go on in two ways, and its speeds are not told there."
         )
@@ -355,7 +355,7 @@ def _keys(result: MechanismMotion) -> Iterator[KeyFigure]:
         off = Quantity(peak(result.errors.likely), "angle" if result.errors.turns else "length")
         yield KeyFigure(name="output_error", title=_("output error by the tolerances"), value=off)
     if output.turns:
-        share = None if result.mechanism.slides else fluctuation(output, result.angle)
+        share = None if result.mechanism.slides else fluctuation(output, result.position)
         if share is not None:
             title = _("speed fluctuation δ of the output")
             yield KeyFigure(name="speed_fluctuation", title=title, value=Quantity(share, "share"))
@@ -378,7 +378,7 @@ def _facts(result: MechanismMotion) -> dict[str, Any]:
         "input_link": mechanism.input_link,
         "output_link": mechanism.output_link,
         "speed": Quantity(mechanism.pace, by.pace),
-        "input_range": Quantity([float(result.angle[0]), float(result.angle[-1])], by.place),
+        "input_range": Quantity([float(result.position[0]), float(result.position[-1])], by.place),
         "ways": {one.link: one.way for one in result.links},
     }
 
@@ -408,7 +408,7 @@ def _numbers(found: MechanismMotion) -> tuple[float, ...]:
     if output is None:
         raise refuse("output_link", _("missing: a sweep tells how the output moves"), "missing")
     low, high = map(tidied, _ends(output.ratio)) if output.turns else (nan, nan)
-    share = None if found.mechanism.slides or not output.turns else fluctuation(output, found.angle)
+    share = None if found.mechanism.slides or not output.turns else fluctuation(output, found.position)
     turn = _span(output.angle) if output.turns and output.axis.any() else nan
     way = _span(output.path) if output.way in ("slides", "screws") else nan
     return low, high, nan if share is None else share * (share > EVEN), turn, way
