@@ -94,13 +94,17 @@ def turning(whole: Chain, joints: Sequence[Joint], *, near: bool = False) -> Cha
 
 def nearly_turning_chain(drive: Drive, question: str) -> Chain:
     """Return the Hooke joints that turn like the joints of a drive, but for angles that nobody can measure."""
-    given = given_chain(drive)
-    left = [
-        left_over(joint, joint_angle)
-        for joint, joint_angle in zip(drive.joints, given.joint_angle.tolist(), strict=True)
-    ]
-    check(lawless(i, drive.joints[i], question) for i, rest in enumerate(left) if rest > NEGLIGIBLE)
-    return turning(given, drive.joints, near=True)
+    check(lawless(i, drive.joints[i], question) for i in far_laws(drive))
+    return turning(given_chain(drive), drive.joints, near=True)
+
+
+def far_laws(drive: Drive) -> tuple[int, ...]:
+    """Return the indices of joints that turn otherwise than any Hooke joint, by more than anybody can measure."""
+    if not unmapped(drive.joints):
+        return ()
+    angles = given_chain(drive).joint_angle.tolist()
+    left = (left_over(joint, alpha) for joint, alpha in zip(drive.joints, angles, strict=True))
+    return tuple(i for i, rest in enumerate(left) if rest > NEGLIGIBLE)
 
 
 def as_hooke(drive: Drive) -> Drive:

@@ -9,9 +9,10 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
-from cardan.drive.models.kinematics_model import Chain, given_chain, turning, unlike_hooke
+from cardan.drive.models.kinematics_model import Chain, nearly_turning_chain, unlike_hooke
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import mobius
+from cardan.texts import _
 
 SYNCHRONOUS = 1e-13
 """Below this speed fluctuation a drive is synchronous to rounding and its equivalent joint has no phase."""
@@ -213,7 +214,7 @@ def closure(drive: Drive) -> Closure:
     Synchronous, exactly, if and only if L_max ≤ Σ of the others, cos α_max ≥ Π cos α of the others. Book (86) is its
     limit for small angles.
     """
-    length = -np.log(np.cos(np.asarray(turning(given_chain(drive), drive.joints).joint_angle)))
+    length = -np.log(np.cos(np.asarray(nearly_turning_chain(drive, _("yoke angles")).joint_angle)))
     longest = int(np.argmax(length))
     others = float(np.sum(length) - length[longest])
     # cos x = e^-S, as 2 asin √((1 - e^-S)/2): accurate for small bends.

@@ -16,7 +16,6 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.models.kinematics_model import given_chain, mixed, unmapped
 from cardan.drive.models.wobble import wobbling
-from cardan.errors import InputError
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role
 from cardan.maths.arrays import Array
@@ -310,7 +309,12 @@ def _remarks(drive: Drive, found: Phasing, fixed: Mapping[int, float], nearest: 
     if found.poses:
         text = _("δ beside the yoke angles is that of the drive as drawn; the poses have a table of their own.")
         yield Remark(text=text, depth="full")
-    if unmapped(drive.joints):
+    if found.followed:
+        text = _(
+            "Some joints turn by laws of their own: the yokes were sought by these, without proof that none are better."
+        )
+        yield Remark(text=text)
+    elif unmapped(drive.joints):
         text = _("What joints leave by laws of their own, below {most}, is not in these figures.")
         yield Remark(text=say(text, most=Quantity(1e-6, "angle", 1, unit="rad")))
     if felt := wobbling(drive):
@@ -452,15 +456,14 @@ def command(fixed: Mapping[int, float], *more: str, nearest: bool) -> tuple[str,
 
 def proof(drive: Drive, found: Phasing) -> list[Text]:
     """Return what the sides of the phase polygon say of a drive, sentence by sentence."""
+    if found.followed:
+        return []
     if each_uniform(drive):
         said = [
             _("Every joint turns uniformly by itself, straight or of constant velocity: there is nothing to cancel.")
         ]
         return [*said, _("This concerns the drive as drawn, standing still.")] if drive.movements else [*said]
-    try:
-        seen = closure(drive)
-    except InputError:
-        return [_("Yoke angles of the joints beside those that turn by laws of their own.")]
+    seen = closure(drive)
     longest = float(np.max(seen.length))
     places = min(max(4, 2 - math.floor(math.log10(longest))), 12) if longest > 0.0 else 4
     sides: list[Text] = [Quantity(float(value), decimals=places) for value in seen.length[:SIDES]]
@@ -665,7 +668,8 @@ def _keys(drive: Drive, found: Phasing) -> Iterator[KeyFigure]:
 
 def _uniformity(drive: Drive, found: Phasing) -> tuple[str, Tone]:
     """Return verdict and tone of the speed fluctuation."""
-    share, length = float(found.as_built.speed_fluctuation), closure(drive).length
+    share = float(found.as_built.speed_fluctuation)
+    length = None if found.followed else closure(drive).length
     if is_uniform(drive, share) and any(joint.error is not None for joint in drive.joints):
         return _("uniform but for the errors as made"), "good"
     if share < SYNCHRONOUS:

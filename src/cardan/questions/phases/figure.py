@@ -30,9 +30,10 @@ FLAT = 1e-6
 
 def phasing_figures(found: Phasing) -> tuple[Figure, ...]:
     """Return the figures of a phasing."""
+    made = [] if found.followed else [polygon_figure(found)]
+    made += [steering_figure(found)] if found.steering else []
     if not found.settings:
-        return (polygon_figure(found), *((steering_figure(found),) if found.steering else ()))
-    made = [polygon_figure(found), *((steering_figure(found),) if found.steering else ())]
+        return tuple(made)
     if max(one.speed_fluctuation for one in _compared(found)) > SYNCHRONOUS:
         made.append(settings_figure(found))
     if len(found.settings[0].one_off) > 1 and float(np.max(found.settings[0].one_off)) > FLAT:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,7 @@ from cardan.drive.conditions import in_poses
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import pose_drives
 from cardan.drive.fields.validity import wrong_count
-from cardan.drive.models.kinematics_model import Chain, nearly_turning_chain
+from cardan.drive.models.kinematics_model import Chain, far_laws, lawless, nearly_turning_chain
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import polygon
@@ -23,77 +22,12 @@ from cardan.questions.motion.equivalence import SYNCHRONOUS as EVEN
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.texts import _
 
+from . import own_laws
 from .family import STRETCHED, Blocks, best_member, blocks, distinct
+from .phasing import Phasing
 from .setting import NEAREST, SYNCHRONOUS, Choice, Goal, LeastIntermediate, YokeSetting, settings, turned, with_yokes
 from .spline_pitch import EVERY, TIE, best_pitched, on_teeth, steps
-from .steering import SteeringColumn, columns
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Phasing:
-    """What the yoke angles of a drive can do.
-
-    Attributes
-    ----------
-    as_built : YokeSetting
-        The drive as described.
-    feasible : bool
-        Whether the free yokes can make it synchronous, exactly and in all harmonics.
-    speed_fluctuation_min, speed_fluctuation_max : float
-        δ that the free yokes can reach, and everything between.
-    joint_angle_min, joint_angle_max : float [rad]
-        The same as equivalent angles.
-    free, fixed : tuple of int
-        Numbers of the shafts whose yokes may be turned, and of those held.
-    settings : tuple of YokeSetting
-        Exact optima, best by the goal first: a setting and its mirror image, and what else the goal found.
-    spline_settings : tuple of YokeSetting
-        Best settings and runners-up that spline teeth allow; empty where no shaft has ``spline.teeth``.
-    spline_steps : mapping of int to int
-        Shaft number -> how many different yoke angles its teeth allow.
-    spline_refusal : str
-        Why the settings with spline teeth could not be enumerated; empty when they could.
-    limiting_joint : int or None
-        Number of the joint whose joint angle is too large for the others, where not feasible.
-    limiting_joints : tuple of int
-        The same with the joints that held yokes tie to it.
-    poses : tuple of str
-        Names of the poses that the settings are judged in.
-    pose_settings : tuple of YokeSetting
-        The setting with the least speed fluctuation in the worst pose, and that with the least mean over the poses'
-        shares of time; empty when there are no poses.
-    steering : tuple of SteeringColumn
-        A steering column as specified, then in its best settings; empty where the drive is none.
-    complete : bool
-        False when ``progress`` stopped the search; what was found by then is kept.
-    """
-
-    as_built: YokeSetting
-    feasible: bool
-    speed_fluctuation_min: float
-    speed_fluctuation_max: float
-    joint_angle_min: float
-    joint_angle_max: float
-    free: tuple[int, ...]
-    fixed: tuple[int, ...]
-    settings: tuple[YokeSetting, ...]
-    spline_settings: tuple[YokeSetting, ...] = ()
-    spline_steps: Mapping[int, int] = field(default_factory=dict)
-    spline_refusal: str = ""
-    limiting_joint: int | None = None
-    limiting_joints: tuple[int, ...] = ()
-    poses: tuple[str, ...] = ()
-    pose_settings: tuple[YokeSetting, ...] = ()
-    steering: tuple[SteeringColumn, ...] = ()
-    complete: bool = True
-
-    @property
-    def reach(self) -> float:
-        """Largest fluctuation met, in the drive and in its poses: the scale by which growth is more than rounding."""
-        every = (self.as_built, *self.settings, *self.pose_settings)
-        return max(
-            self.speed_fluctuation_max, *(float(np.max(one.pose_speed_fluctuation, initial=0.0)) for one in every)
-        )
+from .steering import columns
 
 
 def phases(
@@ -127,8 +61,9 @@ def phases(
     Raises
     ------
     InputError
-        A joint turns by a law of its own; ``fixed`` names a shaft that has no yokes to set, or a value that is not
-        finite; the goal has too many or too few weights; a pose has another number of joints.
+        A steering column with a joint that turns by a law of its own; ``fixed`` names a shaft that has no yokes to
+        set, or a value that is not finite; the goal has too many or too few weights; a pose has another number of
+        joints.
 
     See Also
     --------
@@ -136,6 +71,9 @@ def phases(
 
     Notes
     -----
+    A drive with joints that turn far from tan θ' = κ tan θ is followed joint by joint, and the yokes are sought:
+    without proof, and without a goal among equals.
+
     Exact: with L_i = -ln cos α_i the drive can be synchronous if and only if the largest L is no more than the sum of
     the others; joints of other kinds count as the Hooke joints that turn alike,
     within a microradian. Joints with held yokes between them
@@ -148,6 +86,8 @@ def phases(
     >>> found.feasible, [s.speed_fluctuation < 1e-14 for s in found.settings]
     (True, [True, True])
     """
+    if far_laws(drive):
+        return _by_laws(drive, _held(drive, fixed or {}), poses)
     whole = nearly_turning_chain(drive, _("yoke angles"))
     as_built = np.asarray(whole.yoke_angle)
     if goal.weights is not None:
@@ -164,8 +104,10 @@ def phases(
     rows = _optima(figure, choice, goal, family=low == 0.0 and len(free) > 2)
     teeth = _teeth(drive, free)
     pitched, refusal = _pitched(choice, start, teeth, [k for k in free if k not in teeth])
-    names, drives, chains, said = _poses(drive, poses)
-    suited, share = _suited(whole, chains, said)
+    names, drives, said = _poses(drive, poses)
+    chains = [nearly_turning_chain(one, _("yoke angles")) for one in drives]
+    share = _shares(said)
+    suited = [whole, *chains][len(chains) + 1 - len(share) :]
     posed, complete = _posed(suited, share, start, free, rows, progress)
     if len(posed) and teeth:
         posed = np.concatenate((posed, best_on_teeth(stacked(suited), share, start, teeth, free, posed)))
@@ -194,6 +136,25 @@ def phases(
         pose_settings=evaluated(posed, _pose_labels(teeth, len(posed))),
         steering=columns(drive, whole, figure, present, teeth=teeth, poses=chains, posed=drives),
         complete=complete,
+    )
+
+
+def _by_laws(drive: Drive, held: Mapping[int, float], poses: Mapping[str, Drive] | None) -> Phasing:
+    """Return what the yoke angles can do where joints turn by laws of their own, which no polygon tells."""
+    if drive.steering is not None:
+        check(lawless(i, drive.joints[i], _("yoke angles of a steering column")) for i in far_laws(drive))
+    free = [shaft.number - 2 for shaft in drive.shafts[1:-1] if shaft.number not in held]
+    teeth = _teeth(drive, free)
+    names, drives, said = _poses(drive, poses)
+    share = _shares(said)
+    return own_laws.sought(
+        drive,
+        held=held,
+        free=free,
+        teeth=teeth,
+        poses=dict(zip(names, drives, strict=True)),
+        share=share,
+        labels=(_pose_labels({}, 2), _spline_labels(teeth, PITCHED) if teeth else []),
     )
 
 
@@ -256,10 +217,8 @@ def _spline_labels(teeth: Mapping[int, int], count: int) -> list[str]:
     return [first, *(_("{name}, no. {rank}").format(name=first, rank=rank) for rank in range(2, count + 1))][:count]
 
 
-def _poses(
-    drive: Drive, poses: Mapping[str, Drive] | None
-) -> tuple[tuple[str, ...], list[Drive], list[Chain], list[float | None]]:
-    """Return names, drives and kinematics of the poses, and the shares: of the drive as drawn, then theirs."""
+def _poses(drive: Drive, poses: Mapping[str, Drive] | None) -> tuple[tuple[str, ...], list[Drive], list[float | None]]:
+    """Return names and drives of the poses, and the shares: of the drive as drawn, then theirs."""
     if poses is None:
         given = list(zip((pose.name for pose in drive.poses), pose_drives(drive), strict=True))
         said = [one.share for one in in_poses(drive)]
@@ -279,24 +238,23 @@ def _poses(
     return (
         tuple(name for name, _one in given),
         [one for _name, one in given],
-        [nearly_turning_chain(one, _("yoke angles")) for _name, one in given],
         said,
     )
 
 
-def _suited(drawn: Chain, poses: Sequence[Chain], said: Sequence[float | None]) -> tuple[list[Chain], Array]:
-    """Return what the yokes are to suit, the drive as drawn where it has time, and the shares; none without poses.
+def _shares(said: Sequence[float | None]) -> Array:
+    """Return the shares of what the yokes are to suit: the drive as drawn where it has time, its poses; none without.
 
     said: shares of the drive as drawn and of its poses; those not said have what is left, each as much.
     """
-    if not poses:
-        return [], np.zeros(0)
-    every = [(chain, share) for chain, share in zip((drawn, *poses), said, strict=True)][said[0] == 0.0 :]
-    known = [share for _chain, share in every if share is not None]
+    if len(said) < 2:
+        return np.zeros(0)
+    every = said[1:] if said[0] == 0.0 else said
+    known = [share for share in every if share is not None]
     rest = max(0.0, 1.0 - sum(known)) / max(1, len(every) - len(known))
-    weight = np.asarray([rest if share is None else share for _chain, share in every])
+    weight = np.asarray([rest if share is None else share for share in every])
     even = np.ones(len(every)) / len(every)
-    return [chain for chain, _share in every], weight / weight.sum() if weight.sum() > 0 else even
+    return weight / weight.sum() if weight.sum() > 0 else even
 
 
 def _posed(
@@ -368,6 +326,9 @@ BLURS = (1e-3, 1e-5, 1e-8)
 
 OPTIONS: Any = {"maxiter": 200, "ftol": 1e-12}
 """For the search (SLSQP); its function values are of order one."""
+
+PITCHED = 6
+"""Settings on spline teeth that are told."""
 
 Progress = Callable[[float], object]
 

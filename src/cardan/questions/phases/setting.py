@@ -76,16 +76,16 @@ def values_of(setting: YokeSetting, drive: Drive) -> dict[str, float]:
     >>> values_of(phases(drive).settings[0], drive)
     {'shafts[1].yoke_angle_deg': 0.0}
     """
-    present = {f"shafts[{shaft.number - 1}].yoke_angle_deg": shaft.yoke_angle for shaft in drive.shafts[1:-1]}
-    wanted = dict(zip(present, setting.yoke_angle, strict=True))
-    if setting.start_phase is not None:
-        present["input.start_phase_deg"] = drive.input.start_phase
-        wanted["input.start_phase_deg"] = setting.start_phase
-    return {
-        key: round(float(np.rad2deg(angle)), 12) + 0.0
-        for key, angle in wanted.items()
-        if abs(np.sin(angle - present[key])) > STEP
+    shafts = [(f"shafts[{shaft.number - 1}].yoke_angle_deg", shaft.yoke_angle) for shaft in drive.shafts[1:-1]]
+    moved = {
+        key: float(angle)
+        for (key, present), angle, change in zip(shafts, setting.yoke_angle, setting.change, strict=True)
+        if max(abs(float(np.sin(angle - present))), abs(float(change))) > STEP
     }
+    first = setting.start_phase
+    if first is not None and abs(np.sin(first - drive.input.start_phase)) > STEP:
+        moved["input.start_phase_deg"] = first
+    return {key: round(float(np.rad2deg(angle)), 12) + 0.0 for key, angle in moved.items()}
 
 
 def wrapped(angle: Array) -> Array:

@@ -1,0 +1,126 @@
+"""Yokes of drives with joints that turn by laws of their own: against the motion, brute force and the exact polygon."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan import Drive, InputError, phases
+from cardan.drive.joints import JOINTS
+from cardan.drive.models.wobble import wobbling
+from cardan.drive.pose import Pose
+from cardan.drive.steering import Steering
+from cardan.io.drive_file import loads
+from cardan.questions.motion.motion import motion
+from cardan.questions.phases.own_laws import Search, course_of
+from cardan.register import QUESTIONS
+from cardan.units import deg
+from tests.questions.test_every_joint import drive_of
+
+TURN = np.linspace(0.0, 2.0 * np.pi, 1441)
+
+
+def with_yokes(drive, yokes):
+    shafts = tuple(
+        replace(one, yoke_angle=float(yokes[one.number - 2])) if 2 <= one.number <= len(drive.joints) else one
+        for one in drive.shafts
+    )
+    return replace(drive, shafts=shafts)
+
+
+def fluctuation(drive):
+    return float(np.ptp(motion(drive, TURN).ratio))
+
+
+def two(first=50, second=60):
+    """Return a drive with two like pin couplings in a plane, the second one bent back."""
+    pins = f'kind = "pin_coupling"\ndriving_distance_mm = {first}\ndriven_distance_mm = {second}\n'
+    return loads(
+        f"format = 1\n[[joints]]\njoint_angle_deg = 8\n{pins}[[joints]]\njoint_angle_deg = 8\n{pins}"
+        "[[shafts]]\nnumber = 2\nyoke_angle_deg = 20\n"
+    )
+
+
+@pytest.mark.parametrize("kind", ["pin_coupling", "clemens"])
+@pytest.mark.parametrize("first", [True, False])
+def test_what_a_setting_leaves_is_what_the_motion_leaves(kind, first):
+    drive = replace(drive_of(kind, first), movements=())
+    found = phases(drive)
+    assert found.followed
+    assert found.as_built.speed_fluctuation == pytest.approx(fluctuation(drive), rel=1e-6)
+    best = found.settings[0]
+    left = fluctuation(with_yokes(drive, best.yoke_angle))
+    assert best.speed_fluctuation == pytest.approx(left, rel=1e-6)
+    assert found.speed_fluctuation_min == best.speed_fluctuation
+    tried = [fluctuation(with_yokes(drive, [angle])) for angle in np.arange(0.0, 2.0 * np.pi, 10 * deg)]
+    assert min(tried) >= left - 1e-9
+    assert max(tried) <= found.speed_fluctuation_max * (1.0 + 1e-6)
+    off = [fluctuation(with_yokes(drive, best.yoke_angle + sign * deg)) for sign in (1.0, -1.0)]
+    assert best.one_off[0] == pytest.approx(max(off) - left, abs=1e-7)  # of quarter degrees
+    np.testing.assert_allclose(
+        best.shaft_speed_fluctuation,
+        np.ptp(motion(with_yokes(drive, best.yoke_angle), TURN).shaft_ratio[1:], axis=-1),
+        rtol=1e-6,
+    )
+
+
+def test_half_a_turn_of_a_yoke_counts():
+    found = phases(two())
+    best = found.settings[0].yoke_angle
+    other = with_yokes(two(), best + np.pi)
+    assert fluctuation(other) > 2.0 * found.speed_fluctuation_min
+    assert -np.pi < best[0] <= np.pi
+
+
+@pytest.mark.parametrize("angles", [[20, 20], [20, 25, 10], [10, 12, 14, 9]])
+def test_the_search_finds_what_the_polygon_proves(angles):
+    drive = Drive.from_angles(np.radians(angles), plane_twists=[0.3] * (len(angles) - 1))
+    proved = phases(drive)
+    free = list(range(len(angles) - 1))
+    found = Search([course_of(drive)], np.zeros(len(free)), free)
+    least = found.best(lambda left: left[..., 0])
+    assert found.left(least)[0] == pytest.approx(proved.speed_fluctuation_min, abs=1e-7)
+    most = found.best(lambda left: -left[..., 0])
+    assert found.left(most)[0] == pytest.approx(proved.speed_fluctuation_max, rel=1e-9)
+
+
+def test_held_yokes_stay_and_teeth_are_kept():
+    drive = two()
+    assert phases(drive, fixed={2: 0.5}).settings[0].yoke_angle == pytest.approx([0.5])
+    splined = loads(
+        'format = 1\n[[joints]]\njoint_angle_deg = 8\nkind = "pin_coupling"\ndriving_distance_mm = 50\n'
+        "driven_distance_mm = 60\n[[joints]]\njoint_angle_deg = 9\n[[shafts]]\nnumber = 2\nspline.teeth = 8\n"
+    )
+    found = phases(splined)
+    assert found.spline_steps == {2: 8}
+    every = [fluctuation(with_yokes(splined, [2.0 * np.pi * k / 8])) for k in range(8)]
+    assert found.spline_settings[0].speed_fluctuation == pytest.approx(min(every), rel=1e-6)
+
+
+def test_poses_are_suited():
+    drive = replace(two(), poses=(Pose(name="steep", share=0.5, set=(("joints[1].joint_angle_deg", 14.0),)),))
+    found = phases(drive)
+    assert found.poses == ("steep",)
+    worst, mean = found.pose_settings
+
+    def left(one):
+        return np.asarray([one.speed_fluctuation, one.pose_speed_fluctuation[0]])
+
+    for one in (found.settings[0], mean):
+        assert left(worst).max() <= left(one).max() + 1e-9
+    for one in (found.settings[0], worst):
+        assert left(mean).mean() <= left(one).mean() + 1e-9
+
+
+def test_a_steering_column_needs_the_form():
+    with pytest.raises(InputError, match="law of its own"):
+        phases(replace(two(), steering=Steering(lock=8.0)))
+
+
+@pytest.mark.parametrize("kind", JOINTS)
+@pytest.mark.parametrize("first", [True, False])
+def test_yokes_behind_and_before_every_kind_are_phased(kind, first):
+    drive = drive_of(kind, first)
+    question = QUESTIONS["phasing"]
+    told = question.answer(drive, question.ask(drive))
+    assert told.keys or wobbling(drive)
