@@ -17,10 +17,9 @@ from cardan.batch.table.results import Results, duckdb, only_select, pyarrow
 from cardan.batch.work import Column, Rows
 from cardan.errors import refuse
 from cardan.files import refusal, write_bytes
+from cardan.io.workbook.book import MOST_ROWS, opened, put, sheet_name
 from cardan.texts import _
 from cardan.units import label
-
-from .book import MOST_ROWS, opened, put, sheet_name
 
 SUFFIXES = (".csv", ".parquet", ".xlsx")  # kinds of file that `export` writes
 WIDEST = 34  # letters of the widest column of a sheet

@@ -21,13 +21,13 @@ from cardan.cli.main import main
 from cardan.drive.drive import Drive
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Note, Panel, Row, Rule
 from cardan.io import example, example_text
-from cardan.io.book import sheet_name
+from cardan.io.workbook.book import sheet_name
+from cardan.io.workbook.chart_data import BESIDE, HEAD, PRINTED
+from cardan.io.workbook.charts import split
 from cardan.report.block import Cell, Column, Page, Picture, Table, Words, number, words
 from cardan.report.content import Content, content
 from cardan.report.render import renderer
 from cardan.report.render import sheet as paper
-from cardan.report.render.chart_data import BESIDE, HEAD, PRINTED
-from cardan.report.render.charts import split
 from cardan.report.render.sheet import headed
 from cardan.report.render.workbook import written
 from cardan.units import deg

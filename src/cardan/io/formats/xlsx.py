@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from cardan.errors import refuse
-from cardan.io.book import MOST_ROWS, opened, put, sheet_name
+from cardan.io.workbook.book import MOST_ROWS, opened, put, sheet_name
 from cardan.texts import _
 
 from .csv import columns_of

@@ -11,11 +11,10 @@ from typing import Any
 from cardan.answers.printed import framed
 from cardan.figures import Figure, pixels
 from cardan.figures.page import laid_out
-from cardan.io.book import leads_to, put, words
+from cardan.io.workbook.book import leads_to, put, words
+from cardan.io.workbook.chart_data import ChartData, Looks
+from cardan.io.workbook.charts import Drawn, charts, split
 from cardan.report.block import Block, Cell, Column, Listing, Picture, Points, Table, Words
-
-from .chart_data import ChartData, Looks
-from .charts import Drawn, charts, split
 
 NARROW, SHORT, WIDE = 9, 24, 44  # letters of the narrowest column, of a word or two and of the widest column
 ACROSS = 118  # letters of a line of words, and of a page that has no wider table

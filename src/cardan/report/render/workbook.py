@@ -8,14 +8,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from cardan.io.book import MOST_LETTERS, opened, put, sheet_name, unstretched, words
+from cardan.io.workbook.book import MOST_LETTERS, opened, put, sheet_name, unstretched, words
+from cardan.io.workbook.chart_data import CODE, ChartData, Looks
+from cardan.io.workbook.charts import split
 from cardan.report.block import Listing, Page, Picture, Table
 from cardan.report.content import Content, Excerpt
 from cardan.report.look import HEAD, Line, Look
 from cardan.texts import _
 
-from .chart_data import CODE, ChartData, Looks
-from .charts import split
 from .sheet import LINE, Paper
 from .typeset import pixels_of
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from cardan.figures import palette
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series, Shape, called
-from cardan.io.book import words
+from cardan.io.workbook.book import words
 from cardan.texts import _
 
 from .chart_data import ChartData, Place

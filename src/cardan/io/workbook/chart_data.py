@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from cardan.answers.answer import Tone
 from cardan.figures.palette import colour, mixed
-from cardan.io.book import leads_to, put
+from cardan.io.workbook.book import leads_to, put
 from cardan.maths.arrays import Array
-from cardan.report.block import Tone
 from cardan.texts import _
 
 # Formats of a workbook, each made once.

@@ -1,0 +1,1 @@
+"""Spreadsheets: books, and in them charts as the program that opens them draws its own, each beside its numbers."""
