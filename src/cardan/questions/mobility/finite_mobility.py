@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import partial, reduce
 from itertools import pairwise
 
 import numpy as np
@@ -344,7 +344,11 @@ class _Loops:
         pair = mechanism.joints[driven]  # the input link moves along its axis, whichever of the two links it is
         self.sense = -1.0 if pair is mechanism.driving and pair.links[0] == mechanism.input_link else 1.0
         self.free = np.delete(np.arange(len(self.twists)), self.driven)
+        self.firsts = starts[:-1]
+        self.several = [j for j, one in enumerate(twists) if len(one) > 1]
         self.cut = [j for j in range(len(twists)) if j not in self.tree.parent_joint]
+        self.cut_ends = np.asarray([self.ends[j] for j in self.cut], dtype=int).reshape(-1, 2)
+        self.cut_points = self.points[self.cut][..., None]
         self.state = self.before = np.zeros(len(self.twists))
         self.open = False
         # of each cut joint, how each coordinate moves its two sides: along, against or not at all
@@ -353,6 +357,7 @@ class _Loops:
             for side, end in enumerate(self.ends[j]):
                 for k, sense in self.tree.path(end) + ([] if side else [(j, 1.0)]):
                     self.passed[row, side, self.slices[k]] += -sense if side else sense
+        self.counted = np.sum(self.passed, axis=1)[..., None]
 
     def start(self) -> tuple[float, float, float, Array]:
         """Return residual, largest gap, largest turn and displacements at the start."""
@@ -406,61 +411,53 @@ class _Loops:
         sizes = np.max(frames.norm(parts), axis=0, initial=0.0)
         shift = np.eye(4)
         shift[:3, 3] = self.middle
-        moves = shift @ self._links(self._joints(state)) @ screws.inverse(shift)
+        steps = screws.exponential(self.twists, state)
+        moves = shift @ self._links(self._joints(steps))[:FRAME] @ screws.inverse(shift)
         return float(np.linalg.norm(rest)), float(sizes[0]), float(sizes[1]), moves
 
-    def _joints(self, state: Array) -> list[list[Array]]:
-        """Return the displacement along each coordinate of each joint."""
-        steps = screws.exponential(self.twists, state)
-        return [list(steps[where]) for where in self.slices]
+    def _joints(self, steps: Array) -> Array:
+        """Return the displacement in every joint (m, 4, 4) from those along its coordinates."""
+        whole = steps[self.firsts]
+        for j in self.several:
+            whole[j] = reduce(np.matmul, steps[self.slices[j]])
+        return whole
 
-    def _links(self, joints: list[list[Array]]) -> Array:
-        """Return the displacement of every link, array (n, 4, 4)."""
-        places: dict[int, Array] = {FRAME: np.eye(4)}
+    def _links(self, joints: Array) -> Array:
+        """Return the displacement of every link and, as the last one, of the frame, array (n + 1, 4, 4)."""
+        back = screws.inverse(joints)
+        places = np.empty((len(self.tree.order) + 1, 4, 4))
+        places[FRAME] = np.eye(4)
         for link in self.tree.order:
-            there = places[self.tree.parent[link]]
-            step = _product(joints[self.tree.parent_joint[link]])
-            places[link] = there @ (step if self.tree.along[link] > 0.0 else screws.inverse(step))
-        return np.asarray([places[link] for link in range(len(places) - 1)])
+            j = self.tree.parent_joint[link]
+            places[link] = places[self.tree.parent[link]] @ (joints if self.tree.along[link] > 0.0 else back)[j]
+        return places
 
     def _misalignment(self, state: Array) -> tuple[Array, Array]:
         """Return gaps and turns at the cut joints, and their derivatives by the coordinates that are not driven."""
-        joints = self._joints(state)
+        steps = screws.exponential(self.twists, state)
+        joints = self._joints(steps)
         links = self._links(joints)
-        twist = self._carried(joints, links)
-        place, rest = np.zeros((len(self.cut), 2, 3)), np.zeros((len(self.cut), 2, 3))
-        for row, j in enumerate(self.cut):
-            sides = [np.eye(4) if end == FRAME else links[end] for end in self.ends[j]]
-            first, second = sides[0] @ _product(joints[j]), sides[1]
-            point = np.append(self.points[j], 1.0)
-            place[row] = (first @ point)[:3], (second @ point)[:3]
-            rest[row, 1] = screws.turned_by(first @ screws.inverse(second))
-        rest[:, 0] = place[:, 0] - place[:, 1]
+        twist = self._carried(steps, links)
+        first, second = links[self.cut_ends[:, 0]] @ joints[self.cut], links[self.cut_ends[:, 1]]
+        place = np.stack([side[:, :3, :3] @ self.cut_points + side[:, :3, 3:] for side in (first, second)], axis=1)[
+            ..., 0
+        ]
+        rest = np.stack((place[:, 0] - place[:, 1], screws.turned_by(first @ screws.inverse(second))), axis=1)
         turning, moving = twist[:, :3], twist[:, 3:]
-        whole = np.sum(self.passed, axis=1)[..., None]
         swept = frames.cross(
             np.broadcast_to(turning, (len(self.cut), *turning.shape)), np.swapaxes(self.passed, 1, 2) @ place
         )
-        slope = np.stack((whole * moving + swept, whole * turning), axis=1)
+        slope = np.stack((self.counted * moving + swept, self.counted * turning), axis=1)
         return rest.ravel(), np.swapaxes(slope, -1, -2).reshape(-1, len(twist))[:, self.free]
 
-    def _carried(self, joints: list[list[Array]], links: Array) -> Array:
+    def _carried(self, steps: Array, links: Array) -> Array:
         """Return the screw of every coordinate where it stands now, moving the second link against the first."""
         here = np.empty((len(self.twists), 4, 4))
-        for j, steps in enumerate(joints):
-            a = self.ends[j][0]
-            now = np.eye(4) if a == FRAME else links[a]
-            for k, step in enumerate(steps, self.slices[j].start):
-                here[k] = now
-                now = now @ step
+        here[self.firsts] = links[[a for a, _b in self.ends]]
+        for j in self.several:
+            for k in range(self.slices[j].start, self.slices[j].stop - 1):
+                here[k + 1] = here[k] @ steps[k]
         return screws.moved(here, self.twists)
-
-
-def _product(steps: list[Array]) -> Array:
-    whole = np.eye(4)
-    for step in steps:
-        whole = whole @ step
-    return whole
 
 
 # Does a mechanism bind everywhere, or only in special positions? Its mobility over a turn of the input.
