@@ -81,8 +81,20 @@ def places(model: TorsionalModel, q: Array) -> Places:
         t, t1, t2, t3 = joint_law(f + phase, joint_angle)
         start = joint_law(phase, joint_angle)[0]
         found.append((t - start, t1 * f1, t2 * f1**2 + t1 * f2, t3 * f1**3 + 3.0 * t2 * f1 * f2 + t1 * f3))
-    angle, first, second, third = (xp.stack([each[i] for each in found], axis=-1) for i in range(4))
+    angle, first, second, third = (beside([each[i] for each in found]) for i in range(4))
     return Places(angle=angle, first=first, second=second, third=third)
+
+
+def beside(values: list[Array]) -> Array:
+    """Return arrays (...) beside each other (..., k), each in one piece of memory: they are worked on one by one."""
+    xp = namespace(*values)
+    return xp.moveaxis(xp.stack(values), 0, -1)
+
+
+def square(rows: list[list[Array]]) -> Array:
+    """Return rows of arrays (...) as matrices (..., R, R), each entry in one piece of memory."""
+    xp = namespace(*rows[0])
+    return xp.moveaxis(xp.stack([xp.stack(row) for row in rows]), (0, 1), (-2, -1))
 
 
 def _wide(values: Array, like: Array) -> Array:
@@ -261,16 +273,15 @@ def _acting(model: TorsionalModel, place: Places, speed: Array, time: Array) -> 
         k = torque.station
         value, along, across = torque.law.at(time, place.angle[..., k], speed[..., k])
         total[k], by_angle[k], by_speed[k] = total[k] + value, by_angle[k] + along, by_speed[k] + across
-    return xp.stack(total, axis=-1), xp.stack(by_angle, axis=-1), xp.stack(by_speed, axis=-1)
+    return beside(total), beside(by_angle), beside(by_speed)
 
 
 def gathered(model: TorsionalModel, values: Array) -> Array:
     """Return the sums over the stations of each coordinate, array (..., R)."""
-    xp = namespace(values)
     sums = [0.0 * values[..., k] for k in model.owner]
     for k, r in enumerate(model.coordinate):
         sums[r] = sums[r] + values[..., k]
-    return xp.stack(sums, axis=-1)
+    return beside(sums)
 
 
 def balance(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, time: Array = 0.0) -> Array:
@@ -397,8 +408,8 @@ def linearised(
     return left, Slopes(
         mass=mass,
         coupled=coupled,
-        damping=xp.stack([xp.stack(row, axis=-1) for row in c], axis=-2),
-        stiffness=xp.stack([xp.stack(row, axis=-1) for row in k], axis=-2),
+        damping=square(c),
+        stiffness=square(k),
     )
 
 
