@@ -80,7 +80,7 @@ CUT = """() => [...document.querySelectorAll('.pane.file input:not([type=file], 
   .map((one) => `${one.ariaLabel}: ${one.value}`)"""
 """Fields that do not show all of their number."""
 
-BESIDE = """() => [...document.querySelectorAll('.lights summary .value span')]
+BESIDE = """() => [...document.querySelectorAll('.lights summary .value .word > *')]
   .filter((one) => one.checkVisibility())
   .filter((one) => one.getBoundingClientRect().right > one.closest('.lights').getBoundingClientRect().right + 1)
   .map((one) => one.textContent)"""

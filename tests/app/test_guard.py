@@ -7,6 +7,7 @@ import logging
 from typing import Any
 
 import pytest
+from anyio import EndOfStream
 
 from cardan.app.server import COOKIE, HEADS, VISITOR, Guard
 
@@ -175,12 +176,19 @@ def test_a_cookie_that_makes_no_sense_is_left_at_the_defaults(kept: str) -> None
     assert page.kept_choices({page.CHOSEN: kept}) == {}
 
 
+def _because(error: Exception, why: Exception) -> Exception:
+    """Return an error with its reason, as where it is raised from that."""
+    error.__cause__ = why
+    return error
+
+
 @pytest.mark.parametrize(
     ("message", "error", "told"),
     [
         ("http://127.0.0.1:8321/nowhere not found", None, False),
         ("Exception in ASGI application", ConnectionResetError(), False),
         (BrokenPipeError(), None, False),
+        ("Exception in ASGI application", _because(RuntimeError("No response returned."), EndOfStream()), False),
         ("Exception in ASGI application", ValueError(), True),
         (ValueError("of ours"), None, True),
     ],

@@ -54,5 +54,5 @@ def test_what_is_wrong_with_a_mechanism_is_told(page_of: Open, url: str) -> None
     page = page_of(f"{url}/?file=bad.toml", reduced_motion="reduce")
     page.wait_for_selector('[data-mark="mechanism-wrong"]:visible')
     said = page.locator('[data-mark="mechanism-wrong"]').inner_text()
-    assert "joints[3].type" in said
+    assert "Joint 4 · type" in said
     assert "drive" not in said

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote, unquote, urlencode
 
+from anyio import EndOfStream
 from nicegui import ui
 from nicegui.client import ClientConnectionTimeout
 from starlette.requests import ClientDisconnect
@@ -163,14 +164,15 @@ def serve_files(app: Any) -> None:
     app.add_api_route("/cardan-examples/{name}.svg", _picture)
 
 
-# What is raised where a browser leaves before it was answered.
-GONE = (ConnectionError, ClientDisconnect, ClientConnectionTimeout)
+# What is raised where a browser leaves before it was answered, by itself or as the reason of what is told.
+GONE = (ConnectionError, ClientDisconnect, ClientConnectionTimeout, EndOfStream)
 
 
 def worth_telling(record: logging.LogRecord) -> bool:
     """Tell whether a record of the log is worth it: not that an address leads nowhere, nor that a browser is gone."""
     error = record.exc_info[1] if record.exc_info else record.msg
-    return not isinstance(error, GONE) and not record.getMessage().endswith(" not found")
+    why = getattr(error, "__cause__", None)
+    return not isinstance(error, GONE) and not isinstance(why, GONE) and not record.getMessage().endswith(" not found")
 
 
 def _picture(name: str) -> Any:

@@ -16,6 +16,7 @@ from .figure import Axis, Band, Bars, Cells, Curve, Mesh, Note, Panel, Rule, Ser
 from .page import Box, Label, Page, facets, labels, onto, ranges
 
 Spec: TypeAlias = dict[str, Any]
+Look: TypeAlias = tuple[str, ...]  # role and dash of a curve; nothing of what is no curve
 
 LEAST_LETTER = 12.0  # pixels of the letters of a note at least
 LINE = 15.0  # pixels of a line of the words beside upright rules
@@ -28,7 +29,8 @@ class PanelWriter:
     """Puts one panel into the spec.
 
     spec: data and layout of the whole figure, added to; page: the laid-out figure; box: where.
-    number: number of the panel, from 1; shown: labels that stand in the legend already, added to.
+    number: number of the panel, from 1; named: labels that stand in the legend already and how
+    what they name looks, added to.
     along: unit of the axis that runs to the right, where it is that of another panel; together: whether one box tells
     the values of all curves where somebody points.
     """
@@ -40,7 +42,7 @@ class PanelWriter:
         panel: Panel,
         box: Box,
         number: int,
-        shown: set[str],
+        named: dict[str, Look],
         *,
         along: str = "",
         together: bool = False,
@@ -51,7 +53,7 @@ class PanelWriter:
         self.panel = panel
         self.box = box
         self.tail = "" if number == 1 else str(number)
-        self.shown = shown
+        self.named = named
         self.across = [box.left / page.width, (box.left + box.width) / page.width]
         self.upright = [1.0 - (box.top + box.height) / page.height, 1.0 - box.top / page.height]
         self.space = panel.view is not None and panel.view.turnable
@@ -137,7 +139,7 @@ class PanelWriter:
             line={"color": tint, "width": item.width * 1.4, "dash": _DASHES[item.dash]},
             marker={"color": tint, "size": item.marker * 1.5},
             **({"hoverinfo": "skip"} if self.panel.bare else {"hovertemplate": self._pointed()}),
-            **self._named(item.label),
+            **self._named(item.label, item.role, item.dash),
         )
         if item.arrow and len(x) > 1:
             places = {"x": float(x[-1]), "y": float(y[-1]), "ax": float(x[-2]), "ay": float(y[-2])}
@@ -224,12 +226,14 @@ class PanelWriter:
         unseen = {"mode": "markers", "marker": {"opacity": 0}, "hoverinfo": "skip", "showlegend": False}
         self._add(type="scatter", x=[self.panel.x.low], y=[self.panel.y.low], **unseen)
 
-    def _named(self, label: str) -> Spec:
-        if not label:
-            return {"showlegend": False}
-        first = label not in self.shown
-        self.shown.add(label)
-        return {"name": escape(label), "legendgroup": label, "showlegend": first}
+    def _named(self, label: str, *look: str) -> Spec:
+        """Return the name of a trace, in the legend where it is new; one without has that of what looks alike above."""
+        first = bool(label) and label not in self.named
+        if first:
+            self.named[label] = look
+        called = label or next((name for name, other in self.named.items() if look and other == look), "")
+        group = {"legendgroup": called} if called else {}
+        return {"name": escape(called or self.panel.y.label or self.panel.heading), "showlegend": first, **group}
 
     def _add(self, **trace: Any) -> None:
         self.data.append({**trace, "xaxis": f"x{self.tail}", "yaxis": f"y{self.tail}"})

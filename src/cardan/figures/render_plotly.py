@@ -13,7 +13,7 @@ from cardan.texts import language
 from . import palette
 from .figure import Axis, Figure
 from .page import laid_out
-from .plotly_panel import PanelWriter, Spec, runs
+from .plotly_panel import Look, PanelWriter, Spec, runs
 
 plotly = later("plotly.offline")
 
@@ -100,8 +100,8 @@ def described(figure: Figure) -> Spec:
             "meta": {"turning": [], "timed": [], "equal": [], "width": page.width * INCH},
         },
     }
-    shown: set[str] = set()
+    named: dict[str, Look] = {}
     for number, (panel, box) in enumerate(page.panels, start=1):
         along = next((one.x.unit for one in figure.panels if one.x.unit and same_span(one.x, panel.x)), "")
-        PanelWriter(spec, page, panel, box, number, shown, along=along, together=together).draw()
+        PanelWriter(spec, page, panel, box, number, named, along=along, together=together).draw()
     return spec

@@ -29,6 +29,7 @@ from cardan.questions.phases.setting import YokeSetting, values_of
 from cardan.texts import _, plural
 
 from .block import capital
+from .counted import counted
 from .subject import Progress, Subject
 
 FIRST = "speed_fluctuation"  # the check whose number stands first
@@ -44,8 +45,7 @@ class Light:
     title: str  # what was judged
     tone: Tone  # how that came out: good, warning, failed
     verdict: str  # the same in a word
-    value: Cell  # the value, in `unit`
-    unit: str  # unit that people read it in
+    value: Cell  # the value with its unit
     limit: str  # the limit with its sense
     used: float  # share of the limit that is used
     source: str  # source, why: where the limit comes from; what it means or assumes
@@ -90,7 +90,7 @@ def headline(on: Subject, shown: Sequence[Light]) -> Headline:
     """
     judged = next((one for one in shown if any(verdict.check == FIRST for verdict in one.verdicts)), None)
     if judged is not None:
-        return Headline(title=judged.title, value=f"{judged.value.text} {judged.unit}", tone=judged.tone)
+        return Headline(title=judged.title, value=judged.value.text, tone=judged.tone)
     if on.drive.movements:
         with suppress(CardanError):
             most = float(np.nanmax(articulation(on.drive, times=default_times(on.drive.movements)).speed_fluctuation))
@@ -142,8 +142,7 @@ def _light(group: Sequence[Verdict]) -> Light:
         title=told(key.title, who),
         tone=key.tone,
         verdict=key.verdict,
-        value=number(key.value, who, unit=False),
-        unit=who.label(key.value.dimension, key.value.unit),
+        value=number(key.value, who),
         limit=cell(shown, Column(key="", values=()), who).text,
         used=float(one.utilisation),
         source=told(Joined([one.source, *one.provenance], between="; "), who),
@@ -158,7 +157,7 @@ def _light(group: Sequence[Verdict]) -> Light:
 def _applicable(light: Light, found: Sequence[Remedy]) -> tuple[Applicable, ...]:
     mine = [one for one in found if f"{one.check} {one.subject}" == light.name]
     return tuple(
-        Applicable(label=f"{one.path} = {typed(one.value)}", effect=_effect(one), values={one.path: one.value})
+        Applicable(label=f"{counted(one.path)} = {typed(one.value)}", effect=_effect(one), values={one.path: one.value})
         for one in mine[:REMEDIES]
     )
 

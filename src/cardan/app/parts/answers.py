@@ -413,7 +413,7 @@ class MechanismPages:
         question = asked(self.session, MECHANISM)
         problems = self.session.document.problems
         self._wrong.set_visibility(bool(problems))
-        self._wrong.set_text("; ".join(str(one) for one in problems[:4]))
+        self._wrong.set_text("; ".join(widgets.first(problems, 4)))
         self._pages.classes(**{"add" if problems else "remove": "stale"})
         if question is None:
             return

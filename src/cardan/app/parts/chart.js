@@ -16,6 +16,9 @@ const STEP = 5;
 const QUIET = 250; // ms without an edit after which plotly draws everything anew
 const SOON = 30; // ms by which a chart that plotly has to draw anew follows what is shown at once
 
+// Return where in a turn an angle [rad] is, in degrees.
+const turned = (angle) => ((((angle * TURN) / (2 * Math.PI)) % TURN) + TURN) % TURN;
+
 const faded = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16)).join(",");
 
 // Return a copy of plotly's data or layout in the colours of a dark page.
@@ -110,8 +113,10 @@ export default {
         if (this.shown) this.place();
       });
       on(this.$refs.plot, "pointerdown", this.press, true);
+      on(this.$refs.plot, "mousedown", (event) => this.pressed && event.stopPropagation(), true); // plotly would tell no values
       on(this.$refs.plot, "wheel", this.wheel, { capture: true, passive: false });
       on(this.$refs.plot, "dblclick", this.whole, true);
+      on(this.$el, "focusout", () => this.Plotly.Fx.unhover(this.$refs.plot));
       on(window, "pointermove", (event) => this.pressed && this.go(event), true);
       on(window, "pointerup", () => (this.pressed = null), true);
       on(window, "pointercancel", () => (this.pressed = null), true);
@@ -228,7 +233,7 @@ export default {
         line.style.top = `${y._offset}px`;
         line.style.height = `${y._length}px`;
         const box = { left: x._offset, width: x._length, top: y._offset, height: y._length };
-        return { line, scale, timed, low: x.range[0], high: x.range[1], ...box };
+        return { tail, line, scale, timed, low: x.range[0], high: x.range[1], ...box };
       });
       this.place();
     },
@@ -240,7 +245,7 @@ export default {
       return [...told(turning, false), ...told(timed, true)];
     },
     place() {
-      const degrees = (((this.angle * TURN) / (2 * Math.PI)) % TURN + TURN) % TURN;
+      const degrees = turned(this.angle);
       for (const { line, scale, timed, low, high, left, width } of this.lines) {
         const at = timed ? this.time === null ? NaN : this.time * scale : degrees * scale;
         const here = at >= low && at <= high;
@@ -300,9 +305,16 @@ export default {
     },
     key(event) {
       const way = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-      if (!way || !this.lines.some(({ timed }) => !timed) || event.target !== this.$el) return;
+      const panel = this.lines.find(({ timed }) => !timed);
+      if (!way || !panel || event.target !== this.$el) return;
       event.preventDefault();
-      this.turn(this.angle + (way * STEP * 2 * Math.PI) / TURN);
+      const angle = this.angle + (way * STEP * 2 * Math.PI) / TURN;
+      this.turn(angle);
+      this.tell(panel, turned(angle) * panel.scale);
+    },
+    // Tell the values of the curves of a panel where its cursor was put, as they are told where the pointer is.
+    tell({ tail, low, high }, at) {
+      if (at >= low && at <= high) this.Plotly.Fx.hover(this.$refs.plot, { xval: at }, `x${tail}y${tail}`);
     },
   },
 };

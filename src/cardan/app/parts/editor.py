@@ -59,10 +59,8 @@ class Editor:
         self.problems.clear()
         self.problems.set_visibility(bool(found))
         with self.problems:
-            for problem in found[:4]:
-                ui.label(str(problem)).classes("wrong")
-            if len(found) > 4:
-                ui.label(_("and {count} more").format(count=len(found) - 4)).classes("wrong")
+            for told in first(found, 4):
+                ui.label(told).classes("wrong")
 
 
 # The drive file as text, both ways in step with everything else.

@@ -11,8 +11,12 @@ export default {
     },
   },
   methods: {
+    // Show other HTML; what was opened in it by its name stays open.
     show(html) {
-      if (html !== this.shown) this.$el.innerHTML = this.shown = html;
+      if (html === this.shown) return;
+      const names = [...this.$el.querySelectorAll("details[open]")].map((one) => one.dataset.name);
+      this.$el.innerHTML = this.shown = html;
+      for (const one of names.length ? this.$el.querySelectorAll("details") : []) one.open = names.includes(one.dataset.name);
     },
   },
 };

@@ -17,6 +17,7 @@ from cardan.app.state.work import SOON as SOONER
 from cardan.errors import CardanError
 from cardan.report.answers import subject
 from cardan.report.block import SIGNS
+from cardan.report.counted import counted
 from cardan.report.verdict_list import (
     MOST,
     Applicable,
@@ -38,10 +39,10 @@ LOOK = 0.2  # seconds between two looks whether they were found
 PRESSED = """(event) => {
   const button = event.target.closest('[data-do]');
   if (button) return emit(button.dataset.do);
-  const summary = event.target.closest('summary');
-  if (summary) emit('look ' + summary.parentElement.dataset.name);
+  const verdict = event.target.closest('summary')?.parentElement;
+  if (verdict && !verdict.open) emit('look ' + verdict.dataset.name);
 }"""
-"""Tells which cure was pressed, or which verdict opened or closed."""
+"""Tells which cure was pressed, or which verdict is opened; the browser knows which ones are open."""
 
 
 class Verdicts:
@@ -54,7 +55,6 @@ class Verdicts:
     def __init__(self, session: Session, jobs: Jobs, *, compare: Callable[[], object] | None = None) -> None:
         self.session = session
         self.lights: tuple[Light, ...] = ()
-        self.opened: set[str] = set()
         self._jobs = jobs
         self._job: Job | None = None
         self._due: Timer | None = None
@@ -152,7 +152,7 @@ class Verdicts:
 
     def _show(self, found: Sequence[Light]) -> None:
         self.lights = tuple(found)
-        self._list.show(lights_html(self.lights, self.opened))
+        self._list.show(lights_html(self.lights))
 
     def _judge(self) -> None:
         """Show what is wrong with the file, over the verdicts of when it was sound."""
@@ -167,9 +167,8 @@ class Verdicts:
     def _pressed(self, what: str) -> None:
         action, _space, name = what.partition(" ")
         if action == "look":
-            self.opened ^= {name}
             light = next((one for one in self.lights if one.name == name), None)
-            if light is not None and name in self.opened and light.tone == "failed":
+            if light is not None and light.tone == "failed":
                 self.session.select(field_of(light))
             return
         number, _space, name = name.partition(" ")
@@ -211,33 +210,31 @@ def headline_html(number: Headline) -> str:
     return f'<b class="{number.tone}">{escaped(number.value)}</b><span>{escaped(number.title)}</span>'
 
 
-def lights_html(lights: Sequence[Light], opened: set[str]) -> str:
+def lights_html(lights: Sequence[Light]) -> str:
     """Return the list of verdicts, rules of thumb under a heading of their own."""
-    parts = [_light(one, one.name in opened) for one in lights if not one.advice]
-    advice = [_light(one, one.name in opened) for one in lights if one.advice]
+    parts = [_light(one) for one in lights if not one.advice]
+    advice = [_light(one) for one in lights if one.advice]
     if advice:
         parts.append(f"<h3>{escaped(_('Advice: rules of thumb, they fail no drive'))}</h3>")
     return "".join([*parts, *advice])
 
 
-def _light(one: Light, opened: bool) -> str:
-    value = escaped(f"{one.value.text} {one.unit}".strip())
+def _light(one: Light) -> str:
+    value = escaped(one.value.text)
     full = f' title="{escaped(one.value.full)}"' if one.value.full else ""
     summary = (
         f'<summary><span class="sign" aria-hidden="true">{SIGNS[one.tone]}</span>'
         f'<span>{escaped(one.title)}<span class="word">{escaped(one.verdict)}</span></span>'
         f'<span class="value"{full}>{value}<span class="word">{_against(one)}</span></span></summary>'
     )
-    state = " open" if opened else ""
-    return f'<details class="{one.tone}" data-name="{escaped(one.name)}"{state}>{summary}{_more(one)}</details>'
+    return f'<details class="{one.tone}" data-name="{escaped(one.name)}">{summary}{_more(one)}</details>'
 
 
 def _against(one: Light) -> str:
     """Return limit and share of it, each of which stays in a line."""
     used = f"{100.0 * one.used:.0f}" if one.used <= MOST else f"> {100.0 * MOST:.0f}"
-    limit = one.limit.rstrip()
-    told = [f"{limit} ·", f"{used} %"] if limit else [f"{used} %"]
-    return " ".join(f"<span>{escaped(part)}</span>" for part in told)
+    told = [f"<span>{escaped(one.limit.rstrip())}</span>"] if one.limit.strip() else []
+    return " ".join([*told, f"<b>{used} %</b>"])
 
 
 def _more(one: Light) -> str:
@@ -251,7 +248,7 @@ def _more(one: Light) -> str:
         (_("utilisation"), said),
         (_("by"), one.source),
         (_("why"), one.why),
-        (_("depends on"), ", ".join(one.design_variables[:6])),
+        (_("depends on"), ", ".join(map(counted, one.design_variables[:6]))),
     ]
     told = "".join(f"<dt>{escaped(name)}</dt><dd>{escaped(text)}</dd>" for name, text in rows if text)
     return f'<div class="more">{bar}<dl>{told}</dl>{"".join(_remedies(one))}</div>'

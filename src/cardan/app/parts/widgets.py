@@ -6,6 +6,7 @@ import asyncio
 from collections import deque
 from collections.abc import Awaitable, Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from html import escape
 from inspect import isawaitable
 
@@ -18,6 +19,7 @@ from cardan.app.state.jobs import Jobs
 from cardan.app.state.session import Session, Step
 from cardan.app.state.work import EDIT
 from cardan.errors import InputError, Problem
+from cardan.report.counted import counted
 from cardan.texts import _, visible
 
 
@@ -29,10 +31,11 @@ def escaped(text: str) -> str:
 MOST = 50  # problems of a file that are shown
 
 
-def first(problems: Sequence[Problem]) -> list[str]:
-    """Return the first problems of a file in words, and how many more there are."""
-    more = len(problems) - MOST
-    return [*map(str, problems[:MOST]), *([_("and {count} more").format(count=more)] if more > 0 else [])]
+def first(problems: Sequence[Problem], most: int = MOST) -> list[str]:
+    """Return the first problems of a file in words, places as the page counts them, and how many more there are."""
+    more = len(problems) - most
+    told = [str(replace(one, field=counted(one.field))) for one in problems[:most]]
+    return [*told, *([_("and {count} more").format(count=more)] if more > 0 else [])]
 
 
 # HTML that is changed by a message of its own: what follows an edit at once does not wait for the rest of the page.
@@ -208,7 +211,8 @@ READ = 8000  # milliseconds that leave time to read several lines
 
 def refused(why: InputError | str) -> None:
     """Tell why something was not done, all reasons at once."""
-    ui.notify(str(why), type="negative", position="top", multi_line=True, timeout=READ)
+    told = why if isinstance(why, str) else "\n".join(first(why.problems))
+    ui.notify(told, type="negative", position="top", multi_line=True, timeout=READ)
 
 
 def done(what: str) -> None:

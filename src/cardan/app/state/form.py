@@ -16,6 +16,7 @@ from cardan.errors import InputError, Problem
 from cardan.io.amend import kind_at, steps_of
 from cardan.io.text import parsed
 from cardan.reading.fields import WORD_OR_FLAG, Field, fields_of
+from cardan.report.counted import counted
 from cardan.texts import _, visible
 
 Sort: TypeAlias = Literal[
@@ -110,25 +111,20 @@ def parts(tree: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     yield "input", _("Input")
     joints = tables(tree, "joints")
     for k, joint in enumerate(joints):
-        yield f"shafts[{k}]", _titled(_("Shaft {number}").format(number=k + 1), _shaft(tree, k))
-        yield f"joints[{k}]", _titled(_("Joint {number}").format(number=k + 1), joint)
+        yield _titled(f"shafts[{k}]", _shaft(tree, k))
+        yield _titled(f"joints[{k}]", joint)
     if joints:
-        yield (
-            f"shafts[{len(joints)}]",
-            _titled(_("Shaft {number}").format(number=len(joints) + 1), _shaft(tree, len(joints))),
-        )
+        yield _titled(f"shafts[{len(joints)}]", _shaft(tree, len(joints)))
     yield "output", _("Output")
-    for name, title in (("supports", _("Support {number}")), ("stations", _("Station {number}"))):
-        for k, table in enumerate(tables(tree, name)):
-            yield f"{name}[{k}]", _titled(title.format(number=k + 1), table)
+    for name in ("supports", "stations"):
+        yield from (_titled(f"{name}[{k}]", table) for k, table in enumerate(tables(tree, name)))
     yield "duty", _("Duty")
     yield "limits", _("Limits")
     yield "steering", _("Steering")
     yield "settings", _("Surroundings")
     yield "report", _("Title block of the report")
-    for name, title in (("movements", _("Movement {number}")), ("poses", _("Pose {number}"))):
-        for k, table in enumerate(tables(tree, name)):
-            yield f"{name}[{k}]", _titled(title.format(number=k + 1), table)
+    for name in ("movements", "poses"):
+        yield from (_titled(f"{name}[{k}]", table) for k, table in enumerate(tables(tree, name)))
 
 
 def section(tree: Mapping[str, Any], path: str, title: str = "") -> Section:
@@ -259,9 +255,10 @@ def _shaft(tree: Mapping[str, Any], k: int) -> Mapping[str, Any]:
     return next((one for one in tables(tree, "shafts") if one.get("number") == k + 1), {})
 
 
-def _titled(title: str, table: Mapping[str, Any]) -> str:
-    name = table.get("name", "")
-    return f"{title} · {visible(name)}" if name and isinstance(name, str) else title
+def _titled(path: str, table: Mapping[str, Any]) -> tuple[str, str]:
+    """Return the path of a table, and what it is called with the name that it has."""
+    title, name = counted(path), table.get("name", "")
+    return path, f"{title} · {visible(name)}" if name and isinstance(name, str) else title
 
 
 def _found(tree: Mapping[str, Any], path: str) -> tuple[Any, Mapping[str, Any], Any]:
