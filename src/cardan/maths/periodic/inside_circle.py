@@ -381,6 +381,7 @@ def _norm(matrix: Array) -> tuple[Array, Array]:
 def _spectral(matrix: Array) -> Array:
     """Return the spectral norms of matrices (..., m, m); not finite ones have none that is small."""
     good = np.isfinite(matrix).all(axis=(-1, -2))
-    values = np.linalg.svd(np.where(good[..., None, None], matrix, 0.0), compute_uv=False)
-    found: Array = np.where(good, values[..., 0] if values.shape[-1] else 0.0, np.inf)
+    finite = np.where(good[..., None, None], matrix, 0.0)
+    values = np.linalg.eigvalsh(finite.swapaxes(-1, -2) @ finite)  # half the time of singular values
+    found: Array = np.where(good, np.sqrt(values[..., -1]) if values.shape[-1] else 0.0, np.inf)
     return found

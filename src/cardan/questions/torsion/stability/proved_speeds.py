@@ -34,7 +34,7 @@ from cardan.questions.torsion.steady.steady import closed, stays_closed, steady_
 from cardan.texts import _
 
 from .floquet_map import floquet_map
-from .stability_kernel import SURE, fits, harmonics_for, heavy_of, mapped
+from .stability_kernel import SURE, Mapped, fits, harmonics_for, heavy_of, mapped
 
 Build: TypeAlias = Callable[[Array], TorsionalModel]
 """From speeds (n,) [rad/s] to a drive at each of them, with one leading axis or none."""
@@ -53,9 +53,9 @@ PHASE, FADED = 5.0, 12.0
 """Phase of the fastest oscillation that a polynomial in the speed is to hold, to begin with; what has died out by e to
 the second power within a period does not count."""
 
-WORK, PLAIN, LEAST = 6e7, 20.0, 500.0
+WORK, PLAIN, LEAST, BALANCE = 1e8, 20.0, 500.0, 6e-3
 """Steps of all samples times the cube of their unknowns that are taken on: a minute, about; by what factor each takes
-longer without the kernel, and what each takes at least."""
+longer without the kernel, what each takes at least, and what its harmonic balance takes over the cube of its sums."""
 
 NO_SEARCH = Shooting(work=0)
 """Where there is no smooth motion, none is searched for: no polynomial in the speed could hold it."""
@@ -250,12 +250,13 @@ class _Drive:
     """Monodromy matrices of a drive by its speed, in coordinates of its energy, without its shift in time."""
 
     def __init__(self, build: Build | TorsionalModel, middle: float, method: Method | None) -> None:
-        self.build = build
+        self.build, self.middle = build, middle
         here = np.asarray([middle])
         model = self.model(here)
         one = some_of(replace(model, input_speed=None if model.free else here), (1,), np.zeros(1, dtype=int))
         self.free, self.period = model.free, period_of(model)
         self.harmonics = harmonics_for(model, self.period)
+        self.rough = False  # whether all motions seen last take more harmonics
         self.heavy = heavy_of(one)
         how = chosen_method(method, np, large=True)
         shut = replace(one, backlash=np.zeros_like(one.backlash))
@@ -306,8 +307,14 @@ class _Drive:
         """Return what a matrix between two speeds takes, about; see `WORK`."""
         samples = np.linspace(near, far, 9)
         steps = np.maximum(self.steepest * self.period / samples / 2.0, 16.0)
-        each = LEAST + float(np.mean(np.minimum(steps, 2048.0))) * 0.125 * len(self.heavy) ** 3
-        return PLAIN * each if self.kernel is None else each
+        rank, sense = len(self.heavy), np.sign(self.middle)
+        each = LEAST + float(np.mean(np.minimum(steps, 2048.0))) * 0.125 * rank**3
+        if self.kernel is None:
+            return PLAIN * each
+        found = mapped(closed(self._turning(sense * samples)), self.harmonics, moves_only=True)
+        self.rough = bool(self._coarse(found).all())
+        wide = 2.0 * self.harmonics * (MORE if self.rough else 1.0) + 1.0
+        return each + BALANCE * wide**3 * (rank + rank**3 / 6.0)
 
     def at(self, places: Array) -> tuple[Array, Array, Array]:
         """Return the matrices at speeds (n, p), whether there is a smooth motion to have one, and its torque.
@@ -315,8 +322,7 @@ class _Drive:
         The torque (n, p) is that which keeps the mean speed, counted with the turning.
         """
         speeds = places.reshape(-1)
-        model = self.model(speeds)
-        whole = Turning(model, (len(speeds),), speeds, self.period).part(np.arange(len(speeds)))
+        whole = self._turning(speeds)
         smooth = closed(whole)
         if self.kernel is not None:
             matrix, coefficient, force, there = self._compiled(smooth, places.shape[-1], self.kernel.threads)
@@ -338,19 +344,30 @@ class _Drive:
 
     def _compiled(self, smooth: Turning, alike: int, threads: int | None) -> tuple[Array, Array, Array, Array]:
         """Return matrices by the kernel, motions, torques, and whether each was found; coarse ones more finely."""
-        found = mapped(smooth, self.harmonics, alike=alike, threads=threads)
+        found = mapped(smooth, self.harmonics, alike=alike, moves_only=self.rough, threads=threads)
         matrix, coefficient, force, moved = found.matrix, found.coefficient, found.force, found.moved
-        size = np.max(np.abs(coefficient), axis=1)
-        tail = np.max(size[:, -max(2, self.harmonics // 4) :], axis=-1)
-        rough = (~(tail <= SMALL * np.max(size, axis=-1))).reshape(-1, alike).any(axis=-1)
-        coarse = np.flatnonzero(np.repeat(rough, alike))
+        rough = self._coarse(found).reshape(-1, alike).any(axis=-1)
+        coarse = np.flatnonzero(np.repeat(rough | self.rough, alike))
         if coarse.size:
             more = round(MORE * self.harmonics)
-            again = mapped(smooth.part(coarse), more, alike=alike, threads=threads)
+            near = Mapped(**{one.name: getattr(found, one.name)[coarse] for one in fields(Mapped)})
+            again = mapped(smooth.part(coarse), more, alike=alike, near=near, threads=threads)
             coefficient = np.pad(coefficient, ((0, 0), (0, 0), (0, more - self.harmonics)))
             matrix[coarse], coefficient[coarse], moved[coarse] = again.matrix, again.coefficient, again.moved
             force[coarse] = again.force
+            self.rough = bool(rough.all())
         return matrix, coefficient, force, (moved <= SURE) & np.isfinite(matrix).all(axis=(1, 2))
+
+    def _coarse(self, found: Mapped) -> Array:
+        """Tell which motions take more harmonics, array of bool (n,)."""
+        size = np.max(np.abs(found.coefficient), axis=1)
+        tail = np.max(size[:, -max(2, self.harmonics // 4) :], axis=-1)
+        return ~np.asarray(tail <= SMALL * np.max(size, axis=-1))
+
+    def _turning(self, speeds: Array) -> Turning:
+        """Return the drive at speeds (n,), each in its row."""
+        whole = Turning(self.model(speeds), (len(speeds),), speeds, self.period)
+        return whole.part(np.arange(len(speeds)))
 
     def _reduced(self, matrix: Array, coefficient: Array, turning: Turning) -> Array:
         """Return matrices without the shift in time, in a basis that changes as smoothly as they do."""

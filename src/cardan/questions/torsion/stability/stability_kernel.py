@@ -81,11 +81,20 @@ def heavy_of(model: TorsionalModel) -> Array:
     return found
 
 
-def mapped(turning: Turning, harmonics: int, *, alike: int = 1, threads: int | None = None) -> Mapped:
+def mapped(
+    turning: Turning,
+    harmonics: int,
+    *,
+    alike: int = 1,
+    near: Mapped | None = None,
+    moves_only: bool = False,
+    threads: int | None = None,
+) -> Mapped:
     """Return motions and monodromy matrices of drives by the compiled kernel.
 
     turning: drives for which `fits` holds; harmonics: H.
     alike: how many drives behind each other get as many steps, so that their matrices err alike; 1 or a multiple of 8.
+    near: the same drives with fewer harmonics, to begin with; moves_only: leave the matrices undone.
     Where a coordinate has no inertia the points are those of Radau: its speed at the beginning of a step then has no
     share in the end, so it is carried along as a state and left out of the matrices. What turns backwards is seen from
     the other side, where it turns forwards.
@@ -97,6 +106,8 @@ def mapped(turning: Turning, harmonics: int, *, alike: int = 1, threads: int | N
     n, states = 2 * harmonics + 1, 2 * turning.coordinates
     known = np.zeros((padded, turning.coordinates * n + 1))
     known[:count, : turning.coordinates * n : n] = sense * at_rest(turning)[:, :, 0].real
+    if near is not None:
+        _begin_near(known[:count], near, sense, n)
     drives, known = (
         np.concatenate([one, np.repeat(one[-1:], padded - count, axis=0)]) for one in (drives, known[:count])
     )
@@ -107,6 +118,7 @@ def mapped(turning: Turning, harmonics: int, *, alike: int = 1, threads: int | N
     steps = np.max(np.append(steps, np.repeat(steps[-1:], padded - count)).reshape(-1, LANES), axis=-1)
     heavy = heavy_of(turning.model)
     stiff = not heavy.all()
+    steps = 0 * steps if moves_only else steps
     nodes, begins = _nodes(sorted(set(steps.tolist())), harmonics, turning.period, stiff=stiff)
     points, once = collocation(STAGES, stiff=stiff)
     scheme = np.concatenate([[STAGES], points, once.ravel(), (once @ once[:-1]).ravel()])
@@ -131,6 +143,18 @@ def mapped(turning: Turning, harmonics: int, *, alike: int = 1, threads: int | N
         force=sense * flat.reshape(padded, -1)[:count, -1],
         moved=moved[:count],
     )
+
+
+def _begin_near(known: Array, near: Mapped, sense: float, n: int) -> None:
+    """Write motions that were found with fewer harmonics, and their force, where Newton's method begins."""
+    rows = np.flatnonzero(near.moved <= SURE)
+    found = near.coefficient[rows] if sense > 0.0 else -near.coefficient[rows].conj()
+    width, harmonics = found.shape[-1], n // 2
+    table = np.zeros((len(rows), found.shape[1], n))
+    table[..., :width] = found.real
+    table[..., harmonics + 1 : harmonics + width] = -found.imag[..., 1:]
+    known[rows, :-1] = table.reshape(len(rows), -1)
+    known[rows, -1] = sense * near.force[rows]
 
 
 def _call(kernel: object, before: tuple, steps: tuple, between: tuple, after: tuple, first: int, last: int) -> None:  # type: ignore[type-arg]
@@ -230,7 +254,7 @@ def _nodes(rungs: list[int], harmonics: int, period: float, *, stiff: bool) -> t
     parts, begins, total = [], {}, 0
     for steps in rungs:
         phase = 2.0 * np.pi * ((np.arange(steps)[:, None] + points) / steps).ravel()
-        waves = _waves(phase, harmonics).reshape(len(phase), -1)
+        waves = _waves(phase, harmonics).reshape(len(phase), 3 * (2 * harmonics + 1))
         parts.append(np.concatenate([phase[:, None] * (period / (2.0 * np.pi)), waves], axis=-1).ravel())
         begins[steps] = total
         total += len(phase)

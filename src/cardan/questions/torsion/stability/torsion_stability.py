@@ -45,7 +45,7 @@ JOINT_ANGLE = "joint_angle_deg"
 RANGE, TRIALS, ROUNDS = (1e-5, 1.0), 11, 3
 """Loss factors among which the least is looked for, how many at a time, and how often."""
 
-PROVING, LITTLE = 0.5, 8e6
+PROVING, LITTLE = 0.5, 1.5e7
 """Share of the work after which stability over the speeds is proved, and how much that may take beside a map."""
 
 AROUND, SLOWEST = 0.1, 0.05

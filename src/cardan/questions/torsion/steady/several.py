@@ -21,7 +21,7 @@ from cardan.questions.torsion.model.torsional_modes import straight_modes
 
 from .orbit import Backlashed, Orbit, at_rest, pieces_near, straight_stiffness
 from .run_stability import Verdict, floquet
-from .steady import CHUNK, KINKED, LOWER, fourier_of, sums_of
+from .steady import CHUNK, HARMONICS, LOWER, MOST, fourier_of, sums_of
 from .steady_result import read_off
 
 compiled = later("cardan.maths.compiled.torsion_block")
@@ -197,12 +197,32 @@ def _searched(orbit: Orbit, rows: Array) -> Iterator[tuple[int, list[_Run]]]:
         return
     parts = [_starts(orbit, row) for row in smooth]
     wide, each = max(part.shape[-1] for part in parts), len(SIZES) * PHASES
-    harmonics = KINKED * round(turning.period / np.pi)
-    how = HarmonicBalance(harmonics=harmonics, most=4 * harmonics)
-    waves = sums_of(turning.part(np.repeat(smooth, each)), np.concatenate([_wide(one, wide) for one in parts]), how)
+    few = HARMONICS * round(turning.period / np.pi)
+    starts = np.concatenate([_wide(one, wide) for one in parts])
+    led, _fine = _sums(turning, np.repeat(smooth, each), starts, HarmonicBalance(harmonics=few, most=few))
+    begun = [_unlike(led[k * each : (k + 1) * each]) for k in range(len(smooth))]
+    own = np.repeat(np.arange(len(smooth)), [len(one) for one in begun])
+    how = HarmonicBalance(harmonics=few, most=MOST)
+    waves, fine = _sums(turning, np.asarray(smooth)[own], np.concatenate(begun), how)
     for k, row in enumerate(smooth):
-        here = waves.coefficient[k * each : (k + 1) * each]
-        yield row, [_Run(wave=one) for one in here[np.isfinite(here).all(axis=(-1, -2))]]
+        yield row, [_Run(wave=one) for one in waves[fine & (own == k)]]
+
+
+def _sums(turning: Turning, rows: Array, starts: Array, how: HarmonicBalance) -> tuple[Array, Array]:
+    """Return where sums (b, R, H+1) of some of the drives lead, nan where nowhere, and which are fine enough (b,)."""
+    parts = [sums_of(turning.part(rows[k : k + CHUNK]), starts[k : k + CHUNK], how) for k in range(0, len(rows), CHUNK)]
+    wide = max([starts.shape[-1], *(part.coefficient.shape[-1] for part in parts)])
+    sums = np.concatenate([_wide(starts[:0], wide), *[_wide(part.coefficient, wide) for part in parts]])
+    return sums, np.concatenate([np.zeros(0), *[part.status for part in parts]]) == Status.CONVERGED
+
+
+def _unlike(sums: Array) -> Array:
+    """Return those of sums (b, R, H+1) that were found and unlike each other."""
+    found: list[Array] = []
+    for one in sums[np.isfinite(sums).all(axis=(-1, -2))]:
+        if not any(_near(one, other, ALIKE) for other in found):
+            found.append(one)
+    return np.asarray(found).reshape(len(found), *sums.shape[1:])
 
 
 def _settled(part: Turning, starts: Array) -> list[_Run]:
@@ -278,7 +298,7 @@ def _settled(part: Turning, starts: Array) -> list[_Run]:
 
 
 def _starts(orbit: Orbit, row: int) -> Array:
-    """Return swings of the mode next to a multiple of the speed, about the twist at rest, array (k, R, H+1)."""
+    """Return swings of the mode next to a low multiple of the speed, about the twist at rest, array (k, R, H+1)."""
     turning, drive = orbit.turning.part(np.asarray([row])), single(orbit.model, orbit.angle_error, row)
     amid = replace(turning.model, backlash=np.zeros_like(turning.model.backlash))
     rests = [at_rest(one)[0, :, 0] for one in (turning, Turning(amid, (1,), turning.speed, turning.period))]
@@ -287,7 +307,9 @@ def _starts(orbit: Orbit, row: int) -> Array:
         return np.repeat(rests[0][None, :, None], len(SIZES) * PHASES, axis=0)
     base = abs(float(turning.frequency[0]))
     times = np.maximum(np.round(modes.omega / base), 1.0)
-    m = int(np.argmin(np.abs(np.log(modes.omega / (times * base)))))
+    far = np.abs(np.log(modes.omega / (times * base)))
+    low = times <= HARMONICS * round(turning.period / np.pi)
+    m = int(np.argmin(np.where(low, far, np.inf) if low.any() else modes.omega))
     heads, tails = [a for a, _b in drive.elements], [b for _a, b in drive.elements]
     twist = np.abs(modes.shape[m, heads] - modes.shape[m, tails])
     e = int(np.argmax(twist))

@@ -27,8 +27,8 @@ ORDERS = 10.0
 Progress: TypeAlias = Callable[[float], object]
 """Told the share done; may answer "stop"."""
 
-HARMONICS = 6
-"""Harmonics of half a turn to begin with."""
+HARMONICS, MOST = 6, 96
+"""Harmonics of half a turn to begin with, and those of a motion at most."""
 
 KINKED = 16
 """The same where backlash may open: enough to read off where."""
@@ -229,7 +229,7 @@ def _nothing(count: int, coordinates: int, status: Status) -> Waves:
 def _by_waves(part: Turning, method: HarmonicBalance | None) -> tuple[Waves, Waves]:
     """Return motions as Fourier sums, where play stays closed, and sums to search from where there are none."""
     half_turns, smooth = round(part.period / np.pi), closed(part)
-    how = method or HarmonicBalance(harmonics=HARMONICS * half_turns, most=96)
+    how = method or HarmonicBalance(harmonics=HARMONICS * half_turns, most=MOST)
     found = sums_of(smooth, at_rest(smooth), how)
     lost = np.flatnonzero((found.status == Status.NO_CONVERGENCE) | ~stays_closed(part, found.coefficient))
     if not lost.size:
