@@ -77,12 +77,12 @@ class Linkage:
         Returns poses, and the misfit of each pair (..., m, 2): gap over the size, and lean [rad].
         Newton's method; of the motions that nothing holds the smallest.
         """
-        here = self._scaled(poses, 1.0)
+        here = self.scaled(poses, 1.0)
         free = np.asarray(moving, dtype=int)
         if not len(free):
-            return poses, self._misfit(self._rows(here)[1])
+            return poses, self._misfit(self.rows(here)[1])
         for _round in range(ROUNDS):
-            matrix, rest = self._matrix(here)
+            matrix, rest = self.matrix(here)
             if tied is not None:
                 matrix[..., tied[1], :] += matrix[..., tied[0], :]
             slope = np.reshape(matrix[..., free, :], (*matrix.shape[:-2], -1))
@@ -99,11 +99,11 @@ class Linkage:
                 here[..., tied[0], :, :] = steps[..., int(np.argmax(free == tied[1])), :, :] @ here[..., tied[0], :, :]
             if np.max(np.abs(step)) < RESTS:
                 break
-        return self._scaled(here, -1.0), self._misfit(self._rows(here)[1])
+        return self.scaled(here, -1.0), self._misfit(self.rows(here)[1])
 
     def motions(self, poses: Array, moving: Sequence[int]) -> Array:
         """Return the small motions that the pairs leave, array (w, moving, 6): twists, lengths over the size."""
-        matrix = self._matrix(self._scaled(poses, 1.0))[0][..., list(moving), :]
+        matrix = self.matrix(self.scaled(poses, 1.0))[0][..., list(moving), :]
         _left, size, right = np.linalg.svd(np.reshape(matrix, (matrix.shape[-3], -1)))
         return np.reshape(right[int(np.sum(size > LEFT * size[0])) :], (-1, len(moving), 6))
 
@@ -115,7 +115,7 @@ class Linkage:
         axis = _turned(turn[..., self.first, :, :], self.frame[:, 0])
         return point, axis, _turned(turn[..., self.second, :, :], self.own_second)
 
-    def _scaled(self, poses: Array, way: float) -> Array:
+    def scaled(self, poses: Array, way: float) -> Array:
         """Return displacements with lengths over the size about the middle, or back again (``way`` -1)."""
         out = np.array(poses)
         swept = (poses[..., :3, :3] @ self.middle) - self.middle
@@ -123,7 +123,7 @@ class Linkage:
         out[..., :3, 3] = (shift + swept) / self.size if way > 0.0 else shift * self.size - swept
         return out
 
-    def _rows(self, poses: Array) -> tuple[Array, Array]:
+    def rows(self, poses: Array) -> tuple[Array, Array]:
         """Return what each pair holds, wrenches about the middle (..., s, 6), and how far it is from that (..., s)."""
         turn, shift = poses[..., :3, :3], poses[..., :3, 3]
         one, other = turn[..., self.first, :, :], turn[..., self.second, :, :]
@@ -161,9 +161,9 @@ class Linkage:
         near = self.pitch * turned
         return near + np.where(self.pitch, lead * np.round((along - near) / lead), 0.0)
 
-    def _matrix(self, poses: Array) -> tuple[Array, Array]:
+    def matrix(self, poses: Array) -> tuple[Array, Array]:
         """Return how twists of the links change what the pairs miss, (..., s, n, 6), and what they miss (..., s)."""
-        wrench, rest = self._rows(poses)
+        wrench, rest = self.rows(poses)
         rows = np.arange(len(self.row_pair))
         matrix = np.zeros((*wrench.shape[:-1], len(self.links), 6))
         matrix[..., rows, self.second[self.row_pair], :] += wrench
@@ -183,7 +183,7 @@ def by_rounding(gap: float) -> str:
     """Return what to do about a gap, lengths over the size, that rounded numbers may make; nothing of a larger one."""
     if gap > ROUNDED:
         return ""
-    return _("; if its numbers are rounded, give them more digits: what is held more than once closes no better")
+    return _("; if its numbers are rounded, tell how much, rounding_mm: what is held more than once closes no better")
 
 
 def _frame(pair: Pair) -> Array:

@@ -60,6 +60,13 @@ class Mechanism:
     output_torque: float | None = quantity("torque", None, doc="torque that resists an output link that turns", low=0.0)
     output_force: float | None = quantity("force", None, doc="force that resists an output link that slides", low=0.0)
     gravity: Point = quantity("acceleration", (0.0, 0.0, 0.0), doc="acceleration of free fall [x, y, z]")
+    rounding: float | None = quantity(
+        "length",
+        None,
+        doc="how far points, and axes over the size, may be off as their numbers are rounded; the least changes that "
+        "close all loops are made, and told",
+        above=0.0,
+    )
     joints: tuple[Pair, ...] = plain(doc="the joints")
     masses: tuple[LinkMass, ...] = plain((), doc="what the links weigh; the others count as without mass")
     loads: tuple[Load, ...] = plain((), doc="forces and torques on the links")
@@ -157,7 +164,19 @@ def problems(mechanism: Mechanism) -> Iterator[Problem]:
     for k, pair in enumerate(joints):
         if pair.carrier and pair.carrier not in (*known, mechanism.frame):
             yield Problem(f"joints[{k}].carrier", _no_link(pair.carrier, mechanism.frame, known), "inconsistent")
+    if mechanism.rounding is not None and not _closes_by_input(mechanism):
+        text = _(
+            "of no use here: an input link that turns in the frame, or slides in it over a stroke, tells how the loops "
+            "are to close, of links that do not roll"
+        )
+        yield Problem("rounding", text, "inconsistent")
     yield from _load_problems(mechanism, known)
+
+
+def _closes_by_input(mechanism: Mechanism) -> bool:
+    """Return whether an input in the frame moves loops that pairs alone close."""
+    driven = mechanism.driving is not None and mechanism.base == mechanism.frame
+    return driven and mechanism.travel is not None and not any(pair.kind.rolls for pair in mechanism.joints)
 
 
 def _load_problems(mechanism: Mechanism, known: tuple[str, ...]) -> Iterator[Problem]:

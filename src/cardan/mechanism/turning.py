@@ -23,6 +23,7 @@ from .closing import CLOSED, Linkage, by_rounding, moved_along
 from .constraints import FRAME
 from .kinetostatics import Placed, Rates, rates, speeds
 from .mechanism import Mechanism
+from .rounding import exactly
 
 STEP = 4.0 * deg
 """Largest step from one position to the next while loops are followed; of what slides a path over the size."""
@@ -82,6 +83,7 @@ def turned(mechanism: Mechanism, position: Array | None = None) -> Turned:
     that more than the input moves, or a pair that opens: which link, at which angle and how far.
     """
     check_driven(mechanism)
+    mechanism = exactly(mechanism)
     low, high = travel(mechanism)
     wanted = grid(mechanism) if position is None else np.asarray(position, dtype=float)
     way = _Way(mechanism, Linkage(mechanism.joints))

@@ -17,6 +17,7 @@ from cardan.io.drive_file import loads, loads_mechanism
 from cardan.io.examples import example_mechanism
 from cardan.mechanism.mechanism import Mechanism, Pair
 from cardan.questions.motion.joint_mechanism import joint_carried, rubbed_share
+from cardan.questions.motion.kinds import beside_turning
 from cardan.units import deg
 
 ANGLE = np.linspace(0.0, 2.0 * np.pi, 37)[:-1] + 0.021
@@ -249,7 +250,24 @@ def test_a_sketch_becomes_a_joint_and_answers_in_a_drive():
     assert joint.even
     assert np.abs(joint.deviation(ANGLE, np.asarray(0.25))[0]).max() < 1e-9
     assert forces(drive).input_torque.max() == pytest.approx(100.0 / np.cos(12 * deg), rel=1e-6)
-    assert "give them more digits" in refusal(sketched(20 * deg, 0.0, 6))  # micrometres
+    assert "tell how much, rounding_mm" in refusal(sketched(20 * deg, 0.0, 6))  # micrometres
+
+
+@pytest.mark.parametrize("rounding", [0.2e-3, 0.02e-3])
+def test_a_sketch_with_printed_digits_answers_in_a_drive(rounding):
+    digits = 4 if rounding > 0.1e-3 else 5  # of metres: tenths or hundredths of a millimetre
+    exact = MechanismJoint(drawing=sketched(20 * deg, 0.3, 15), joint_angle=12 * deg)
+    drawn = MechanismJoint(drawing=replace(sketched(20 * deg, 0.3, digits), rounding=rounding), joint_angle=12 * deg)
+    assert drawn.even  # but for what the rounding may make
+    moved = {one.key: one.value for one in drawn.inside(12 * deg)}
+    assert 0.0 < moved["drawing_shift"] <= rounding
+    one, other = (
+        forces(Drive(joints=(joint, Hooke(joint_angle=12 * deg)), duty=Duty(torque=100.0, speed=100.0)))
+        for joint in (exact, drawn)
+    )
+    assert other.input_torque == pytest.approx(one.input_torque, rel=1e-9)
+    said = [str(one) for one in beside_turning(Drive(joints=(drawn,)))]
+    assert any("whose numbers are rounded" in one for one in said)
 
 
 def test_a_joint_angle_at_which_it_binds_is_refused_where_the_motion_is_asked():

@@ -17,6 +17,7 @@ from cardan.maths.kernel.meshes import Surface, ball, joined, placed, revolved
 from cardan.mechanism.closing import CLOSED, Linkage, by_rounding, turn_about
 from cardan.mechanism.kinetostatics import Placed, carried
 from cardan.mechanism.mechanism import Mechanism
+from cardan.mechanism.rounding import exactly, fitted
 from cardan.texts import _, mark
 from cardan.units import deg, mm, plain
 
@@ -24,6 +25,7 @@ from .common import site as drawn
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
 from .common.site import Site
 from .joint import CROSS_ONLY, REFUSALS, Joint
+from .joint import Inside as Measure
 from .weiss import waved
 
 PLACES = 64
@@ -104,6 +106,15 @@ class MechanismJoint(Joint):
             self._inside()
         except InputError as error:
             yield from error.problems
+
+    def inside(self, joint_angle: float) -> Iterator[Measure]:
+        """Yield how the numbers of its file were changed so that its loops close, where they are rounded."""
+        if self.drawing is not None and self.drawing.rounding is not None:
+            found = fitted(self.drawing)
+            text = _("largest shift of a pair of its file, whose numbers are rounded, so that the loops close")
+            yield Measure(key="drawing_shift", meaning=text, value=found.shift, dimension="length")
+            text = _("largest turn of an axis for the same")
+            yield Measure(key="drawing_turn", meaning=text, value=found.turn)
 
     def with_drawing(self, drawing: Mechanism) -> MechanismJoint:
         """Return the joint with what its file draws."""
@@ -261,6 +272,7 @@ class Inside:
     # [rad]: how far the marks from which angles count stand from those in the plane of the shafts as drawn
     start: float = 0.0
     lead: float = 0.0  # [rad]: how far the driven mark runs ahead in the mean, as drawn
+    blur: float = 0.0  # [rad]: what the rounding of its numbers may make of a law
     holds: str = "centre"  # what it holds beside the turn: the centre, the centre but for sliding, nothing, or some
     # joint angle -> poses over a turn (p, n, 4, 4), of the drawing and of those at even steps
     known: dict[float, Array] = field(default_factory=dict)
@@ -353,7 +365,7 @@ class Inside:
                 grid = np.arange(FINEST) * (2.0 * np.pi / FINEST)
                 leads = waved(grid - self.start, leads)[0]
             leads = leads - self.lead
-            self.laws[joint_angle] = np.where(np.max(np.abs(leads)) < EVEN, 0.0, leads)
+            self.laws[joint_angle] = np.where(np.max(np.abs(leads)) < max(EVEN, self.blur), 0.0, leads)
         return self.laws[joint_angle]
 
     def _leads(self, poses: Array, joint_angle: float) -> Array:
@@ -408,7 +420,7 @@ class Inside:
             if not np.all(np.isfinite(leads)) or not root:
                 return False
             own = mobius.angle_error(((1.0 + 0.0j) / root, (-1.0 + 0.0j) * tau / root), places)
-            if np.max(np.abs(own - leads)) > MAPPED:
+            if np.max(np.abs(own - leads)) > max(MAPPED, self.blur):
                 return False
         return True
 
@@ -510,9 +522,13 @@ def inside_of(mechanism: Mechanism, driving: str, driven: str) -> Inside:
     """
     ends = [driving or mechanism.input_link, driven or mechanism.output_link]
     check(_link_problems(mechanism, ends))
+    given, mechanism = mechanism, exactly(mechanism)
     one, two = (_bearing(mechanism, link) for link in ends)
     check(_pair_problems(mechanism, (one, two)))
-    return _turned(_drawn(mechanism, (ends[0], ends[1]), (one, two)))
+    found = _drawn(mechanism, (ends[0], ends[1]), (one, two))
+    if given.rounding is not None:
+        found = replace(found, blur=fitted(given).turn + fitted(given).shift / found.radius)
+    return _turned(found)
 
 
 def _link_problems(mechanism: Mechanism, ends: list[str]) -> Iterator[Problem]:

@@ -15,6 +15,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.mechanism.mechanism import PAIRS, Mechanism
 from cardan.questions.mobility.mobility import Mobility, mobility
+from cardan.questions.mobility.rounded import rounded
 from cardan.texts import _, mark, plural
 from cardan.units import preferred
 
@@ -63,7 +64,7 @@ def answer(mechanism: Mechanism, result: MechanismForces, listed: MechanismForce
         tone="failed" if slips else "warning" if held.redundant else "plain",
         figures=lambda: forces_figures(result),
         tables=tuple(_tables(result, held)),
-        remarks=tuple(_remarks(result, held)),
+        remarks=(*rounded(mechanism), *_remarks(result, held)),
         keys=tuple(_keys(result)),
         facts=_facts(result, held),
         full=lambda: _trace(listed or result),

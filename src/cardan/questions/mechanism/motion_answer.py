@@ -16,6 +16,7 @@ from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.ties import tidied
 from cardan.mechanism.mechanism import Mechanism
+from cardan.questions.mobility.rounded import rounded
 from cardan.texts import _, mark
 from cardan.units import deg, preferred
 
@@ -50,7 +51,7 @@ def answer(mechanism: Mechanism, result: MechanismMotion, listed: MechanismMotio
         tone="plain",
         figures=lambda: motion_figures(result),
         tables=tuple(_tables(result, listed)),
-        remarks=tuple(_remarks(result)),
+        remarks=(*rounded(mechanism), *_remarks(result)),
         keys=tuple(_keys(result)),
         facts=_facts(result),
         full=lambda: _trace(result),

@@ -18,6 +18,7 @@ from cardan.errors import InputError, refuse
 from cardan.figures.figure import Figure
 from cardan.mechanism.counting import Partition, joins, partition
 from cardan.mechanism.mechanism import PAIRS, Mechanism
+from cardan.mechanism.rounding import exactly
 from cardan.mechanism.turning import travel
 from cardan.texts import _, mark, plural
 
@@ -26,6 +27,7 @@ from .drive_mechanism import SUPPORT, mechanism_of, support_name
 from .figure import closure_figures, mobility_figures, turn_figures
 from .finite_mobility import FiniteMobility, MobilityTurn, finite_mobility, mobility_over_turn, reach
 from .mobility import JointHold, Mobility, mobility
+from .rounded import rounded
 
 __all__ = ["COLUMNS", "Turned", "answer", "ask", "brief", "lacking", "otherwise", "turned"]
 
@@ -72,6 +74,7 @@ def turned(thing: Drive | Mechanism, progress: Callable[[float], object] | None 
     """Return what a turn of the input shows."""
     if isinstance(thing, Drive):
         thing = mechanism_of(thing)
+    thing = exactly(thing)
     if not thing.input_link:
         raise refuse("--turn", _("the file names no input_link that could be turned"))
 
@@ -210,6 +213,8 @@ def _remarks(
         own = balls_of(thing, pivots=True)
         yield from held_by_machines(tuple(number for number in machines_of(thing) if number - 2 not in own))
         yield from _repeated(thing)
+    else:
+        yield from rounded(thing)
     if result.misalignment:
         text = _("Warning: as given the parts do not fit: {gap} have to be forced into place.")
         yield Remark(text=say(text, gap=Quantity(result.misalignment, "length", 3)), tone="warning")

@@ -18,6 +18,7 @@ from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames, screws
 from cardan.mechanism.constraints import Constraints, constraints
 from cardan.mechanism.mechanism import LENGTHS, Mechanism, Pair, Point, Way, axes
+from cardan.mechanism.rounding import exactly
 from cardan.texts import _
 from cardan.units import nearest
 
@@ -145,6 +146,7 @@ def repairs(thing: Drive | Mechanism, *, most: int = MOST, links: bool = True) -
     """
     if not isinstance(thing, Mechanism):
         thing, links = mechanism_of(thing), False
+    thing = exactly(thing)
     system = constraints(thing)
     stress = stresses(system)
     redundant = len(stress)

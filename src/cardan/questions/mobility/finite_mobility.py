@@ -16,6 +16,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames, screws
 from cardan.mechanism.constraints import FRAME, constraints, spanning_tree
 from cardan.mechanism.mechanism import Mechanism
+from cardan.mechanism.rounding import exactly
 from cardan.mechanism.turning import travel, turned
 from cardan.texts import _
 from cardan.units import deg, nearest
@@ -559,7 +560,7 @@ def mobility_over_turn(
     >>> found.structural, len(found.special)
     (3, 0)
     """
-    mechanism = thing if isinstance(thing, Mechanism) else mechanism_of(thing)
+    mechanism = exactly(thing if isinstance(thing, Mechanism) else mechanism_of(thing))
     number = _driven(mechanism, driven_joint)
     if mechanism.joints[number] is mechanism.driving and (mechanism.slides or mechanism.input_range is not None):
         return _over_range(mechanism, number, positions, progress)

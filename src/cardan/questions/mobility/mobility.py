@@ -13,6 +13,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames, screws
 from cardan.mechanism.constraints import Constraints, constraints
 from cardan.mechanism.mechanism import Mechanism, Pair, axes
+from cardan.mechanism.rounding import exactly
 
 from .drive_mechanism import mechanism_of
 
@@ -179,7 +180,7 @@ def mobility(thing: Drive | Mechanism) -> Mobility:
     ('strained', 'strained', 'strained')
     """
     if isinstance(thing, Mechanism):
-        return _mobility(thing)
+        return _mobility(exactly(thing))
     return _mobility(mechanism_of(thing))
 
 
