@@ -27,12 +27,14 @@ def range_problems(thing: Any, path: str = "") -> Iterator[Problem]:
         value = getattr(thing, name)
         if value is None or isinstance(value, bool):
             continue
+        if isinstance(value, float) and (key is None or in_range(key, value)):
+            continue
         here = f"{path}.{name}" if path else name
-        if isinstance(value, tuple) and value and is_dataclass(value[0]):
+        if isinstance(value, tuple) and value and is_dataclass(type(value[0])):
             for index, item in enumerate(value):
                 place = item.number - 1 if isinstance(item, Shaft) else index
                 yield from range_problems(item, f"{here}[{place}]")
-        elif is_dataclass(value):
+        elif is_dataclass(type(value)):
             yield from range_problems(value, here)
         elif isinstance(value, str):
             yield from _text_problems(value, here, lines=name == "note")
