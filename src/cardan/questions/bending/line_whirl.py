@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 import scipy
@@ -89,7 +89,7 @@ class LineWhirl:
     residual: float
     assumed: tuple[str, ...] = ()  # paths of what the drive does not say and the answer assumes
 
-    @property
+    @cached_property
     def whirl(self) -> Array:
         """Largest distance from the mean position over a turn, array (k, p) [m]."""
         return largest_of_turn(self.order, self.deflection)
@@ -108,9 +108,7 @@ class LineWhirl:
 
         order: one order alone; all of them together but for the mean when not given; shaft: one shaft alone.
         """
-        size = self.whirl
-        if order is not None:
-            size = np.abs(np.sum(self.deflection[:, self.order == order], axis=1))
+        size = self.whirl if order is None else np.abs(np.sum(self.deflection[:, self.order == order], axis=1))
         here = np.ones(len(self.place), dtype=bool) if shaft is None else self.shaft == shaft
         size = np.where(self.within[:, None] & here, size, -1.0)
         k, p = np.unravel_index(int(np.argmax(size)), size.shape)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -98,7 +99,9 @@ def _kind(block: object) -> str:
     return {Table: "table", Words: "words", Points: "points", Listing: "listing", Picture: "picture"}[type(block)]
 
 
+@cache
 def _template(name: str) -> Any:
+    """Return a template, read once: it takes the words, and so the language, as it is rendered."""
     folder = Path(__file__).parent / "templates"
     loader = jinja2().FileSystemLoader(folder)
     world = jinja2().Environment(
