@@ -9,7 +9,7 @@ from cardan.answers.data import data
 from cardan.answers.printed import printed
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
-from cardan.catalogue import filled
+from cardan.catalogue import catalogue, filled
 from cardan.choices.selection import JointDuty, fitting_sizes, select_joint
 from cardan.choices.selection_answer import answer, ask, lacking, selected
 from cardan.drive.drive import Drive
@@ -43,6 +43,15 @@ def test_every_type_and_size_is_told_in_the_units_of_the_reader():
     assert content["need"]["torque_lbft"] == pytest.approx(700.0 / 1.3558179483314004)
     fits = [one.fits for one in fitting_sizes(NEED)]
     assert [row["fits"] for row in content["sizes"]] == fits
+
+
+def test_a_size_whose_maker_gives_no_largest_joint_angle_says_so():
+    shown = printed(answer(None, selected(replace(NEED, torque=300.0))).tables[0], USUAL)
+    why = {row[1].text: " ".join(cell.text for cell in row) for row in shown.rows}
+    rated = {row.id: row.rating.max_joint_angle for row in catalogue().offered() if row.id in why and row.rating}
+    fits = {one.row.id for one in fitting_sizes(replace(NEED, torque=300.0)) if one.fits}
+    unrated = {id for id, text in why.items() if "no largest joint angle given" in text}
+    assert unrated == {id for id, angle in rated.items() if angle is None and id in fits} != set()
 
 
 def test_no_instrument_joint_is_a_candidate_at_kilonewton_metres():

@@ -153,7 +153,8 @@ def _why(one: SizeFit, asked: bool) -> Text:
     if not one.fits:
         return _said(one.reasons)
     unrated = _("no rating for the life asked") if asked and math.isnan(one.life) else ""
-    return Joined([part for part in (one.row.series, unrated) if part], between="; ")
+    steep = "" if one.row.rating and one.row.rating.max_joint_angle else _("no largest joint angle given")
+    return Joined([part for part in (one.row.series, unrated, steep) if part], between="; ")
 
 
 def _near(sizes: Sequence[SizeFit]) -> list[SizeFit]:
