@@ -289,3 +289,24 @@ def test_a_table_movement_takes_its_rows_along_and_overwrites_none(tmp_path: Pat
 def test_an_old_key_is_met_by_the_new_one():
     with pytest.raises(InputError, match=r"bend_deg: unknown key; the nearest known one is joint_angle_deg"):
         loads("format = 1\n[[joints]]\nbend_deg = 12")
+
+
+@pytest.mark.parametrize(
+    ("line", "number"),
+    [
+        ("speed_rpm = 1,500", "1,500"),
+        ("speed_rpm = 1 500", "1 500"),
+        ("torque_Nm = 12,5 # at the input", "12,5"),
+        ("torque_Nm = 1'200.5", "1'200.5"),
+        ("vehicle = { gear_ratio = 4,7, axle_ratio = 3 }", "4,7"),
+    ],
+)
+def test_decimal_commas_and_thousands_get_a_hint(line, number):
+    with pytest.raises(InputError, match=f"line 2: write {number} with a decimal point"):
+        loads(f"[duty]\n{line}\n")
+
+
+def test_lists_of_numbers_are_no_decimal_commas():
+    with pytest.raises(InputError) as caught:
+        loads("a = [1,2]\nb = { x = 1, y = 2 }\nc = [3,\n")
+    assert "decimal point" not in str(caught.value)

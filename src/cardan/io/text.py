@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,6 +14,9 @@ from cardan.errors import Problem, check, refuse
 from cardan.files import refusal
 from cardan.reading.limits import MAX_BYTES, check_lists, check_size, check_text, limited
 from cardan.texts import _
+
+ODD = re.compile(r"""[=:]\s*([+-]?\d+(?:[,'\u2019 \u00a0\u202f]\d+)+(?:[.,]\d+)?)\s*(?:[,}#]|$)""")
+"""What stands for a number elsewhere and for none in a file: 7,5 and 1 500 and 1,500.0."""
 
 
 def text_of(where: Path) -> tuple[str, str]:
@@ -52,12 +56,23 @@ def parsed(text: str, form: str, name: str) -> dict[str, Any]:
     except RecursionError:
         raise refuse(name, _("is not {format} that can be read: too deeply nested").format(format=title)) from None
     except ValueError as error:  # that of the parser, or of Python for a number of thousands of digits
-        raise refuse(name, _("is not {format}: {why}").format(format=title, why=error)) from None
+        said = _("is not {format}: {why}").format(format=title, why=error)
+        raise refuse(name, said + _odd_number(text)) from None
     check(Problem(key, _("stands twice in one table")) for key in twice)
     if not isinstance(tree, dict):
         raise refuse(name, _("holds no table"))
     check_lists(tree, mechanism=describes_mechanism(tree))
     return tree
+
+
+def _odd_number(text: str) -> str:
+    """Return a hint at the first number with a decimal comma or a sign between its thousands; nothing where none is."""
+    for number, line in enumerate(text.splitlines(), start=1):
+        found = ODD.search(line)
+        if found:
+            hint = _("; line {line}: write {given} with a decimal point and without signs between thousands")
+            return hint.format(line=number, given=found[1])
+    return ""
 
 
 def _once(pairs: list[tuple[str, Any]], twice: list[str]) -> dict[str, Any]:
