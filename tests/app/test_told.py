@@ -42,6 +42,12 @@ def opened(page_of: Open, url: str) -> Open:
     return open_page
 
 
+def test_what_is_rounding_has_no_digits_in_large_letters() -> None:
+    on = subject(example("pickup-two-piece"))
+    assert 0.0 < on.fluctuation < 1e-5
+    assert headline(on, lights(on, swift=True)).value == "< 0.001 %"
+
+
 SIZE = "one => parseFloat(getComputedStyle(one).fontSize)"
 
 

@@ -27,6 +27,7 @@ test("a panel becomes narrower, what stands beside it does not", () => {
 });
 
 test("panels of a row go below each other where they would be too narrow, headings with them", () => {
+  const data = [{ xaxis: "x" }, { xaxis: "x2" }];
   const layout = {
     ...base,
     xaxis: axis([0.05, 0.45]),
@@ -35,13 +36,24 @@ test("panels of a row go below each other where they would be too narrow, headin
     yaxis2: axis([0.2, 0.8]),
     annotations: [head(0.05, 0.8, "one"), head(0.55, 0.8, "two")],
   };
-  const wide = fitted({ data: [], layout }, 934, ruler);
+  const wide = fitted({ data, layout }, 934, ruler);
   assert.deepEqual(wide.yaxis.domain, wide.yaxis2.domain);
-  const narrow = fitted({ data: [], layout }, 334, ruler);
+  const narrow = fitted({ data, layout }, 334, ruler);
   assert.ok(narrow.yaxis2.domain[1] < narrow.yaxis.domain[0]);
   narrow.xaxis.domain.forEach((end, k) => assert.ok(Math.abs(end - narrow.xaxis2.domain[k]) < 1e-9));
   assert.deepEqual(narrow.annotations.map(({ y }) => y), [narrow.yaxis.domain[1], narrow.yaxis2.domain[1]]);
   assert.ok(narrow.height > 1.5 * wide.height);
+});
+
+test("what only fills a row needs no room where its panels go below each other", () => {
+  const row = (count) =>
+    Object.fromEntries([...Array(count).keys()].flatMap((k) => {
+      const tail = k ? String(k + 1) : "";
+      return [[`xaxis${tail}`, axis([0.02 + k / 3, 0.3 + k / 3])], [`yaxis${tail}`, axis([0.1, 0.9])]];
+    }));
+  const data = [{ xaxis: "x" }, { xaxis: "x2" }];
+  const height = (count) => fitted({ data, layout: { ...base, ...row(count) } }, 334, ruler).height;
+  assert.ok(Math.abs(height(3) - height(2)) < 1e-9);
 });
 
 test("circles stay round", () => {

@@ -21,6 +21,7 @@ from cardan.texts import _, plural
 from cardan.version import VERSION
 
 from .block import Listing, Page, Points, Words, page
+from .counted import counted
 from .description import signs
 from .subject import Progress, Subject
 from .summary import steep_joints
@@ -102,7 +103,7 @@ def told(lacking: Lacking) -> str:
     lacking: paths; of each inner tuple any one would do.
     """
     either = _(" or ")
-    keys = "; ".join(either.join(map(key_of, some)) for some in lacking)
+    keys = "; ".join(either.join(counted(key_of(path)) for path in some) for some in lacking)
     return _("This answer needs more in the drive file: {keys}.").format(keys=keys)
 
 

@@ -34,6 +34,7 @@ from .subject import Progress, Subject
 
 FIRST = "speed_fluctuation"  # the check whose number stands first
 SELF_CHECK = "answers_agree"  # the check that asks every question anew
+LEAST = 1e-5  # share below which the number that stands first tells no digits
 REMEDIES = 3  # cures of a verdict; those after them move the drive more
 
 
@@ -90,7 +91,8 @@ def headline(on: Subject, shown: Sequence[Light]) -> Headline:
     """
     judged = next((one for one in shown if any(verdict.check == FIRST for verdict in one.verdicts)), None)
     if judged is not None:
-        return Headline(title=judged.title, value=judged.value.text, tone=judged.tone)
+        worst = max(float(one.value) for one in judged.verdicts if one.check == FIRST)
+        return Headline(title=judged.title, value=_large(worst, judged.value.text), tone=judged.tone)
     if on.drive.movements:
         with suppress(CardanError):
             most = float(np.nanmax(articulation(on.drive, times=default_times(on.drive.movements)).speed_fluctuation))
@@ -115,7 +117,12 @@ def headline_at(on: Subject, instant: float) -> Headline:
 
 
 def _plain(title: str, share: float) -> Headline:
-    return Headline(title=title, value=number(Quantity(share, "share", 3), reader()).text, tone="plain")
+    return Headline(title=title, value=_large(share, number(Quantity(share, "share", 3), reader()).text), tone="plain")
+
+
+def _large(share: float, text: str) -> str:
+    """Return a share as it stands in large letters, with no digits that are rounding and nothing else."""
+    return f"< {number(Quantity(LEAST, 'share', 1), reader()).text}" if 0.0 < share < LEAST else text
 
 
 def with_remedies(on: Subject, progress: Progress | None = None) -> tuple[Light, ...]:

@@ -13,6 +13,7 @@ from cardan.app.state.session import Session
 from cardan.drive.fields.keys import key_of
 from cardan.io.amend import insert
 from cardan.io.keys import file_keys, written_in_examples
+from cardan.report.counted import counted
 from cardan.texts import _
 from cardan.units import label
 
@@ -51,10 +52,10 @@ class Offer:
             if like and hasattr(field.widget, "_props"):
                 field.widget.props["placeholder"] = like
         else:
-            title = _("add {key}").format(key=key_of(chosen))
+            title = _("add {key}").format(key=counted(key_of(chosen)))
             button = ui.button(title, icon="add", on_click=lambda: self._begin(chosen))
             button.props(f'outline dense no-caps size=sm data-mark="add-{chosen}"')
-        others = [key_of(path) for path in group if path != chosen]
+        others = [counted(key_of(path)) for path in group if path != chosen]
         if others:
             ui.label(_("or {keys}").format(keys=_(" or ").join(others))).classes("hint")
 

@@ -115,10 +115,13 @@ export function fitted({ data, layout }, room, ruler, legend = 0) {
   for (const row of all) {
     const { count, factor, upright } = shared(row, meta.width, paper);
     let above = row[0].top - end;
+    // What only fills the row needs no room of its own where panels go below each other.
+    const filled = ({ key, tail }) => data.some(({ xaxis, scene }) => xaxis === `x${tail}` || scene === key);
+    const kept = count < row.length ? row.filter(filled) : row;
     if (!end) above += Math.max(0, legend + 4 - above + (row.some(({ heads }) => heads.length) ? LINE + 4 : 0));
-    for (let first = 0; first < row.length; first += count) {
+    for (let first = 0; first < kept.length; first += count) {
       let x = 0;
-      const some = row.slice(first, first + count).map((panel, k) => {
+      const some = kept.slice(first, first + count).map((panel, k) => {
         const left = (x += before(row, k, count, paper));
         x += factor * (panel.right - panel.left);
         return { panel, left, right: x, heads: [], title: null, names: null };
