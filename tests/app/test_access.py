@@ -183,6 +183,22 @@ def test_nothing_keeps_anybody_out_of_a_drive(opened: Open, example: str, size: 
         judge(page, name)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("language", ["en", "ru"])
+@pytest.mark.parametrize("where", ["/", "/?example=pickup-two-piece"])
+def test_nothing_keeps_anybody_out_at_any_width_in_any_language_and_light(
+    opened: Open, where: str, language: str
+) -> None:
+    page = opened(where, "desk", language, "auto")
+    for width, height in SIZES.values():
+        page.set_viewport_size({"width": width, "height": height})
+        for scheme in ("light", "dark"):
+            page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+            page.wait_for_function(f"document.body.classList.contains('body--{scheme}')")
+            page.wait_for_timeout(QUIET)
+            judge(page, f"{width} {scheme}")
+
+
 QUIET = 600
 """Milliseconds after which a chart was drawn in the room that there is."""
 
