@@ -35,6 +35,7 @@ NAMES = (
     "engines",
     "start_up",
     "app_latency",
+    "refusals",
     "app_frames",
 )
 
