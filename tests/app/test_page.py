@@ -136,6 +136,7 @@ def test_a_text_that_is_no_toml_is_told_and_taken_back(page: Any) -> None:
 
 BAD = {
     "broken.toml": (b"[[joints]\nx", "TOML"),
+    "empty.toml": (b"# nothing yet\n", "empty.toml: holds no table"),
     "photo.toml": (b"\x89PNG\r\n\x1a\n\xff\xfe", "UTF-8"),
     "bomb.json": (b"[" * 200_000, "levels"),
     "deep.toml": (b"format = 1\n" + b".".join([b"a"] * 50_000) + b" = 1\n", "49999 levels"),

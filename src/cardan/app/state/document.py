@@ -203,5 +203,6 @@ def sent(name: str, content: bytes, folder: Enclosed) -> str:
         raise refuse(name, _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from None
     if name.lower().endswith(".json"):
         return dumps(loads_either(text, folder=folder, form="json", name=name))
-    parsed(text, "toml", name)
+    if not parsed(text, "toml", name):
+        raise refuse(name, _("holds no table"))
     return text

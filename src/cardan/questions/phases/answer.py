@@ -319,8 +319,8 @@ def _remarks(drive: Drive, found: Phasing, fixed: Mapping[int, float], nearest: 
         yield Remark(text=say(text, most=Quantity(1e-6, "angle", 1, unit="rad")))
     if felt := wobbling(drive):
         text = plural(
-            "A shaft wobbles behind joint {which}: what later joints make of that is in the motion, not in these figures.",
-            "Shafts wobble behind joints {which}: what later joints make of that is in the motion, not in these figures.",
+            "A shaft wobbles behind joint {which}: what later joints make of that is told by the motion alone.",
+            "Shafts wobble behind joints {which}: what later joints make of that is told by the motion alone.",
             len(felt),
         )
         which = Joined([str(i + 1) for i in felt], last=_(" and "))
