@@ -7,6 +7,7 @@ from cardan.answers.reader import USUAL
 from cardan.catalogue.answer import answer_of_table
 from cardan.catalogue.catalogue import Catalogue, catalogue, found, with_files
 from cardan.catalogue.rows import JointSize
+from cardan.catalogue.sheets import tree_of
 from cardan.errors import InputError
 
 TOML = """
@@ -81,3 +82,12 @@ def test_what_is_told_as_csv_is_read_again(tmp_path, table):
     (tmp_path / f"{table}.csv").write_text("\n".join(as_csv(told, USUAL)), encoding="utf-8")
     again = with_files(Catalogue(tables={}), [tmp_path / f"{table}.csv"]).tables[table]
     assert list(again) == list(catalogue().tables[table])
+
+
+def test_the_name_of_a_csv_file_ends_with_that_of_its_table(tmp_path):
+    text = "id,source\nacme-1,own tests\n"
+    (tmp_path / "acme-speed_angle_limits.csv").write_text(text)
+    assert list(tree_of(tmp_path / "acme-speed_angle_limits.csv")) == ["speed_angle_limits"]
+    (tmp_path / "firm.csv").write_text(text)
+    with pytest.raises(InputError, match=r"called after its own, as acme-joint_sizes\.csv; the tables are materials"):
+        tree_of(tmp_path / "firm.csv")

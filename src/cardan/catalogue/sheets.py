@@ -26,7 +26,7 @@ WORDS = {"true": True, "yes": True, "false": False, "no": False}
 
 
 def tree_of(path: Path) -> dict[str, list[dict[str, Any]]]:
-    """Return the tables of a CSV file, named as the table, or of a workbook, whose sheets are named so.
+    """Return the tables of a CSV file, whose name ends with that of its table, or of a workbook, whose sheets have it.
 
     A key of an inner table stands in the head after a point, ``rating.torque_Nm``; parts of a list are parted by ``;``
     or by a comma and a blank.
@@ -36,7 +36,13 @@ def tree_of(path: Path) -> dict[str, list[dict[str, Any]]]:
         text = path.read_text(encoding="utf-8-sig")
         head = text.partition("\n")[0]
         dialect: Any = _Semicolons if head.count(";") > head.count(",") else csv.excel
-        return {path.stem: _rows(path.stem, csv.reader(text.splitlines(), dialect))}
+        table = next((name for name in sorted(TABLES, key=len, reverse=True) if path.stem.endswith(name)), "")
+        if not table:
+            said = _(
+                "unknown table; a CSV file is called after its own, as acme-joint_sizes.csv; the tables are {known}"
+            )
+            raise refuse("", said.format(known=", ".join(TABLES)))
+        return {table: _rows(table, csv.reader(text.splitlines(), dialect))}
     try:
         book = openpyxl().load_workbook(path, read_only=True, data_only=True)
     except (KeyError, ValueError, BadZipFile) as error:

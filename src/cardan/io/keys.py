@@ -47,16 +47,17 @@ def file_keys(under: str = "") -> tuple[FileKey, ...]:
     'joints[].cross.span_mm'
     """
     wanted = re.sub(r"\[\d*\]", "", under)
-    found = (_key(path, fields) for path, fields in _paths().items())
-    return tuple(key for key in found if _at(key, wanted))
+    found = [_key(path, fields) for path, fields in _paths().items()]
+    named = [key for key in found if wanted in _spelled(key)]
+    below = tuple(f"{key.path.replace('[]', '')}." for key in named) or (f"{wanted}.", f"{wanted}_")
+    return tuple(key for key in found if not wanted or key in named or key.path.replace("[]", "").startswith(below))
 
 
-def _at(key: FileKey, wanted: str) -> bool:
+def _spelled(key: FileKey) -> set[str]:
+    """Return the ways to write the path of a key: without a unit, and with each that it may have."""
     path = key.path.replace("[]", "")
-    stem = path.rpartition("_")[0]
-    if not wanted or path == wanted or path.startswith((f"{wanted}.", f"{wanted}_")):
-        return True
-    return wanted in {f"{stem}_{unit}" for unit in key.units}
+    stem = path.rpartition("_")[0] if key.units else path
+    return {path, stem, *(f"{stem}_{unit}" for unit in key.units)}
 
 
 def _key(path: str, fields: list[tuple[str, Field]]) -> FileKey:

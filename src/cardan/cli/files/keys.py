@@ -58,8 +58,8 @@ def _few(found: tuple[FileKey, ...]) -> Table:
         columns=(
             Column(key="", heading=_("key"), values=[key.path for key in found], left=True, wrap=True),
             Column(key="", heading=_("value"), values=[_value(key) for key in found], left=True, wrap=True),
-            Column(key="", heading=_("meaning"), values=[_meaning(key) for key in found], left=True, wrap=True),
             *((Column(key="", heading=_("example"), values=shown, left=True, wrap=True),) if any(shown) else ()),
+            Column(key="", heading=_("meaning"), values=[_meaning(key) for key in found], left=True, wrap=True),
         ),
     )
 

@@ -154,8 +154,8 @@ def _print_table(console: Console, table: Table) -> None:
     headings = [[column.heading for column in columns], [column.unit for column in columns]]
     widths = [max(len(row[k]) for row in headings + cells) for k in range(len(columns))]
     if columns and columns[-1].wrap:
-        room = console.width - GAP - sum(GAP + width for width in widths[:-1])
-        widths[-1] = min(widths[-1], max(NARROWEST, room))
+        room, alone = (console.width - GAP - sum(GAP + one for one in widths[:k]) for k in (-1, table.fixed))
+        widths[-1] = min(widths[-1], room if room >= NARROWEST else max(NARROWEST, alone))
     for place, block in enumerate(_blocks(widths, table.fixed, console.width)):
         if place:
             console.print()

@@ -28,10 +28,7 @@ SIZES = ((12, 9, 17.0), (30, 8, 12.5), (math.inf, 7, 11.0))
 """Up to how many bars their names have which size, and the pixels that one needs at the least."""
 
 LONG = 36  # letters of a name of a bar that has room in one line at the usual size
-
-TRACK = palette.mixed(palette.colour("muted"), "#ffffff", 0.82)
-"""Colour behind lying bars, up to their limit."""
-
+TRACK = palette.mixed(palette.colour("muted"), "#ffffff", 0.82)  # colour behind lying bars, up to their limit
 LABELS: dict[tuple[str, str], str] = {("centre", "top"): "below", ("left", ""): "right", ("right", ""): "left"}
 
 
