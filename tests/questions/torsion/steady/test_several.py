@@ -73,31 +73,65 @@ def settled(
     return found
 
 
+def ramped(
+    spring: Callable[[float, float], float], speed: float, load: float, swing: float, begin: float
+) -> tuple[float, float]:
+    """Return the extremes of the twist after 30 s in which the speed changes evenly from another one."""
+    time, h = 30.0, 2.0 * np.pi / speed / 120
+    x, v, twists = -load / STIFFNESS, 0.0, []
+
+    def pushed(t: float, x: float, v: float) -> float:
+        ramp = min(t, time)
+        turned = begin * ramp + 0.5 * (speed - begin) / time * ramp**2 + speed * (t - ramp)
+        rate = (speed - begin) / time if t < time else 0.0
+        return (spring(-x, -v) - load + swing * float(np.sin(turned + x))) / INERTIA - rate
+
+    for k in range(int(time / h) + 60 * 120):
+        t = k * h
+        a = pushed(t, x, v)
+        b = pushed(t + h / 2, x + h / 2 * v, v + h / 2 * a)
+        c = pushed(t + h / 2, x + h / 2 * v + h * h / 4 * a, v + h / 2 * b)
+        d = pushed(t + h, x + h * v + h * h / 2 * b, v + h * c)
+        x, v = x + h * v + h * h / 6 * (a + b + c), v + h / 6 * (a + 2 * b + 2 * c + d)
+        twists.append(-x)
+    return min(twists[-240:]), max(twists[-240:])
+
+
 def told(model: TorsionalModel, speed: float) -> list[tuple[float, float]]:
-    """Return the extremes of the twist of the motions that are told, the widest first."""
+    """Return the extremes of the twist of the motion that is told, then of the others, the widest first."""
     orbit, status, beside = stable_motions(*steady_orbits(model, speed=[speed]))
     assert status[0] == Status.CONVERGED
     assert floquet(orbit).verdict[0] == Verdict.STABLE
     highest = read_off(orbit, 1).highest[0, 0]
-    assert all(one.highest[0] < highest for one in beside)
+    assert all(one.highest[0] < highest for one in beside if one.reached)
     angles = np.linspace(0.0, orbit.period, 2000)
     twists = [np.subtract(*one.at(angles)[0][0].T) for one in (orbit, *(one.orbit for one in beside))]
     return [(float(np.min(one)), float(np.max(one))) for one in twists]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("speed", "count"), [(63.0, 2), (69.0, 2), (75.0, 2), (100.0, 1)])
-def test_play_has_all_motions_to_which_it_settles(speed: float, count: int) -> None:
+@pytest.mark.parametrize(("speed", "count"), [(63.0, 2), (69.0, 2), (75.0, 3), (100.0, 1)])
+def test_play_has_all_motions_to_which_it_settles_and_tells_the_widest_that_a_slow_ramp_reaches(
+    speed: float, count: int
+) -> None:
+    """At 75 rad/s the widest motion is reached by no slow run-up nor run-down; it is told beside."""
     half, damping = 0.01, 1.5
+
+    def one_spring(twist: float, rate: float) -> float:
+        over = twist - half if twist > half else twist + half if twist < -half else 0.0
+        return STIFFNESS * over + (damping * rate if over else 0.0)
 
     def spring(twist: np.ndarray, rate: np.ndarray) -> np.ndarray:
         over = np.where(twist > half, twist - half, np.where(twist < -half, twist + half, 0.0))
         return STIFFNESS * over + np.where(over != 0.0, damping * rate, 0.0)
 
+    ends = sorted((ramped(one_spring, speed, 4.0, 2.0, share * speed) for share in (0.5, 1.5)), key=np.diff)
     truth = settled(spring, speed, 4.0, 2.0)
+    truth += [one for one in ends if all(abs(one[1] - other[1]) > 5e-4 for other in truth)]
     found = told(line(load=4.0, swing=2.0, damping=damping, backlash=2.0 * half), speed)
     assert len(found) == len(truth) == count
-    np.testing.assert_allclose(found, truth, atol=1e-4)  # what is left of the start, of steps across contacts
+    np.testing.assert_allclose(sorted(found), sorted(truth), atol=1e-4)  # what the start, steps across contacts leave
+    np.testing.assert_allclose(found[0], ends[-1], atol=1e-4)
 
 
 @pytest.mark.slow
@@ -193,6 +227,8 @@ def test_a_motion_whose_period_has_doubled_is_told() -> None:
     assert found.floquet.kind == Kind.DOUBLING
     (longer,) = found.beside
     assert longer.periods == 2
+    assert longer.reached
+    assert longer.runs
     stand = loaded_model(drive, drive.duty, np.asarray(450.0 * rpm))[1]
     place, torque = shaken(stand, 450.0 * rpm, -0.01, 100.0, 160)
     assert abs(place[-1] - place[-3]) < 1e-4 < 1e-2 < abs(place[-1] - place[-2])
@@ -206,12 +242,12 @@ def test_a_motion_whose_period_has_doubled_is_told() -> None:
 
 
 @pytest.mark.slow
-def test_motions_of_several_periods_beside_a_stable_one_are_told_and_do_not_count() -> None:
+def test_motions_of_several_periods_that_take_a_blow_are_told_and_do_not_count() -> None:
     drive = example("pto-flywheel")
     found = torsion_response(drive)
     assert found.floquet.verdict == Verdict.STABLE
     assert [one for one in found.beside if one.periods != 1]
-    assert not any(one.runs for one in found.beside)
+    assert not any(one.runs or one.reached for one in found.beside)
     assert found.torque_lowest[0] > 0.0
     assert min(float(one.lowest[0]) for one in found.beside) < 0.0
     assert any("may repeat" in told_text(one.text, USUAL) for one in answer(drive, found).remarks)

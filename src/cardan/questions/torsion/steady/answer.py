@@ -25,7 +25,7 @@ from cardan.texts import _, mark, plural
 
 from .figure import response_figures
 from .run_stability import Verdict, verdict_words
-from .several import LONGEST
+from .settling import LONGEST
 from .torsion_response import TorsionResponse, level, peak_refined, torsion_response
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "worst"]
@@ -289,6 +289,9 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
         yield _beside(found)
     if any(one.periods != 1 for one in found.beside):
         yield _longer(found)
+    if found.train.model.free and np.any(found.train.model.backlash > 0.0):
+        text = _("Nothing holds the speed of this drive: beside a motion with open backlash no other ones were sought.")
+        yield Remark(text=text)
     if drive.duty.engine is not None and drive.duty.engine.mean_pressure is not None:
         yield _engine(drive.duty.engine, found)
     if found.train.model.free and not swept and bool(steady.found):
@@ -332,8 +335,9 @@ def _longer(found: TorsionResponse) -> Remark:
         torque = _torque(max(float(np.max(one.swing)) for one in own))
         swings.append(say(text, periods=periods, longest=LONGEST, torque=torque, where=where))
     text = _(
-        "Where backlash opens the motion may repeat {how}; that counts in lowest and highest torques where the motion "
-        "of one period is unstable, and orders are of that one."
+        "Where backlash opens the motion may repeat {how}; that counts in lowest and highest torques where a slow "
+        "run-up or run-down leads to it, else it takes a blow or an abrupt start. Orders are of the motion of one "
+        "period."
     )
     return Remark(text=say(text, how=Joined(swings)), tone="warning")
 
@@ -343,19 +347,23 @@ def _beside(found: TorsionResponse) -> Remark:
     beside = [one for one in found.beside if one.periods == 1]
     if not found.speed.ndim:
         text = _(
-            "Other stable motions at this speed: {torques}; which one runs depends on how the speed was reached, and "
-            "told is the one with the largest alternating torque."
+            "Other stable motions at this speed: {torques}; told is the largest to which a slow run-up or run-down "
+            "leads."
         )
-        torques = [say("±{torque}", torque=_torque(float(np.max(one.swing)))) for one in beside]
+        blow = _("±{torque} after a blow or an abrupt start")
+        torques = [
+            say("±{torque}" if one.reached else blow, torque=_torque(float(np.max(one.swing)))) for one in beside
+        ]
         return Remark(text=say(text, torques=Joined(torques)), tone="warning")
     text = _(
-        "Several stable motions at {where}, down to ±{torque}: the torque jumps on the way up and down; told is the "
-        "one with the largest alternating torque."
+        "Several stable motions at {where}, {torques}: the torque jumps on the way up and down; told is the largest to "
+        "which a slow run-up or run-down leads."
     )
     several = np.isin(np.arange(len(found.speed)), [one.row for one in beside])
     where = ranges(np.abs(found.speed), several, "angular_speed")
-    least = min(float(np.max(one.swing)) for one in beside)
-    return Remark(text=say(text, where=where, torque=_torque(least)), tone="warning")
+    sizes = [float(np.max(one.swing)) for one in beside]
+    ends = [say("±{torque}", torque=_torque(one)) for one in sorted({min(sizes), max(sizes)})]
+    return Remark(text=say(text, where=where, torques=Joined(ends, between=" … ")), tone="warning")
 
 
 def _alarms(found: TorsionResponse) -> Iterator[Remark]:
@@ -471,6 +479,7 @@ def _facts(found: TorsionResponse) -> dict[str, Any]:
         "side_bands": [{"order": order, "torque": Quantity(size, "torque")} for order, size in found.side_orders(0.0)],
         "other_motions": [
             {
+                "reached": one.reached,
                 "speed": Quantity(float(np.abs(found.speed.reshape(-1)[one.row])), "angular_speed"),
                 "periods": one.periods or None,
                 "runs": one.runs,

@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cardan.later import later
 from cardan.maths.arrays import Array
-from cardan.maths.compiled import plain
-from cardan.maths.compiled import torsion_line as lines
-from cardan.maths.compiled.method import has_numba
 from cardan.maths.periodic.harmonics import HarmonicBalance, Status, odd_growth
 from cardan.maths.periodic.switching_orbit import Pieces
-from cardan.questions.torsion.model.torsional_balance import element_torques
-from cardan.questions.torsion.model.torsional_layouts import Turning, chosen, line_of, single
+from cardan.questions.torsion.model.torsional_layouts import Turning, single
 from cardan.questions.torsion.model.torsional_modes import straight_modes
 
-from .orbit import Backlashed, Orbit, at_rest, pieces_near, straight_stiffness
+from .orbit import Orbit, at_rest, pieces_near
 from .run_stability import Verdict, floquet
+from .settling import ALIKE, Run, near, padded, ramped, settled
 from .steady import CHUNK, HARMONICS, LOWER, MOST, fourier_of, sums_of
 from .steady_result import read_off
-
-compiled = later("cardan.maths.compiled.torsion_block")
 
 SIZES = (1.0, 1.5, 3.0)
 """Swings that searches begin with, over what the drive twists anyway."""
@@ -32,39 +25,21 @@ SIZES = (1.0, 1.5, 3.0)
 PHASES = 8
 """Phases that they begin with."""
 
-FADED, PERIODS = 5.0, (40, 250)
-"""By e to which power what a drive with play begins with has faded when it is looked at, and after how many periods."""
-
-REPEATS = 0.02
-"""Share of its swing by which it may still change from one period to the next."""
-
-STEPS, REACH, LIGHT = 256, 0.4, 3.0
-"""Steps of a period at least, phase of the fastest oscillation in one, by how much what has no inertia is faster."""
-
-LONGEST, EVERY, RUN = 6, 60, 36
-"""Periods after which a motion is looked at whether it repeats, what divides by all of them, and how many periods are
-followed of one that does not."""
-
-CLOSE, COARSE = 64, 32
-"""Samples of a period, to tell a motion and to follow what does not repeat."""
-
-SETTLED = 0.2
-"""Share by which the swing of what does not repeat may change from one half of that run to the other."""
-
-ALIKE, SAME = 0.03, 1e-4
-"""Difference of two motions, over the larger of them, below which it is one: as sought, and exactly."""
+SAME = 1e-4
+"""Difference of two motions, over the larger of them, below which it is one exactly."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Beside:
-    """A further stable motion of one of many drives: as likely as the one that is told, by how it was reached."""
+    """A further stable motion of one of many drives, beside the one of one period that is told."""
 
     row: int  # which drive, counted through the leading axes
     orbit: Orbit | None  # (1,); None of what does not repeat
     lowest: Array  # lowest, highest (E,) [N·m]: true extremes of the torque of every element
     highest: Array
     periods: int = 1  # after how many periods it repeats; 0 where not within `LONGEST`: extremes of a long run
-    runs: bool = False  # whether it is what runs, since no motion of one period is stable
+    reached: bool = False  # whether a slow run-up or run-down leads to it
+    runs: bool = False  # whether it counts while it repeats after several periods only, or not at all
 
     @property
     def swing(self) -> Array:
@@ -77,12 +52,17 @@ def stable_motions(orbit: Orbit, status: Array) -> tuple[Orbit, Array, tuple[Bes
     """Return motions with a stable one wherever one is found, their status, and further stable ones.
 
     orbit (...), status (...): as `steady_orbits` gives them.
-    Of several stable motions the one with the largest swing of the torque is told, the others stand beside it. Others
-    are sought where play may open, by following the drive in time from swings of the mode next to a multiple of the
-    speed until they repeat, and where the motion found is the middle one of three, by harmonic balance from the same
-    swings: a search from so many starts, no proof that there are no others. The speed of free drives is held by nothing
-    that is known; of them none is sought. With play motions may repeat after several periods only, or not at all, as
-    where the one of one period has doubled: they stand beside the one of one period, and run where that is unstable.
+    Others are sought where play may open, by following the drive in time from swings of the mode next to a low multiple
+    of the speed until they repeat, and where the motion found is the middle one of three, by harmonic balance from the
+    same swings: a search from so many starts, no proof that there are no others. With play motions may repeat after
+    several periods only, or not at all. The speed of free drives is held by nothing that is known; of them none is
+    sought.
+
+    Of several stable motions one counts, by one rule for all: of those that a slow run-up or run-down leads to
+    (`cardan.questions.torsion.steady.settling`) the one with the largest swing of the torque. It is the motion that is
+    told where it repeats with every period; else it runs beside one of one period, see `widened`. Others take a blow or
+    an abrupt start: they stand beside it. Where neither leads to one that was found, or springs have tables, which
+    fixed steps do not follow, the largest of one period counts.
     """
     rows = np.flatnonzero(_several(orbit, status))
     coefficient = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])
@@ -92,22 +72,45 @@ def stable_motions(orbit: Orbit, status: Array) -> tuple[Orbit, Array, tuple[Bes
         own = _alone(orbit, row)
         known = [own] if floquet(own).verdict[0] == Verdict.STABLE else []
         motions = _distinct([*known, *_others(orbit, row, [one.wave for one in runs if one.periods == 1])])
-        every = [Beside(row=row, orbit=one, **_extremes(one)) for one in motions]
-        beside += _longer(orbit, row, runs, every)
-        if not every:
-            continue
-        every.sort(key=lambda one: -float(np.max(one.swing)))
-        first, beside = every[0].orbit, beside + every[1:]
+        first, others = _counted(orbit, row, runs, motions)
+        beside += others
         if first is None or first is own:
             continue
-        wide = max(coefficient.shape[-1], first.coefficient.shape[-1])
-        coefficient = _wide(coefficient, wide)
-        coefficient[row], states[row] = _wide(first.coefficient, wide)[0], Status.CONVERGED
+        width = max(coefficient.shape[-1], first.coefficient.shape[-1])
+        coefficient = padded(coefficient, width)
+        coefficient[row], states[row] = padded(first.coefficient, width)[0], Status.CONVERGED
         pieces.pop(row, None)
         if first.pieces:
             pieces[row] = first.pieces[0]
     shaped = coefficient.reshape(*orbit.angle_error, *coefficient.shape[1:])
     return replace(orbit, coefficient=shaped, pieces=pieces), states.reshape(np.shape(status)), tuple(beside)
+
+
+def _counted(
+    orbit: Orbit, row: int, runs: Sequence[Run], motions: Sequence[Orbit]
+) -> tuple[Orbit | None, list[Beside]]:
+    """Return the motion of one period that is told, and what else is stable beside it, with what runs."""
+    part = orbit.turning.part(np.asarray([row]))
+    if len(motions) > 1 and not (part.model.special or any(one.reached for one in runs)):
+        runs = [*ramped(part), *runs]
+    waves = [one.wave for one in runs if one.reached and one.periods == 1]
+    once = []
+    for one in motions:
+        reached = any(near(one.coefficient[0, part.first :], wave, ALIKE) for wave in waves)
+        once.append(Beside(row=row, orbit=one, reached=reached, **_extremes(one)))
+    once.sort(key=_size, reverse=True)
+    every = [*once, *_longer(part, row, runs, once)]
+    if len(every) == 1:  # whatever the way, it leads there
+        once, every = ([replace(one, reached=True) for one in each] for each in (once, every))
+    counted = max([one for one in every if one.reached] or once or every, key=_size, default=None)
+    first = max([one for one in once if one.reached] or once, key=_size, default=None)
+    others = [replace(one, runs=one is counted) for one in every if first is None or one.orbit is not first.orbit]
+    return (None if first is None else first.orbit), others
+
+
+def _size(one: Beside) -> float:
+    """Return the largest swing of a torque [N·m]."""
+    return float(np.max(one.swing))
 
 
 def _several(orbit: Orbit, status: Array) -> Array:
@@ -135,26 +138,8 @@ def widened(lowest: Array, highest: Array, beside: Sequence[Beside]) -> tuple[Ar
     return low, high
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class _Run:
-    """Where a search led: a sum (R, H+1) over some periods; of what does not repeat its torques (E,)."""
-
-    wave: Array
-    periods: int = 1
-    lowest: Array | None = None
-    highest: Array | None = None
-
-    def same(self, other: _Run) -> bool:
-        """Tell whether another is alike, be it some periods later."""
-        if self.periods != other.periods:
-            return False
-        turn = 2j * np.pi * np.arange(self.wave.shape[-1]) / self.periods
-        return any(_near(self.wave * np.exp(turn * k), other.wave, ALIKE) for k in range(self.periods))
-
-
-def _longer(orbit: Orbit, row: int, runs: Sequence[_Run], known: Sequence[Beside]) -> list[Beside]:
+def _longer(part: Turning, row: int, runs: Sequence[Run], known: Sequence[Beside]) -> list[Beside]:
     """Return the stable motions of several periods, and the widest of those that do not repeat, beside known ones."""
-    part = orbit.turning.part(np.asarray([row]))
     found: list[Beside] = []
 
     def new(lowest: Array, highest: Array, share: float) -> bool:
@@ -162,7 +147,7 @@ def _longer(orbit: Orbit, row: int, runs: Sequence[_Run], known: Sequence[Beside
         every = [(one.lowest, one.highest) for one in (*known, *found)]
         return not any(max(np.max(abs(a - lowest)), np.max(abs(b - highest))) <= least for a, b in every)
 
-    begun: list[_Run] = []
+    begun: list[Run] = []
     for run in (one for one in runs if one.periods > 1):
         if any(run.same(other) for other in begun):
             continue
@@ -175,44 +160,48 @@ def _longer(orbit: Orbit, row: int, runs: Sequence[_Run], known: Sequence[Beside
         alone = _of_one(longer, sums, {0: pieces})
         ends = _extremes(alone)
         if floquet(alone).verdict[0] == Verdict.STABLE and new(**ends, share=SAME):
-            found.append(Beside(row=row, orbit=alone, periods=run.periods, **ends))
-    wild = [(one.lowest, one.highest) for one in runs if one.lowest is not None and one.highest is not None]
-    if wild:
-        low, high = max(wild, key=lambda one: float(np.max(one[1] - one[0])))
-        if new(low, high, ALIKE):
-            found.append(Beside(row=row, orbit=None, lowest=low, highest=high, periods=0))
-    found.sort(key=lambda one: -float(np.max(one.swing)))
-    return [replace(one, runs=not known) for one in found]
+            found.append(Beside(row=row, orbit=alone, periods=run.periods, reached=run.reached, **ends))
+    for reached in (True, False):
+        wild = [run for run in runs if run.periods == 0 and run.reached >= reached]
+        torques = [(one.lowest, one.highest) for one in wild if one.lowest is not None and one.highest is not None]
+        if torques:
+            low, high = max(torques, key=lambda one: float(np.max(one[1] - one[0])))
+            if new(low, high, ALIKE):
+                found.append(Beside(row=row, orbit=None, lowest=low, highest=high, periods=0, reached=reached))
+    return sorted(found, key=_size, reverse=True)
 
 
-def _searched(orbit: Orbit, rows: Array) -> Iterator[tuple[int, list[_Run]]]:
+def _searched(orbit: Orbit, rows: Array) -> Iterator[tuple[int, list[Run]]]:
     """Yield rows with where searches led that began with other swings."""
     turning = orbit.turning
     loose = np.any(np.broadcast_to(orbit.model.backlash, (*orbit.angle_error, len(orbit.model.elements))) > 0.0, -1)
-    open_ = [int(row) for row in rows if loose.reshape(-1)[row]]
+    open_ = [int(row) for row in rows if loose.reshape(-1)[row] and not orbit.model.special]
     for row in open_:
-        yield row, _settled(turning.part(np.asarray([row])), _starts(orbit, row))
+        part = turning.part(np.asarray([row]))
+        runs = settled(part, _starts(orbit, row))
+        several = any(not run.same(runs[0]) for run in runs)
+        yield row, [*ramped(part), *runs] if several else runs
     smooth = [int(row) for row in rows if row not in open_]
     if not smooth:
         return
     parts = [_starts(orbit, row) for row in smooth]
     wide, each = max(part.shape[-1] for part in parts), len(SIZES) * PHASES
     few = HARMONICS * round(turning.period / np.pi)
-    starts = np.concatenate([_wide(one, wide) for one in parts])
+    starts = np.concatenate([padded(one, wide) for one in parts])
     led, _fine = _sums(turning, np.repeat(smooth, each), starts, HarmonicBalance(harmonics=few, most=few))
     begun = [_unlike(led[k * each : (k + 1) * each]) for k in range(len(smooth))]
     own = np.repeat(np.arange(len(smooth)), [len(one) for one in begun])
     how = HarmonicBalance(harmonics=few, most=MOST)
     waves, fine = _sums(turning, np.asarray(smooth)[own], np.concatenate(begun), how)
     for k, row in enumerate(smooth):
-        yield row, [_Run(wave=one) for one in waves[fine & (own == k)]]
+        yield row, [Run(wave=one) for one in waves[fine & (own == k)]]
 
 
 def _sums(turning: Turning, rows: Array, starts: Array, how: HarmonicBalance) -> tuple[Array, Array]:
     """Return where sums (b, R, H+1) of some of the drives lead, nan where nowhere, and which are fine enough (b,)."""
     parts = [sums_of(turning.part(rows[k : k + CHUNK]), starts[k : k + CHUNK], how) for k in range(0, len(rows), CHUNK)]
     wide = max([starts.shape[-1], *(part.coefficient.shape[-1] for part in parts)])
-    sums = np.concatenate([_wide(starts[:0], wide), *[_wide(part.coefficient, wide) for part in parts]])
+    sums = np.concatenate([padded(starts[:0], wide), *[padded(part.coefficient, wide) for part in parts]])
     return sums, np.concatenate([np.zeros(0), *[part.status for part in parts]]) == Status.CONVERGED
 
 
@@ -220,81 +209,9 @@ def _unlike(sums: Array) -> Array:
     """Return those of sums (b, R, H+1) that were found and unlike each other."""
     found: list[Array] = []
     for one in sums[np.isfinite(sums).all(axis=(-1, -2))]:
-        if not any(_near(one, other, ALIKE) for other in found):
+        if not any(near(one, other, ALIKE) for other in found):
             found.append(one)
     return np.asarray(found).reshape(len(found), *sums.shape[1:])
-
-
-def _settled(part: Turning, starts: Array) -> list[_Run]:
-    """Return what one drive with play does after a while, followed in time.
-
-    starts (b, R, h+1), complex: motions whose places and speeds at the angle 0 are those to begin with. What turns
-    no inertia gets so little that it swings faster than all else: the search alone follows it.
-    """
-    count = len(starts)
-    model, switching = part.drives(np.zeros(1, dtype=int)), Backlashed(part)
-    modes = straight_modes(replace(single(part.model, (1,), 0), torques=(), input_speed=0.0))
-    duration, base = 2.0 * np.pi / abs(float(part.frequency[0])), float(part.frequency[0])
-    decay = float(np.min(modes.damping_ratio * modes.omega, initial=np.inf))
-    inertia, fastest = np.array(model.inertia), switching.fastest
-    if not switching.heavy.all():
-        spring = np.max(np.diagonal(straight_stiffness(model), axis1=-2, axis2=-1))
-        for r in np.flatnonzero(~switching.heavy) + part.first:
-            inertia[:, model.owner[r]] = spring / (LIGHT * fastest) ** 2
-        fastest *= LIGHT
-    single_model = chosen(replace(part.model, inertia=inertia), (1,), np.zeros(count, dtype=int), moments=False)
-    line = line_of(single_model, count)
-    order = np.arange(starts.shape[-1])
-    place = np.sum(starts, axis=-1).real.T
-    rate = np.sum(1j * base * order * starts, axis=-1).real.T
-    speed = np.full(count, float(part.speed[0]))
-    q, v = np.vstack([0.0 * speed, place]), np.vstack([speed, rate + speed])
-    block = (compiled() if has_numba() else plain).Block(line, lines.begin(line, q, v))
-    steps = STEPS * max(1, math.ceil(duration * fastest / (REACH * STEPS)))
-    periods = min(max(math.ceil(FADED / (decay * duration)), PERIODS[0]), PERIODS[1])
-    periods = EVERY * math.ceil(periods / EVERY)
-
-    def advanced(begin: float, taken: int) -> Array:
-        """Return what each coordinate is off even rotation, and that of its speed, after some steps."""
-        block.advance(begin, taken, duration / steps, (begin * speed, speed, 0.0 * speed), last=False)
-        angle, turning, _work = block.now()
-        then = begin + taken * duration / steps
-        return np.stack([angle[1:] - then * speed, (turning[1:] - speed) / abs(base)])
-
-    def followed(first: int, count: int, samples: int) -> Array:
-        """Return the same at the samples of some periods, each at the end of its step, array (2, R, k, s)."""
-        times = duration * (first + np.arange(count * samples) / samples)
-        return np.stack([advanced(float(time), steps // samples) for time in times], axis=-1)
-
-    advanced(0.0, periods * steps)
-    path = followed(periods, LONGEST + 1, CLOSE)
-    swing = np.max(np.ptp(path[0], axis=-1), axis=0)
-    finite = np.isfinite(path).all(axis=(0, 1, 3))
-    found: list[_Run] = []
-    left = finite.copy()
-    for m in range(1, LONGEST + 1):
-        shifted = np.max(np.abs(path[..., m * CLOSE :] - path[..., : -m * CLOSE]), axis=(0, 1, 3))
-        rows = np.flatnonzero(left & (shifted <= REPEATS * swing))
-        left[rows] = False
-        samples = np.roll(path[0][..., : m * CLOSE], 1, axis=-1)[:, rows]
-        wave = np.fft.rfft(samples, axis=-1)[..., : m * LOWER] / (m * CLOSE)
-        wave[..., 1:] *= 2.0
-        found += [_Run(wave=wave[:, k] if base > 0.0 else wave[:, k].conj(), periods=m) for k in range(len(rows))]
-    rows = np.flatnonzero(left)
-    if rows.size:
-        path = followed(periods + LONGEST + 1, RUN, COARSE)[:, :, rows]
-        halves = [np.max(np.ptp(one[0], axis=-1), axis=0) for one in np.split(path, 2, axis=-1)]
-        lasts = np.abs(halves[0] - halves[1]) <= SETTLED * np.maximum(*halves)
-        times = duration * (periods + LONGEST + 1 + (np.arange(RUN * COARSE) + 1) / COARSE)
-        angle = np.pad(np.moveaxis(path[0], 0, -1), ((0, 0), (0, 0), (1, 0)))
-        rate = np.pad(np.moveaxis(path[1] * abs(base), 0, -1), ((0, 0), (0, 0), (1, 0)))
-        torque = element_torques(
-            part.drives(np.zeros(len(rows), dtype=int)), angle + (times * speed[0])[:, None], rate + speed[0]
-        )
-        for k in np.flatnonzero(lasts).tolist():
-            ends = {"lowest": np.min(torque[k], axis=0), "highest": np.max(torque[k], axis=0)}
-            found.append(_Run(wave=np.zeros((len(path[0]), 0)), periods=0, **ends))
-    return found
 
 
 def _starts(orbit: Orbit, row: int) -> Array:
@@ -332,7 +249,7 @@ def _others(orbit: Orbit, row: int, sums: Sequence[Array]) -> Iterator[Orbit]:
     loose = bool(np.any(part.model.backlash > 0.0))
     begun: list[Array] = []
     for one in sums:
-        if any(_near(one, other, ALIKE) for other in begun):
+        if any(near(one, other, ALIKE) for other in begun):
             continue
         begun.append(one)
         coefficient = one
@@ -370,21 +287,9 @@ def _distinct(motions: list[Orbit]) -> list[Orbit]:
     """Return motions without those that stand there already."""
     found: list[Orbit] = []
     for one in motions:
-        if not any(_near(one.coefficient[0], other.coefficient[0], SAME) for other in found):
+        if not any(near(one.coefficient[0], other.coefficient[0], SAME) for other in found):
             found.append(one)
     return found
-
-
-def _near(one: Array, other: Array, share: float) -> bool:
-    """Tell whether two sums (R, H+1) differ by less than a share of their swing."""
-    wide = max(one.shape[-1], other.shape[-1])
-    first, second = _wide(one, wide), _wide(other, wide)
-    swing = max(float(np.max(np.abs(each[:, 1:]), initial=0.0)) for each in (first, second))
-    return bool(np.max(np.abs(first - second)) <= share * swing)
-
-
-def _wide(coefficient: Array, width: int) -> Array:
-    return np.pad(coefficient, [(0, 0)] * (coefficient.ndim - 1) + [(0, width - coefficient.shape[-1])])
 
 
 def _extremes(orbit: Orbit) -> dict[str, Array]:
