@@ -20,7 +20,9 @@ from .figure import Figure
 from .for_reader import for_reader
 
 drives = later("cardan.figures.drive")
-pages, vectors, pixels = (later(f"cardan.figures.render_{by}") for by in ("plotly", "svg", "matplotlib"))
+pages = later("cardan.figures.render_plotly")
+vectors = later("cardan.figures.render_svg")
+pixels = later("cardan.figures.render_matplotlib")
 """What draws pages to turn, vectors, and pixels or PDF: most commands draw nothing."""
 
 FIGURES = {Drive: lambda drive: drives().drive_figures(drive)}
