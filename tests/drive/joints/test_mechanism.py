@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from cardan import Drive, InputError, example, forces, losses, motion
+from cardan import Drive, InputError, example, forces, losses, motion, phases
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke, MechanismJoint
@@ -85,8 +85,9 @@ def test_a_thompson_coupling_holds_its_centre_and_a_reuleaux_coupling_nothing():
     assert np.abs(joint_carried(one, 0.4, ANGLE).wrench[:, 3:]).max() < 1e-9
 
 
-def test_a_slipper_joint_slides_and_turns_as_hookes_joint():
-    joint = joint_of("slipper-joint")
+@pytest.mark.parametrize("name", ["slipper-joint", "block-joint"])
+def test_a_joint_with_axial_freedom_slides_and_turns_as_hookes_joint(name):
+    joint = joint_of(name)
     assert (joint.fixed, joint.slides, joint.loose) == (True, True, False)
     quarter = 0.0 if joint.pair(np.asarray(0.15))[1].real < 0.0 else 0.5 * np.pi
     own, known = joint.deviation(ANGLE, np.asarray(0.15)), Hooke().deviation(ANGLE + quarter, np.asarray(0.15))
@@ -95,6 +96,11 @@ def test_a_slipper_joint_slides_and_turns_as_hookes_joint():
     along = carried.wrench[:, 3:] @ np.asarray([1.0, 0.0, 0.0])
     assert np.abs(along).max() < 1e-9
     assert np.abs(carried.input_torque - carried.ratio).max() < 1e-12
+
+
+def test_two_block_joints_are_uniform():
+    one = replace(joint_of("block-joint"), joint_angle=0.2)
+    assert phases(Drive(joints=(one, one))).feasible
 
 
 def turned(axis, angle, vector):

@@ -86,7 +86,7 @@ REFUSALS: Mapping[str, str] = MappingProxyType(
     {
         "forces": mark("it does not hold both shafts at its centre, so that they take forces besides its couple"),
         "losses": mark("what rubs in it is not the journals of a cross"),
-        "life": mark("it has no needle bearings on a cross"),
+        "life": mark("it has no rolling bearings, and ISO 281 tells nothing of parts that slide or give"),
         "sizing": mark("the rows of the catalogue are of cross joints"),
         "cross": mark("only the law of a cross joint is taken here"),
     }

@@ -1,0 +1,91 @@
+"""The table of kinds of joints and questions that the documentation shows: each cell asked, from both registers.
+
+`python -m tests.house.test_kinds` prints it anew.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from cardan.drive.drive import Drive
+from cardan.drive.joints import JOINTS
+from cardan.drive.movement import Harmonic
+from cardan.errors import InputError
+from cardan.io.drive_file import loads
+from cardan.questions.mobility.drive_mechanism import unheld
+from cardan.register import QUESTIONS
+from tests.fixtures.joint_keys import KEYS
+
+from .test_conditions import BEARING, FIRST, SLOW, WHOLE
+
+PAGE = Path(__file__).parents[2] / "docs" / "joint-types.md"
+
+ASKED = [name for name in QUESTIONS if name not in SLOW and name != "classical"]
+"""Questions of the table: those that take long ask the same of a kind as one of them; one is of cross joints alone."""
+
+LEFT = {("torsion", "pin_coupling"), ("torsion", "clemens"), ("mathieu", "pin_coupling"), ("mathieu", "clemens")}
+"""Refused though they would mean something: torsional vibration with laws far from that of a cross; only shrinks."""
+
+
+def drive_with(kind: str) -> Drive:
+    """Return a drive that every question answers, whose first joint is of a kind."""
+    keys = KEYS[kind].replace("reach_mm = 400", f"reach_mm = {math.hypot(1000.0, 150.0)!r}")  # its ball: the next joint
+    own = FIRST if kind == "hooke" else f'[[joints]]\nkind = "{kind}"\ncentre_mm = [0, 0, 0]\n{keys}\n'
+    drive = loads(WHOLE.replace("@", own))
+    return loads(WHOLE.replace("@", own) + BEARING) if unheld(drive) else drive
+
+
+def told(name: str, drive: Drive) -> str:
+    """Return "" where a question is answered, else why not."""
+    question = QUESTIONS[name]
+    if name == "articulation":
+        swing = Harmonic(moves=("joints[1]", "output"), amplitude=(0.0, 0.0, 0.06), frequency=3.0)
+        drive = replace(drive, movements=(swing,))
+    try:
+        question.result(drive)
+    except InputError as error:
+        return error.problems[0].message
+    return ""
+
+
+@cache
+def answered(kind: str) -> dict[str, str]:
+    drive = drive_with(kind)
+    return {name: told(name, drive) for name in ASKED}
+
+
+def head() -> list[str]:
+    return ["| kind | " + " | ".join(ASKED) + " |", "|---|" + "---|" * len(ASKED)]
+
+
+def row(kind: str) -> str:
+    cells = ["–" if answered(kind)[name] else "●" for name in ASKED]
+    return f"| `{kind}` | " + " | ".join(cells) + " |"
+
+
+def test_the_page_has_its_head():
+    assert "\n".join(head()) in PAGE.read_text(encoding="utf8")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", JOINTS)
+def test_every_cell_is_answered_or_says_why_not(kind):
+    why = {name: reason for name, reason in answered(kind).items() if reason}
+    assert {(name, kind) for name in why} == {one for one in LEFT if one[1] == kind}
+    page = PAGE.read_text(encoding="utf8")
+    assert row(kind) in page.splitlines()
+    for reason in why.values():
+        assert reason.rstrip(".") in " ".join(page.split()), reason
+
+
+if __name__ == "__main__":
+    print("\n".join(head() + [row(kind) for kind in JOINTS]))
+    for kind in JOINTS:
+        for name, reason in answered(kind).items():
+            if reason:
+                print(f"{name}, {kind}: {reason}")
