@@ -143,6 +143,8 @@ def _sentence(drive: Drive, found: Phasing) -> Say:
         text = _("{count}; speed fluctuation δ = {now}, no yokes to set.")
     elif not found.free:
         text = _("{count}; speed fluctuation δ = {now} as specified, {least} with the yokes held.")
+    elif found.followed:
+        text = _("{count}; speed fluctuation δ = {now} as specified; the best yoke angles found leave {least}.")
     else:
         text = _("{count}; speed fluctuation δ = {now} as specified; no yoke angles leave less than {least}.")
     return say(text, count=_count(drive), now=Quantity(now, "share"), least=Quantity(least, "share"))
