@@ -210,7 +210,7 @@ def test_what_is_no_joint_is_refused_with_link_angle_and_amount():
     said = refusal(short)
     assert "cannot follow: with the driving link turned by" in said
     assert "mm and" in said
-    assert "more digits" not in said
+    assert "rounding_mm" not in said
     assert "needs one pair with the frame" in refusal(example_mechanism("crank-slider"))
     assert "missing: neither this key nor input_link" in refusal(replace(drawing, input_link=""))
 
