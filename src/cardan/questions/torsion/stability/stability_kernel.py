@@ -153,7 +153,7 @@ def _begin_near(known: Array, near: Mapped, sense: float, n: int) -> None:
     table = np.zeros((len(rows), found.shape[1], n))
     table[..., :width] = found.real
     table[..., harmonics + 1 : harmonics + width] = -found.imag[..., 1:]
-    known[rows, :-1] = table.reshape(len(rows), -1)
+    known[rows, :-1] = table.reshape(len(rows), known.shape[-1] - 1)
     known[rows, -1] = sense * near.force[rows]
 
 
