@@ -144,6 +144,7 @@ def test_it_turns_as_its_law_says(kind, where):
     assert (after - before) / (2.0 * step) == pytest.approx(found.ratio, abs=1e-8)  # h² times a third derivative
 
 
+@pytest.mark.slow
 @with_every_toy
 def test_every_question_has_a_page(kind, where):
     for moving in (False, True):
@@ -190,6 +191,7 @@ def said_why(text):
     return text.startswith("error: ") and "Traceback" not in text and len(text.split()) > 4
 
 
+@pytest.mark.slow
 @with_every_toy
 def test_the_report_tells_it(kind, where):
     for moving in (False, True):

@@ -147,6 +147,7 @@ def test_a_joint_in_the_node_does_not_excite():
     assert abs(over) < 0.02 * (np.pi * np.tan(7.5 * deg) ** 2) ** 2 / 8  # were the joint elsewhere, κ of order one
 
 
+@pytest.mark.slow
 def test_a_motion_that_the_first_guess_misses_is_followed_up():
     """Beside order-2 resonance the twist swings by half a radian; the motion closes all the same."""
     found = steady_twist(four_joints(speed=0.51 * four_joints().natural_frequency))
@@ -155,6 +156,7 @@ def test_a_motion_that_the_first_guess_misses_is_followed_up():
     assert found.residual < 1e-10
 
 
+@pytest.mark.slow
 def test_a_resonance_has_no_steady_motion(monkeypatch):
     monkeypatch.setattr(mathieu_drive, "LEAST_STEP", 1.0)
     with pytest.raises(InputError, match="no steady motion") as caught:

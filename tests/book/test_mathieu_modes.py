@@ -74,6 +74,7 @@ def test_what_neglecting_the_parametric_term_costs_is_told_where_the_motion_is_s
     assert answer(STAND, found).remarks[0].text.values["error"].value == pytest.approx(worst)
 
 
+@pytest.mark.slow
 def test_many_modes_have_no_engineering_method_and_say_so():
     drive = example("truck-power-unit")
     found = mathieu_modes(drive)

@@ -379,6 +379,7 @@ def test_splines_of_a_pose_are_reckoned_from_the_drawn_length():
     assert [one.note for one in still] == ["in the pose empty", "in the pose full load"]
 
 
+@pytest.mark.slow
 def test_advice_on_bends_is_judged_while_the_drive_moves():
     drive = vehicle("pto-hitch")
     joint_angles = articulation(drive, times=np.linspace(0.0, 10.0, 20_001)).joint_angle
@@ -395,6 +396,7 @@ def test_advice_on_bends_is_judged_while_the_drive_moves():
     assert quick.state == "failed"
 
 
+@pytest.mark.slow
 def test_the_table_of_angles_judges_a_moving_drive_alike_alone_and_among_others():
     """One joint keeps 10°, the other swings by 5° about less or more: whether the larger bend is the drawn one or not,
     √(largest² - largest difference² + a/ω²) is the limit, in a batch as alone."""
@@ -429,6 +431,7 @@ def test_a_value_at_its_limit_but_for_rounding_keeps_it():
     assert utilisation(1.0 + 1e-6, 1.0, "at_most") > 1.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["truck-rear-axle", "pto-hitch"])
 def test_many_drives_that_move_and_have_poses_are_judged_as_one_by_one(name):
     drive = vehicle(name)

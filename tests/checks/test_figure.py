@@ -31,6 +31,7 @@ def test_every_limit_that_must_be_kept_has_a_bar_in_the_colour_of_its_verdict():
     assert figure.sentence == "The 16 with the highest utilisation are shown."
 
 
+@pytest.mark.slow
 def test_signs_tell_without_colour():
     _figure, drawn = bars("car-propshaft")
     assert {text[0] for text in drawn.texts} == {"●", "○"}

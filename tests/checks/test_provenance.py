@@ -95,6 +95,7 @@ def test_limits_of_vehicles_are_not_applied_to_other_drives():
     assert all(one.run for one in check(asked_for, only=["acceleration"]))
 
 
+@pytest.mark.slow
 def test_every_surface_says_it():
     found = answer(SIZED, checked(SIZED))
     assert found.tone == "warning"
@@ -133,6 +134,7 @@ def test_no_row_that_is_unsure_claims_to_be_looked_up(word):
     assert all(row.source for row in rows)
 
 
+@pytest.mark.slow
 def test_sources_of_limits_are_citations():
     for name in ("truck-duty-cycle", "car-propshaft", "six-joints", "pto-drive"):
         for one in check(example(name)):

@@ -21,6 +21,7 @@ def judged(drive, **vary):
     return check(drive, only=["whirl_amplitude"], **vary)
 
 
+@pytest.mark.slow
 def test_the_amplitude_is_that_of_the_worst_load_case_against_the_clearance():
     limited = replace(CAR, limits=replace(CAR.limits, whirl=0.1e-3))
     first, second = judged(limited)

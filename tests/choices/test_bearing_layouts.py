@@ -36,6 +36,7 @@ def found():
     return bearing_layouts(TWO)
 
 
+@pytest.mark.slow
 def test_every_layout_that_is_told_is_held_just_enough_all_round(found):
     assert found.number == found.ranked == 45
     assert found.best
@@ -59,6 +60,7 @@ def test_the_best_come_first(found):
     assert all(after >= before / ALIKE for before, after in pairwise(known))
 
 
+@pytest.mark.slow
 def test_other_joints_make_it_even():
     even = bearing_layouts(TWO, other_joints=True)
     assert even.number == 372
@@ -66,6 +68,7 @@ def test_other_joints_make_it_even():
     assert {joint.kind for joint in even.best[0].drive.joints} <= {"tripod", "tracta", "constant_velocity"}
 
 
+@pytest.mark.slow
 def test_the_half_shaft_is_held_as_cars_have_it():
     """Tripod at the gearbox, ball joint at the wheel, both ends in their bearings, none between.
 

@@ -22,6 +22,7 @@ def table(said, title):
     return next(one for one in said.tables if one.title.startswith(title))
 
 
+@pytest.mark.slow
 def test_what_failed_stands_first_and_what_is_closest_where_nothing_did():
     failing, passing = (answer(drive, ask(drive)) for drive in map(example, ("truck-duty-cycle", "car-propshaft")))
     text = told(failing.sentence, USUAL)
@@ -31,6 +32,7 @@ def test_what_failed_stands_first_and_what_is_closest_where_nothing_did():
     assert "by unconfirmed ratings; closest: " in told(passing.sentence, USUAL)
 
 
+@pytest.mark.slow
 def test_every_verdict_is_told_in_the_units_of_the_reader():
     drive = example("car-propshaft")
     usual, pounds = (data(answer(drive, ask(drive)), who)["verdicts"] for who in (USUAL, POUNDS))
@@ -46,12 +48,14 @@ def test_every_verdict_is_told_in_the_units_of_the_reader():
     assert not any("N·m" in cell.text for row in shown.rows for cell in row)
 
 
+@pytest.mark.slow
 def test_a_band_has_both_its_ends_for_programs():
     drive = example("two-piece-rubber-bearing")
     rows = data(answer(drive, checked(drive)), USUAL)["verdicts"]
     assert any(isinstance(row["limit"], list) and row["limit"][0] < row["limit"][1] for row in rows)
 
 
+@pytest.mark.slow
 def test_each_change_stands_once_and_those_that_help_most_first():
     drive = example("truck-duty-cycle")
     result = ask(drive)
@@ -63,12 +67,14 @@ def test_each_change_stands_once_and_those_that_help_most_first():
     assert len(data(answer(drive, result), USUAL)["remedies"]) == len(result.remedies)
 
 
+@pytest.mark.slow
 def test_keys_that_checks_need_stand_behind_an_option():
     drive = example("car-propshaft")
     brief, whole = (table(answer(drive, ask(drive), missing=one), "Checks not run") for one in (False, True))
     assert (brief.depth, whole.depth) == ("full", "brief")
 
 
+@pytest.mark.slow
 def test_a_limit_of_nothing_is_told_as_beyond_a_thousand_times():
     drive = example("truck-duty-cycle")
     shaft = replace(drive.shafts[2], spline=replace(drive.shafts[2].spline, engaged=1e-9))

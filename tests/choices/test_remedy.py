@@ -86,6 +86,7 @@ def test_every_cure_lets_its_check_pass_and_the_file_edited_says_the_same(make):
     assert {one.title for one in failed} - {remedy.title for remedy in found} == set()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [car, plain])
 def test_a_cure_is_the_smallest_round_change(make):
     """Half the way does not do; where the change has only a few steps, one step less does not."""
@@ -143,6 +144,7 @@ def test_a_drive_that_passes_needs_no_cure():
     assert remedies(replace(Drive.from_angles([0.1, 0.1]), duty=Duty(speed=100.0))) == ()
 
 
+@pytest.mark.slow
 def test_what_fails_only_in_a_pose_while_moving_is_cured_where_one_key_can():
     """The poses set where the axle is, so that only the other joint can be moved."""
     drive = example("truck-rear-axle")

@@ -149,6 +149,7 @@ def test_the_smallest_row_of_the_catalogue_passes_and_no_smaller_one_does():
     assert found.drive == completed(found.drive)
 
 
+@pytest.mark.slow
 def test_no_row_is_large_enough():
     found = size(drive(duty=Duty(speed=1200 * rpm, torque=1e6)), None, "joint:1")
     assert not found.found
@@ -162,6 +163,7 @@ def test_a_joint_of_a_series_is_offered_its_series_and_rows_of_the_user():
     assert {catalogue().rows(JointSize)[one.id].series for one in found.tried} == {"example"}
 
 
+@pytest.mark.slow
 def test_a_size_whose_life_nobody_can_tell_is_not_taken_where_a_life_is_asked():
     found = size(drive(duty=Duty(speed=1200 * rpm, torque=600.0, life=1000 * HOUR)), None, "joint")
     bare = [one for one in found.tried if one.id.startswith("ml-")]
@@ -318,6 +320,7 @@ def test_the_sizes_put_into_the_file_are_those_of_the_part(part, hold, body):
             assert (a.title, a.utilisation) == (b.title, pytest.approx(b.utilisation, rel=1e-9))
 
 
+@pytest.mark.slow
 def test_only_cross_joints_are_sized():
     mixed = example("propshaft-with-rzeppa")
     assert set(size(mixed, None, "joint").values) == {"joints[0].size", "joints[2].size"}

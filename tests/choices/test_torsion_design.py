@@ -34,6 +34,7 @@ def fluctuations():
     return found
 
 
+@pytest.mark.slow
 def test_the_best_design_keeps_a_limit_that_the_calmest_breaks():
     calmest = optimise_torsion(DRIVE, free=FREE, method=Grid()).values[YOKE]
     every = fluctuations()
@@ -53,6 +54,7 @@ def test_the_best_design_keeps_a_limit_that_the_calmest_breaks():
     assert "Warning: no design keeps the limits of the drive file; 140 % of one is used." in said
 
 
+@pytest.mark.slow
 def test_limits_hold_within_the_tolerances():
     """The yokes may be off by 5°: the limit holds there, so that fewer angles keep it."""
     every = fluctuations()
@@ -79,6 +81,7 @@ def test_a_drive_without_limits_is_searched_as_before_and_asked_by_the_app_alike
     )
 
 
+@pytest.mark.slow
 def test_what_tolerances_do_is_told():
     found = optimise_torsion(DRIVE, free=FREE, method=Grid(), tolerances={"shafts[1].stiffness_Nm_per_rad": "10%"})
     said = answer(DRIVE, found)

@@ -42,6 +42,7 @@ def car(drive_file):
     return drive_file(CAR, "car.toml")
 
 
+@pytest.mark.slow
 def test_a_drive_that_fails_says_so_with_a_sign_a_word_and_code_1(cardan, car):
     done = cardan("check", car)
     assert done.code == 1
@@ -52,6 +53,7 @@ def test_a_drive_that_fails_says_so_with_a_sign_a_word_and_code_1(cardan, car):
     assert widest(done.out) <= 80
 
 
+@pytest.mark.slow
 def test_keys_that_checks_need_are_told_when_asked_for(cardan, car):
     brief, done = cardan("check", car), cardan("check", car, "--missing")
     assert "limits.speed_fluctuation_percent" not in brief.out
@@ -60,6 +62,7 @@ def test_keys_that_checks_need_are_told_when_asked_for(cardan, car):
     assert widest(done.out) <= 80
 
 
+@pytest.mark.slow
 def test_json_holds_what_the_library_found(cardan, car):
     done = cardan("check", car, "--json")
     said, every = done.content, check(load(car))
@@ -109,6 +112,7 @@ def test_a_single_check_is_not_counted(cardan, drive_file, joint_angle, said):
     assert said in plain(cardan("check", path).out)
 
 
+@pytest.mark.slow
 def test_csv_is_one_row_a_verdict(cardan, car):
     rows = list(csv.DictReader(io.StringIO(cardan("check", car, "--csv").out)))
     said = cardan("check", car, "--json").content["verdicts"]
@@ -162,6 +166,7 @@ source = "a test"
     assert cardan("check", taken, "--catalogue", rows, "--only", "rated_torque").code == 0
 
 
+@pytest.mark.slow
 def test_sources_are_told_when_asked_for(cardan, car):
     assert "ISO 281" not in cardan("check", car).out
     assert "ISO 281" in cardan("check", car, "--sources").out

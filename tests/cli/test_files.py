@@ -33,6 +33,7 @@ def test_a_report_goes_where_it_is_told(cardan, tmp_path):
     assert "1\u202f234" in (tmp_path / "out/truck.html").read_text()
 
 
+@pytest.mark.slow
 def test_a_report_for_paper_is_written_or_says_what_it_needs(cardan, tmp_path, monkeypatch):
     done = cardan("report", EXAMPLES / "single-20deg.toml", "-o", "one.pdf")
     assert done.code == 0

@@ -85,6 +85,7 @@ def test_words_of_the_trade_lead_to_what_answers_them(cardan, word, command):
     assert not command or command in names
 
 
+@pytest.mark.slow
 def test_every_synonym_finds_something():
     assert [same for row in SYNONYMS for same in row if not finds(same)] == []
 
@@ -95,6 +96,7 @@ def test_an_unknown_command_is_met_by_its_meaning(cardan):
     assert "Did you mean" not in cardan("brkt").err
 
 
+@pytest.mark.slow
 def test_every_term_of_the_glossary_leads_somewhere():
     rows = [line.split("|")[1] for line in GLOSSARY.read_text("utf-8").splitlines() if line.startswith("| ")]
     terms = [one.strip() for row in rows for one in re.split("[,;]", re.sub(r"[*`]|\(.*?\)|\$.*?\$", "", row))]

@@ -55,6 +55,7 @@ def test_json_and_csv_hold_what_was_found(cardan):
     assert float(rows[1]["crank_pin_force_x_N"]) == pytest.approx(loads.reaction[90, 1, 3], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_torque_and_speed_of_the_command_line_stand_in_place_of_the_file(cardan):
     path = FOLDER / "friction-cones.toml"
     said = cardan("forces", path, "--torque-Nm", "10", "--speed-rpm", "30", "--json").content

@@ -159,6 +159,7 @@ position_mm = -100
 """
 
 
+@pytest.mark.slow
 def test_a_layout_is_written_into_a_copy_of_the_file(cardan, drive_file, tmp_path):
     copy = tmp_path / "held.toml"
     told = cardan("mobility", drive_file(TWO), "--layouts", "-o", str(copy))

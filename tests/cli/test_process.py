@@ -161,6 +161,7 @@ def test_streams_that_the_caller_closed_do_no_harm(process, number, name):
     assert not wrong.stdout
 
 
+@pytest.mark.slow
 def test_streams_without_a_reader_do_no_harm(process):
     done = process("motion", TRUCK, "--csv", stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     assert done.returncode == 0

@@ -269,6 +269,7 @@ set = { "output.point_mm" = [2000, 0, -700] }
 """
 
 
+@pytest.mark.slow
 def test_layout_over_poses_writes_its_own_yokes(cardan, drive_file, tmp_path):
     path = drive_file(BOXED)
     said = cardan("phasing", path, "--layout", "--over", "mean", "-o", "moved.toml", "--json").content

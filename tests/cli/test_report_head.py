@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import matplotlib.image
 import numpy as np
+import pytest
 
 from cardan.drive.settings import TitleBlock
 from cardan.io import dumps, example
@@ -31,6 +32,7 @@ def test_a_wrong_logo_ends_the_command_before_any_work(cardan, tmp_path):
     assert not (tmp_path / "x.html").exists()
 
 
+@pytest.mark.slow
 def test_several_drives_stand_side_by_side(cardan, tmp_path):
     files, place = [EXAMPLES / f"{name}.toml" for name in ("unstable-drive", "cured-drive")], tmp_path / "two.html"
     ran = cardan("report", *files, "-o", place)

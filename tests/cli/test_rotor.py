@@ -129,6 +129,7 @@ def test_the_whole_line_is_told_with_all_its_shafts_and_supports(cardan):
     assert (done.code, "goes without --shaft" in done.err) == (2, True)
 
 
+@pytest.mark.slow
 def test_a_cracked_tube_whirls_by_its_depth_in_the_line_alone(cardan, drive_file):
     text = CAR.read_text()
     sound = cardan("rotor", CAR, "--line", "--json").content

@@ -14,10 +14,12 @@ LATER = {
 """Modules with another import than at their top, and where; all else that is loaded late is `cardan.later.later`."""
 
 
+@pytest.mark.slow
 def test_imports_stand_at_the_top():
     assert hidden() == LATER
 
 
+@pytest.mark.slow
 def test_private_names_stay_in_their_module():
     assert borrowed() == []
 

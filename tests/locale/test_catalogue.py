@@ -63,6 +63,7 @@ def test_the_ends_have_the_same_blanks(catalogue):
     assert wrong == []
 
 
+@pytest.mark.slow
 def test_what_the_program_reads_is_what_people_edit(code):
     text = place(code, "po").read_bytes()
     assert place(code, "mo").read_bytes() == compiled(text, code)

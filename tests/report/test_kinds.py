@@ -76,6 +76,7 @@ def test_a_report_tells_of_every_kind(kind: str) -> None:
     assert "self-check leaves more than rounding" not in text
 
 
+@pytest.mark.slow
 def test_a_report_names_what_it_leaves_out() -> None:
     text = page(loads(file_of("tripod")))
     assert "forces: not answered" not in text

@@ -86,6 +86,7 @@ def test_each_part_stands_only_where_the_file_asks_for_it(name):
     assert PARTS & set(parsed(of_example(name)).ids) == WITH.get(name, set())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", WITH)
 def test_every_check_passes(name):
     text = of_example(name)
@@ -106,6 +107,7 @@ def test_stopped_by_the_reader_no_part_is_added():
     assert not PARTS & set(parsed(text).ids)
 
 
+@pytest.mark.slow
 def test_forces_says_what_the_worst_support_carries():
     drive = example("truck-supports")
     found = forces(drive)
@@ -116,6 +118,7 @@ def test_forces_says_what_the_worst_support_carries():
     assert significant(max(float(np.max(one.journals.size[1])) for one in (found, found.reverse))) in text
 
 
+@pytest.mark.slow
 def test_a_drive_held_too_much_still_tells_torques_and_says_why_no_reactions():
     drive = example("overconstrained-pump")
     rigid = tuple(replace(one, stiffness=None, axial_stiffness=None) for one in drive.supports)
@@ -131,6 +134,7 @@ def test_a_loose_shaft_is_named():
     assert "supports" in words(replace(drive, supports=drive.supports[:-1]))
 
 
+@pytest.mark.slow
 def test_a_stiffness_that_bending_asks_for_does_not_ask_for_assembly():
     drive = example("truck-supports")
     centre = replace(drive.supports[2], stiffness=2.5e5)
@@ -140,6 +144,7 @@ def test_a_stiffness_that_bending_asks_for_does_not_ask_for_assembly():
     assert "not calculated" not in text
 
 
+@pytest.mark.slow
 def test_shared_forces_are_called_so():
     assert "share the forces by their stiffness" in words(example("overconstrained-pump"))
     assert "share the forces" not in words(example("truck-supports"))
@@ -161,6 +166,7 @@ def test_assembly_says_how_much_and_what_to_release():
     assert "Statically determinate with support 2 omitted and support 4 free along its axis." in text
 
 
+@pytest.mark.slow
 def test_parts_that_fit_strain_nothing():
     drive = example("overconstrained-pump")
     fits = replace(
@@ -195,6 +201,7 @@ def test_a_drive_that_locks_is_called_so():
     assert "Friction locks joint 3." in text
 
 
+@pytest.mark.slow
 def test_without_speed_nothing_is_said_of_losses():
     drive = example("truck-supports")
     assert "are lost" not in words(replace(drive, duty=replace(drive.duty, speed=None)))
@@ -209,6 +216,7 @@ def test_accuracy_tells_both_bounds_and_what_matters():
     assert "Shift of the output shaft" in text
 
 
+@pytest.mark.slow
 def test_a_held_output_does_not_shift():
     drive = example("instrument-joint")
     held = tuple(replace(one, axial=True) if k == 3 else one for k, one in enumerate(drive.supports))

@@ -70,6 +70,7 @@ def fonts_of(pdf):
     )
 
 
+@pytest.mark.slow
 def test_paper_head_foot_and_type_of_a_pdf(firm, drive, tmp_path):
     pdf = pypdf.PdfReader(report(drive, None, tmp_path / "r.pdf", template=firm))
     assert [round(float(one)) for one in pdf.pages[0].mediabox[2:]] == [612, 792]  # 8.5 x 11 inches
@@ -98,6 +99,7 @@ def test_colours_style_sheet_and_head_of_a_page(firm, drive, tmp_path):
     assert usual.count(":root") == 1
 
 
+@pytest.mark.slow
 def test_head_foot_and_colours_of_a_workbook(firm, drive, tmp_path):
     book = openpyxl.load_workbook(report(drive, None, tmp_path / "r.xlsx", template=firm))
     sheet = book.worksheets[1]

@@ -128,6 +128,7 @@ def test_a_limit_alone_that_is_not_kept_is_not_one_of_one():
     assert found.page.answer.startswith("The only check failed: torsional acceleration of")
 
 
+@pytest.mark.slow
 def test_verdicts_name_the_speed_and_a_band_both_of_its_ends():
     lights = judged(asked(example("truck-duty-cycle"), None, None)).lights
     assert lights is not None
@@ -190,6 +191,7 @@ def test_a_limit_nearly_used_up_makes_the_first_sentence_amber():
     assert judgement(on, [page]).tone == "warning"
 
 
+@pytest.mark.slow
 def test_what_no_single_key_cures_is_said_beside_the_cures():
     """The duty names a speed and a range of speeds: lowering one of them leaves the other."""
     drive = example("truck-power-unit")

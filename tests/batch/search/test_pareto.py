@@ -37,6 +37,7 @@ def test_great_and_small():
     np.testing.assert_array_equal(chosen, [False, False, False, True, False, False])
 
 
+@pytest.mark.slow
 def test_a_search_finds_a_front_that_is_known():
     """Zitzler, Deb and Thiele's first problem: two = 1 - √one, all other fields 0."""
     found = pareto_search(ZDT1, [(0.0, 1.0)] * 4, [ONE, TWO], population=40, generations=60, seed=1)

@@ -60,6 +60,7 @@ def test_the_largest_load_counts_the_peaks_of_the_duty_and_of_poses():
     assert posed.state == "failed"
 
 
+@pytest.mark.slow
 def test_the_load_counts_the_movement():
     base = Drive.from_points([(-0.5, 0.0, 0.0), (0.0, 0.0, 0.0), (0.5, 0.0, 0.1)])
     still = replace(base, supports=SUPPORTS, duty=DUTY)

@@ -145,6 +145,7 @@ def tube(**duty) -> Drive:
     )
 
 
+@pytest.mark.slow
 def test_the_damage_of_an_event_cycle_by_cycle() -> None:
     """σ_a = √((2M/W)² + 3(T_a/W)²), σ_m = √3 T_m/W, N = (σ_r/A)^(1/B) where Goodman's safety is below 1."""
     step = Event(kind="load_step", count=2000.0, torque=1500.0)

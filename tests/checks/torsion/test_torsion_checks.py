@@ -143,6 +143,7 @@ def test_a_remedy_of_instability_makes_it_stable():
         assert bool(torsion_response(apply_remedy(drive, its)).floquet.stable), its.path
 
 
+@pytest.mark.slow
 def test_reversal_with_and_without_backlash():
     """At 100 N·m the telescope's torque passes through zero and its teeth knock; at 300 they stay shut."""
     drive = example("pto-flywheel")
@@ -190,6 +191,7 @@ def test_the_worst_instant_is_that_of_the_vibration_there_and_not_as_drawn():
     assert worst.bound - worst.value == pytest.approx(lowest, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_torque_that_a_movement_turns_about_is_judged_along_it():
     """As drawn it never dips; in the turn the play opens, as the response of the drive that stops there tells."""
     drive = example("pto-baler")

@@ -53,6 +53,7 @@ def test_a_cross_as_a_mechanism_turns_as_hookes_joint(joint_angle):
         assert np.abs(one - other).max() < 1e-10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["hooke-stiff-bearings", "thompson"])
 def test_the_law_at_many_joint_angles_is_that_at_each(name):
     """By polynomials between full degrees, which pass through the straight joint."""
@@ -142,6 +143,7 @@ def own_closure(theta, joint_angle, last):
     return found
 
 
+@pytest.mark.slow
 def test_a_detuned_thompson_coupling_turns_as_an_own_closure_says():
     """The arm that stands off is drawn with its shaft: at the joint angle drawn all loops close at angle 0."""
     joint = joint_of("thompson", **DETUNED)

@@ -71,6 +71,7 @@ def asking(code: str) -> Iterator[tuple[int, str]]:
             yield node.lineno if hasattr(node, "lineno") else 0, ast.unparse(node)
 
 
+@pytest.mark.slow
 def test_joints_are_asked_not_their_types():
     found = {path.relative_to(SOURCE).as_posix(): list(asking(path.read_text("utf-8"))) for path in MODULES}
     assert len(found) > 100

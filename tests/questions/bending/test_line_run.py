@@ -37,6 +37,7 @@ def one_mass():
     return 0.5 * steel.density * area * 1.5, (np.pi / 1.5) ** 2 * np.sqrt(steel.youngs * second / steel.density / area)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("start", "end"), [(40.0, 260.0), (260.0, 40.0)])
 def test_a_bar_passes_its_critical_speed_as_one_mass_does(start, end):
     """z̈ + 2ζω ż + ω² z = U/m (Ω² - iΩ̇) e^(iφ) of the first mode, up and down; the higher modes add half a per cent."""
@@ -66,6 +67,7 @@ def test_a_bar_passes_its_critical_speed_as_one_mass_does(start, end):
     assert (found.peak_speed > omega) == (end > start)
 
 
+@pytest.mark.slow
 def test_a_slow_run_whirls_as_at_each_speed_held():
     quick, slow = (
         line_run(bar(RunUp(start=120.0, end=200.0, duration=span)), damping_ratio=0.05) for span in (0.1, 30.0)

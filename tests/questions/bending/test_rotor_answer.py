@@ -35,6 +35,7 @@ def test_without_unbalance_and_crack_something_lacks():
     assert lacking(changed(cracked(0.2, 0.05), unbalance=())) == ()
 
 
+@pytest.mark.slow
 def test_its_table_is_that_of_the_analysis():
     drive = cracked(0.2, 0.05)
     said, found = of(drive), rotor_response(drive)
@@ -48,6 +49,7 @@ def test_its_table_is_that_of_the_analysis():
     assert any(told(one.text, USUAL).startswith("Checked: power and multipliers agree") for one in said.remarks)
 
 
+@pytest.mark.slow
 def test_readers_are_told_in_their_units_and_language():
     said = of(CAR)
     assert " mil at " in told(said.sentence, INCHES)

@@ -31,6 +31,7 @@ def found(recording, drive):
     return examine(recording, drive)
 
 
+@pytest.mark.slow
 def test_its_causes_are_those_of_the_diagnosis(found, recording, drive):
     assert found.findings == diagnose(recording, drive)
     assert found.findings[0].cause == "F23"
@@ -44,12 +45,14 @@ def test_the_channel_with_the_highest_line_is_shown(found):
     assert {one.quantity for one in found.spectra} == {"acceleration"}
 
 
+@pytest.mark.slow
 def test_another_channel_can_be_asked_for(recording, drive):
     assert examine(recording, drive, channel="output axial").map.name == "output axial"
     with pytest.raises(InputError, match="did you mean output axial"):
         examine(recording, drive, channel="output axiel")
 
 
+@pytest.mark.slow
 def test_two_sensors_across_the_shaft_make_an_orbit(recording, drive):
     """A circle run through against the shaft."""
     tacho = recording.channels[0]
@@ -94,6 +97,7 @@ def test_progress_rises_to_the_end(recording, drive):
     assert told[-1] == 1.0
 
 
+@pytest.mark.slow
 def test_one_that_is_stopped_tells_what_it_knows_by_then(recording, drive):
     found = examine(recording, drive, progress=lambda share: "stop" if share > 0.1 else None)
     assert "stopped before" in found.cautions[-1]

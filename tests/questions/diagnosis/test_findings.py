@@ -38,6 +38,7 @@ def test_the_true_cause_comes_first_for_most(looked):
     assert sum(one < 3 for one in rank) >= 38
 
 
+@pytest.mark.slow
 def test_drives_in_order_are_called_healthy(looked):
     first = [findings[0].cause for cause, findings in looked if cause == "healthy"]
     assert first.count("healthy") >= len(first) - 1

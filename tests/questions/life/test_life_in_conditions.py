@@ -171,6 +171,7 @@ def test_a_movement_through_a_right_angle_is_refused():
         life(replace(drive, movements=(swing,), duty=Duty(speed=SPEED, torque=800.0)))
 
 
+@pytest.mark.slow
 def test_many_drives_sum_damage_over_poses_and_movement_as_one_does():
     """The batch scales the exact life of one drive by closed forms; both know the means over time."""
     drive = joints(Drive.from_points([(-1, 0, 0), (0, 0, 0), (1, 0, -0.3)]))

@@ -96,6 +96,7 @@ def test_poses_without_shares_leave_the_worst():
     assert "no_share" in [one.code for one in answer(drive, found).remarks]
 
 
+@pytest.mark.slow
 def test_poses_movements_and_cases_add_to_one_mean_and_the_hottest_is_named():
     """One joint: its heat by the closed form, integrated over the swing in either pose and under either torque."""
     low = Pose(name="low", share=0.25, set=(("output.point_mm", (1000.0, 0.0, -500.0)),))

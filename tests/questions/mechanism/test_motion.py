@@ -102,6 +102,7 @@ def test_the_maize_drive_turns_by_the_law_of_its_joints():
     np.testing.assert_allclose(np.exp(1j * way * found.angle), np.exp(1j * lead), atol=2e-10)  # digits of the file
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_speeds_and_accelerations_are_differences_of_where_links_stand(name):
     made = example_mechanism(name)
@@ -140,6 +141,7 @@ def test_a_slot_cam_shifts_by_the_slope_of_its_slots(name, pitch):
     np.testing.assert_allclose(found.path, pitch * np.radians(np.linspace(-90, 90, 181)), atol=1e-11)
 
 
+@pytest.mark.slow
 def test_a_screw_goes_on_over_many_turns():
     made = replace(example_mechanism("slot-cam"), input_range=(0.0, 20.0))
     found = mechanism_motion(made, np.array([0.0, 7.0, 20.0])).output
@@ -162,6 +164,7 @@ def test_a_disc_integrator_turns_by_the_integral():
     np.testing.assert_allclose(found.slope, 0.012 / (2 * np.pi) / 0.02, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_disc_integrator_adds_up_what_is_no_polynomial():
     """A crank instead of the screw: ρ runs as a slider-crank does; its integral by Gauss's rule."""
     r, rod, radius = 0.01, 0.04, 0.02

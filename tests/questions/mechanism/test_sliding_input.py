@@ -75,6 +75,7 @@ def piston_drives():
     )
 
 
+@pytest.mark.slow
 def test_a_piston_turns_its_crank_as_the_crank_moves_the_piston():
     forth = mechanism_motion(piston_drives())
     theta = -forth.output.angle if forth.output.axis[2] < 0.0 else forth.output.angle
@@ -86,6 +87,7 @@ def test_a_piston_turns_its_crank_as_the_crank_moves_the_piston():
     np.testing.assert_allclose(np.abs(force), 20.0 * np.abs(forth.output.ratio), rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_reaction_of_a_guide_is_told_about_its_own_point():
     """Where the drawing stands in space changes nothing."""
     made, shift = piston_drives(), np.array([0.3, -2.0, 0.7])
@@ -129,6 +131,7 @@ def test_answers_tell_what_slides_in_its_own_units():
     assert len(pushed.figures()) == 1
 
 
+@pytest.mark.slow
 def test_loops_are_followed_over_the_stroke_and_an_end_is_told():
     over = mobility_over_turn(BOOM)
     assert over.turns

@@ -84,6 +84,7 @@ def test_readers_are_told_in_their_units_and_language():
         assert printed(answer(PUMP, found).tables[0], USUAL).columns[0].heading == "шарнир"
 
 
+@pytest.mark.slow
 def test_a_turn_that_locks_fails_and_says_by_how_much():
     thing = example_mechanism("maize-drive-offset")
     said = answer(thing, mobility(thing), turned(thing))

@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import pytest
+
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.drive.drive import Drive
@@ -13,6 +15,7 @@ from cardan.report.report import page
 from cardan.units import deg, rpm
 
 
+@pytest.mark.slow
 def test_accelerations_are_told_at_the_speeds_of_the_cases_and_not_over_a_square():
     cases = (Case(name="mean", torque=220.0, speed=2500 * rpm, share=1.0), Case(name="peak", torque=900.0, speed=94.0))
     drive = replace(Drive.from_angles([5 * deg, 12 * deg]), duty=Duty(cases=cases))

@@ -65,6 +65,7 @@ def test_a_batch_does_not_depend_on_its_size():
     assert np.abs(np.sin(whole.yoke_angle[:7] - part.yoke_angle)).max() < 1e-6
 
 
+@pytest.mark.slow
 def test_agrees_with_the_single_answer():
     many = drives(4, 30)
     found = synchronous_yokes(many)

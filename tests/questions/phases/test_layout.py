@@ -38,6 +38,7 @@ def in_vectors(found):
     return VectorModel.from_points(found.points.tolist(), yokes).speed_fluctuation()
 
 
+@pytest.mark.slow
 def test_the_grid_knows_no_smaller_largest_bend():
     drive = boxed(POINTS, {2: (0.0, 0.1, 0.1), 3: (0.0, 0.0, 0.1)})
     found = layout(drive)
@@ -65,6 +66,7 @@ def test_the_grid_knows_no_smaller_largest_bend():
         assert (1 - np.cos(found.joint_angle)).sum() <= (1 - np.cos(angle))[near].sum(axis=-1).min() + 1e-3
 
 
+@pytest.mark.slow
 def test_two_joints_get_equal_bends():
     drive = boxed([(-1, 0, 0), (0, 0, 0), (1, 0, 0.1), (2, 0.2, 0.4)], {2: (0.0, 0.0, 0.2)})
     found = layout(drive)
@@ -79,6 +81,7 @@ def test_two_joints_get_equal_bends():
     assert found.points[2, 2] == pytest.approx(z[np.argmin(np.abs(angle[:, 0] - angle[:, 1]))], abs=2e-6)
 
 
+@pytest.mark.slow
 def test_boxes_and_lengths_are_kept():
     drive = boxed(POINTS, {1: (0.1, 0.1, 0.1), 2: (0.2, 0.1, 0.1), 3: (0.1, 0.1, 0.1)})
     found = layout(drive, shortest=0.25)
@@ -132,6 +135,7 @@ def test_two_joints_with_held_yokes_are_brought_to_the_twist_that_suits_them(gam
             assert joint_angles(line).max() >= found.joint_angle.max() - 1e-7
 
 
+@pytest.mark.slow
 def test_boxes_that_hold_no_drive_are_refused():
     behind = boxed([(-1, 0, 0), (0, 0, 0), (1, 0, 0.1), (2, 0, 0.4)], {2: (0.1, 0.1, 0.1)})
     away = replace(behind.joints[1], move_within=((3.0, 3.1), (0.0, 0.1), (0.0, 0.1)))

@@ -116,6 +116,7 @@ def test_on_teeth_the_grid_over_all_places_knows_no_calmer_layout():
     assert found.status is Status.INFEASIBLE
 
 
+@pytest.mark.slow
 def test_on_teeth_alone_the_joints_make_the_drive_exactly_uniform():
     found = layout(boxed(teeth=16))
     assert found.status is Status.CONVERGED

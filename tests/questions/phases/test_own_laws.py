@@ -41,6 +41,7 @@ def two(first=50, second=60):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["pin_coupling", "clemens"])
 @pytest.mark.parametrize("first", [True, False])
 def test_what_a_setting_leaves_is_what_the_motion_leaves(kind, first):
@@ -79,6 +80,7 @@ def test_half_a_turn_of_a_yoke_counts():
     assert -np.pi < best[0] <= np.pi
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angles", [[20, 20], [20, 25, 10], [10, 12, 14, 9]])
 def test_the_search_finds_what_the_polygon_proves(angles):
     drive = Drive.from_angles(np.radians(angles), plane_twists=[0.3] * (len(angles) - 1))
@@ -91,6 +93,7 @@ def test_the_search_finds_what_the_polygon_proves(angles):
     assert found.left(most)[0] == pytest.approx(proved.speed_fluctuation_max, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_held_yokes_stay_and_teeth_are_kept():
     drive = two()
     assert phases(drive, fixed={2: 0.5}).settings[0].yoke_angle == pytest.approx([0.5])
@@ -104,6 +107,7 @@ def test_held_yokes_stay_and_teeth_are_kept():
     assert found.spline_settings[0].speed_fluctuation == pytest.approx(min(every), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_poses_are_suited():
     drive = replace(two(), poses=(Pose(name="steep", share=0.5, set=(("joints[1].joint_angle_deg", 14.0),)),))
     found = phases(drive)
@@ -124,6 +128,7 @@ def test_a_steering_column_needs_the_form():
         phases(replace(two(), steering=Steering(lock=8.0)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", JOINTS)
 @pytest.mark.parametrize("first", [True, False])
 def test_yokes_behind_and_before_every_kind_are_phased(kind, first):

@@ -85,6 +85,7 @@ def test_an_infeasible_drive_gets_its_bound_and_the_joint_to_blame(joint_angles,
         assert left(drive, setting) == pytest.approx(found.speed_fluctuation_min, abs=VECTORS)
 
 
+@pytest.mark.slow
 @given(plans(least=2, most=6, joint_angle=35 * deg))
 def test_what_is_returned_is_what_was_proved(plan):
     found = phases(plan.drive)
@@ -139,6 +140,7 @@ def test_the_mirror_of_three_joints_has_the_same_shafts():
     np.testing.assert_allclose(turned[0], np.conj(turned[1]), atol=1e-14)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [4, 5])
 def test_the_default_member_has_the_calmest_intermediate_shafts(n):
     random = np.random.default_rng(n)

@@ -40,6 +40,7 @@ def test_every_setting_tells_what_it_leaves_in_each_pose(found):
         np.testing.assert_allclose(setting.pose_speed_fluctuation, truth, atol=2e-14)
 
 
+@pytest.mark.slow
 def test_the_worst_pose_is_as_even_as_a_fine_grid_can_make_it(found, grid):
     worst, _mean = found.pose_settings
     assert worst.pose_speed_fluctuation.max() <= grid.max(axis=-1).min() + 1e-12
@@ -53,6 +54,7 @@ def test_the_mean_is_as_small_as_a_fine_grid_can_make_it(found, grid):
     assert mean.pose_speed_fluctuation.mean() == pytest.approx(grid.mean(axis=-1).min(), abs=2e-3)
 
 
+@pytest.mark.slow
 def test_one_pose_is_the_drive_itself():
     alone = phases(drive(POSES["empty"]), poses={"empty": drive(POSES["empty"])})
     for setting in alone.pose_settings:
@@ -96,6 +98,7 @@ def test_poses_of_the_drive_count_by_their_shares():
     assert mean.pose_speed_fluctuation[1] > 1e-2
 
 
+@pytest.mark.slow
 def test_the_drive_as_drawn_counts_for_the_time_that_its_poses_leave_it(grid):
     """Drawn empty, 60 % of the time: the worst and the mean of both, against the grid; never empty, laden alone."""
     base = drive(POSES["empty"])

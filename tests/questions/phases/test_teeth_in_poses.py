@@ -55,6 +55,7 @@ def test_the_best_on_teeth_are_those_of_all(every, monkeypatch):
     assert got[1] >= mean * (1 - 1e-9)
 
 
+@pytest.mark.slow
 def test_yokes_without_teeth_are_turned_anew_for_every_setting_on_teeth():
     plain = drive()
     mixed = replace(plain, shafts=(plain.shafts[0], replace(plain.shafts[1], spline=None), *plain.shafts[2:]))

@@ -176,6 +176,7 @@ def test_running_heads_and_heads_of_tables_stand_on_every_page():
     assert all(close(page.extract_text()).count("much[N·m]") == 1 for page in heads)
 
 
+@pytest.mark.slow
 def test_a_table_that_is_too_wide_lies_down_and_one_wider_still_is_parted():
     def wide(count):
         columns = [Column(heading="setting", left=True), *(Column(heading=f"shaft {k}") for k in range(count))]
@@ -259,6 +260,7 @@ def test_a_russian_report_is_russian():
     assert "Таблица1" in seen
 
 
+@pytest.mark.slow
 def test_it_is_written_whole_or_not_at_all(tmp_path):
     drive = Drive.from_angles([0.2])
     told: list[float] = []

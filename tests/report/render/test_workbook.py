@@ -145,6 +145,7 @@ def test_every_table_stands_there_with_its_numbers_in_full(name: str) -> None:
     assert seen > 20
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_the_number_behind_a_cell_is_the_one_it_says(name: str) -> None:
     seen = 0
@@ -287,6 +288,7 @@ def test_nothing_that_a_user_writes_becomes_a_formula_or_a_link() -> None:
             assert ElementTree.fromstring(f"<t>{title}</t>").text in book.sheetnames
 
 
+@pytest.mark.slow
 def test_a_drive_with_such_names_has_a_workbook() -> None:
     drive = example("front-halfshaft")
     shafts = tuple(replace(one, name=EVIL[0]) for one in drive.shafts)

@@ -140,6 +140,7 @@ def test_an_absorber_without_damping_serves_its_speed() -> None:
     assert np.nanmax(found.after) > 3.0 * found.best.peak  # its own resonances lie beside
 
 
+@pytest.mark.slow
 def test_pendulums_follow_the_speed() -> None:
     found = absorber(LINE, kind="pendulum", radius=0.15, count=2, inertia_ratio=0.1)
     hung_there = found.station.pendulum

@@ -40,6 +40,7 @@ def test_the_engineering_formula_gives_the_size_of_the_swing() -> None:
     assert 4 * stiffness * 0.12512 / 4 / (4 - a) == pytest.approx(np.max(torsion_response(drive).swing), rel=0.02)
 
 
+@pytest.mark.slow
 def test_the_flywheel_lifts_off_at_small_loads() -> None:
     drive = example("pto-flywheel")
     assert torsion_modes(drive).order2_speed[0] / rpm == pytest.approx(307, abs=0.5)

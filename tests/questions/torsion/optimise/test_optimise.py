@@ -282,6 +282,7 @@ def test_the_robust_design_is_calmest_at_its_worst() -> None:
     assert found.worst_before.torque == pytest.approx(worst_by_hand(DAMPED, 0), rel=0.05)
 
 
+@pytest.mark.slow
 def test_a_resonance_within_the_tolerances_and_outside_of_their_corners_is_met() -> None:
     """A narrow band: both ends of the stiffness leave it calm, a value between brings order 2 into it."""
     single = replace(

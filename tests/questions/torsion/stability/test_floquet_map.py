@@ -116,6 +116,7 @@ def test_the_kernel_takes_coordinates_without_inertia() -> None:
         assert np.array_equal(np.isnan(fast.floquet.multipliers), np.isnan(slow.floquet.multipliers))
 
 
+@pytest.mark.slow
 def test_a_chunk_without_any_motion_keeps_what_others_found(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(steady, "pieces_of", lambda *_all, **_named: None)  # a search of minutes
     loads = np.concatenate([np.full(64, -1e9), np.linspace(0.0, 100.0, 70), np.full(64, -1e9)])

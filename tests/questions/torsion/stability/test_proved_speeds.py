@@ -119,6 +119,7 @@ def test_what_takes_too_long_is_left_unsettled_and_told() -> None:
     assert len(data(said, USUAL)["proof"]["unsettled_rpm"]) == len(proof.unsettled)
 
 
+@pytest.mark.slow
 def test_a_stable_range_is_a_statement() -> None:
     found = stability(example("two-piece-rubber-bearing"), over={SPEEDS: np.linspace(700.0, 900.0, 5)})
     said = answer(example("two-piece-rubber-bearing"), found)

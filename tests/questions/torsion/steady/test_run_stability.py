@@ -156,6 +156,7 @@ def test_at_small_bends_the_zone_is_mathieus(joint_angle: float) -> None:
     assert np.max(np.abs(edges - wanted)) < 1e-5
 
 
+@pytest.mark.slow
 def test_combinations_of_modes_are_found_where_they_are_expected() -> None:
     model = torsional_line(
         [[1.0, 0.02], [0.02, 0.3, 0.2]], stiffness=[[1500.0], [2500.0, 1200.0]], damping=[[0.02], [0.02, 0.02]],

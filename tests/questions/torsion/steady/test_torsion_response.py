@@ -321,6 +321,7 @@ def test_a_map_that_is_stopped_keeps_what_is_done(monkeypatch: pytest.MonkeyPatc
     assert np.all(found.verdict[16:] == Verdict.UNKNOWN)
 
 
+@pytest.mark.slow
 def test_a_peak_between_the_speeds_is_found():
     """The peak as sixty speeds about it have it; at an end of the speeds nothing is added."""
     coarse = torsion_response(LINE, speed=np.linspace(20.0, 180.0, 9))

@@ -105,6 +105,7 @@ def test_pendulums_follow_lagrange_at_one_speed() -> None:
     assert motion.imbalance < 1e-8
 
 
+@pytest.mark.slow
 def test_pendulums_follow_the_speed_of_a_run_up() -> None:
     """The spring of the start speed is not theirs: at thrice the speed it would be nine times too soft."""
     ramp = RunUp(start=40.0, end=120.0, duration=1.5)

@@ -30,6 +30,7 @@ def column(table: Table, key: str) -> list[float]:
     return list(next(one for one in table.columns if one.key == key).values)
 
 
+@pytest.mark.slow
 def test_the_numbers_are_those_of_the_simulation() -> None:
     """Followed here in fixed steps, there with steps held to their error."""
     said, found = of(RINGED), transient(RINGED, method=Adaptive(rtol=1e-7, atol=1e-8))

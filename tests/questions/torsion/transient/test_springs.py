@@ -114,6 +114,7 @@ def test_a_spring_by_its_table_follows_scipy() -> None:
     assert found.imbalance < 1e-7
 
 
+@pytest.mark.slow
 def test_dry_friction_sticks_and_slips_as_scipy_says() -> None:
     part = ToNext(twists=TWISTS, torques=TORQUES, damping=0.5, friction=25.0)
     found = transient(drive(part), span=0.5, method=FAST).motion
