@@ -136,3 +136,14 @@ def test_yokes_behind_and_before_every_kind_are_phased(kind, first):
     question = QUESTIONS["phasing"]
     told = question.answer(drive, question.ask(drive))
     assert told.keys or wobbling(drive)
+
+
+def test_a_joint_alone_has_no_yokes_to_turn():
+    """One bent pin coupling: nothing is free, and what it leaves is told."""
+    text = 'format = 1\n[[joints]]\nkind = "pin_coupling"\njoint_angle_deg = 8\n'
+    drive = loads(text + "driving_distance_mm = 50\ndriven_distance_mm = 60\n")
+    found = phases(drive)
+    assert found.settings == ()
+    assert found.free == ()
+    assert found.as_built.speed_fluctuation == found.speed_fluctuation_min == found.speed_fluctuation_max
+    assert found.as_built.speed_fluctuation == pytest.approx(fluctuation(drive), rel=1e-6)

@@ -55,8 +55,8 @@ class Course:
 
     def fluctuation(self, yoke_angle: Array) -> Array:
         """Return δ of shafts 2 … n+1 for yoke angles (..., n-1) [rad], array (..., n)."""
-        rows = np.reshape(yoke_angle, (-1, yoke_angle.shape[-1]))
-        parts = [self._seen(rows[k : k + BATCH]) for k in range(0, len(rows), BATCH)]
+        rows = np.reshape(yoke_angle, (math.prod(yoke_angle.shape[:-1]), yoke_angle.shape[-1]))
+        parts = [self._seen(rows[k : k + BATCH]) for k in range(0, max(len(rows), 1), BATCH)]
         return np.reshape(np.concatenate(parts), (*yoke_angle.shape[:-1], len(self.laws)))
 
     def initial_phases(self, yoke_angle: Array) -> Array:
