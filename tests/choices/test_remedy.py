@@ -170,3 +170,21 @@ def test_a_search_of_cures_tells_how_far_it_is_and_can_be_stopped():
     assert 0.0 < told[0] < 1.0
     first = next(one.check for one in verdicts if one.state == "failed" and not one.advice)
     assert part == tuple(one for one in found if one.check == first)
+
+
+@pytest.mark.parametrize(("limit", "value"), [(0.005, 3.0), (0.03, 18.0), (0.002, None)])
+def test_a_yoke_on_a_spline_is_turned_from_tooth_to_tooth(limit: float, value: float | None) -> None:
+    """24 teeth at 33°: 18° and 3° exist, 8° does not; where no tooth is good enough, the yoke is no remedy."""
+    tube = Shaft(number=2, yoke_angle=33 * deg, length=0.8, spline=Spline(teeth=24))
+    drive = replace(
+        Drive.from_angles([12 * deg, 12 * deg]), shafts=(tube,), limits=Limits(speed_fluctuation=limit), duty=Duty()
+    )
+    free = replace(drive, shafts=(replace(tube, spline=None),))
+
+    def turned(one: Drive) -> list[float]:
+        found = remedies(one, check(one, only=["speed_fluctuation"]))
+        return [float(each.value) for each in found if each.path == "shafts[1].yoke_angle_deg"]
+
+    assert turned(drive) == ([] if value is None else [value])
+    assert turned(free)
+    assert turned(free) != turned(drive)

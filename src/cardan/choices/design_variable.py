@@ -69,11 +69,19 @@ class DesignVariable:
     # of the drive
     effort: int = 0
     reach: float | None = None  # how far it goes at most, in SI; None where it grows and shrinks by a factor
+    pitch: float | None = None  # step in which it can be changed, in SI: a yoke on a spline goes from tooth to tooth
+
+    @property
+    def stepped(self) -> bool:
+        """Whether there is nothing between its values."""
+        return self.whole or self.pitch is not None
 
     def ladder(self, side: float) -> Array:
         """Return the values to look at, upwards (+1) or downwards (-1), from what stands there on, array (k,)."""
         if self.whole:
             values = self.now + side * np.arange(1.0, max(8.0, self.now))
+        elif self.reach is not None and self.pitch is not None:
+            values = self.now + side * self.pitch * np.arange(1.0, math.floor(self.reach / self.pitch + 1e-9) + 1.0)
         elif self.reach is not None:
             values = self.now + side * np.geomspace(self.reach / 2000.0, self.reach, STEPS)
         else:
@@ -86,6 +94,9 @@ class DesignVariable:
         shown = value / self.factor
         if self.whole:
             yield from (int(math.ceil(shown) if side > 0 else math.floor(shown)) + int(side) * k for k in range(4))
+            return
+        if self.pitch is not None:
+            yield round(shown, 10)
             return
         step = self._step(shown)
         first = math.ceil(shown / step - 1e-9) if side > 0 else math.floor(shown / step + 1e-9)
@@ -135,6 +146,7 @@ def design_variables_of(drive: Drive, paths: Iterable[str], known: Catalogue) ->
             key=there.field.key,
             effort=_effort(drive, bare),
             reach=reach,
+            pitch=_pitch(drive, bare),
         )
 
 
@@ -164,6 +176,13 @@ def _effort(drive: Drive, bare: str) -> int:
     if bare.startswith(("input.", "output.")) or (joint is not None and int(joint[1]) in ends):
         return 2
     return 1 if re.search(r"\.(centre|joint_angle|plane_twist|side_slope|plan_slope|length)(\[|$)", bare) else 0
+
+
+def _pitch(drive: Drive, bare: str) -> float | None:
+    """Return the angle from tooth to tooth of the spline whose yokes a path turns against each other [rad]."""
+    yoke = re.fullmatch(r"shafts\[(\d+)\]\.yoke_angle", bare)
+    spline = drive.shafts[int(yoke[1])].spline if yoke else None
+    return 2.0 * math.pi / spline.teeth if spline is not None and spline.teeth else None
 
 
 def _reach(drive: Drive, bare: str) -> float | None:

@@ -346,7 +346,7 @@ def _found(
         for k, ((design_variable, values), used) in enumerate(zip(rows, _trial(drive, name, rows, known), strict=True)):
             verdict, _design_variable, fails, _passes = brackets[k]
             first = _first(used.get(verdict.title))
-            if first is not None and not design_variable.whole:
+            if first is not None and not design_variable.stepped:
                 brackets[k] = (
                     verdict,
                     design_variable,
