@@ -53,6 +53,33 @@ def page(held: Any) -> Any:
     refuse_complaints(complaints)
 
 
+BODIES = 'g[clip-path="url(#{0}-frame)"] path[stroke-width="35"]'
+"""Bodies in a panel of a picture."""
+
+DRAWN = """bodies => {
+  const boxes = [...document.querySelectorAll(bodies)].map((one) => one.getBBox());
+  const width = Math.max(...boxes.map((b) => b.x + b.width)) - Math.min(...boxes.map((b) => b.x));
+  return [width, Math.max(...boxes.map((b) => b.y + b.height)) - Math.min(...boxes.map((b) => b.y))];
+}"""
+"""Width and height of what is drawn there."""
+
+STANDING = """() => {
+  const spot = cardanView.viewer.camera.position.clone(), low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
+  cardanView.bodies.tracks.root.updateMatrixWorld(true);
+  for (const { solid, full } of cardanView.bodies.batches.values()) {
+    const places = full.attributes.position;
+    for (let k = 0; k < places.count; k++) {
+      spot.fromBufferAttribute(places, k).applyMatrix4(solid.matrixWorld).toArray().forEach((value, axis) => {
+        low[axis] = Math.min(low[axis], value);
+        high[axis] = Math.max(high[axis], value);
+      });
+    }
+  }
+  return high.map((value, axis) => value - low[axis]);
+}"""
+"""Length, width and height of all bodies of the view."""
+
+
 def switched(page: Any, name: str) -> None:
     """Switch a group of the view on or off."""
     mark(page, "show").click()
@@ -155,6 +182,16 @@ def test_the_camera_finds_the_drive_and_the_cube_lies_as_it_does(page: Any) -> N
     mark(page, "undo").click()
     page.wait_for_function("before => cardanView.scene.size === before", arg=before, polling=50)
     mark(page, "look-iso").click()
+
+
+def test_pictures_of_answers_show_the_bodies_of_the_view(page: Any) -> None:
+    """Side and plan view are as long over as high, and over as wide, as what stands in space."""
+    mark(page, "tab-forces").click()
+    page.wait_for_selector(f'{BODIES.format("loads-1")}', state="attached")
+    side, plan = (page.evaluate(DRAWN, BODIES.format(f"loads-{k}")) for k in range(2))
+    long, wide, high = page.evaluate(STANDING)
+    assert side[0] / side[1] == pytest.approx(long / high, rel=0.02)
+    assert plan[0] / plan[1] == pytest.approx(long / wide, rel=0.02)
 
 
 def test_bars_and_labels_cover_nothing(page: Any) -> None:
