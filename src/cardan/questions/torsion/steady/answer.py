@@ -289,7 +289,8 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
         yield _beside(found)
     if any(one.periods != 1 for one in found.beside):
         yield _longer(found)
-    if found.train.model.free and np.any(found.train.model.backlash > 0.0):
+    loose = found.train.model.backlash > 0.0
+    if found.train.model.free and np.any(loose & (found.torque_lowest < 0.0) & (found.torque_highest > 0.0)):
         text = _("Nothing holds the speed of this drive: beside a motion with open backlash no other ones were sought.")
         yield Remark(text=text)
     if drive.duty.engine is not None and drive.duty.engine.mean_pressure is not None:
