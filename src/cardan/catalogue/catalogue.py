@@ -183,6 +183,9 @@ class Shipped(Mapping[str, Mapping[str, Row]]):
     def __len__(self) -> int:
         return len(self._names)
 
+    def __repr__(self) -> str:  # sweeps are named by all that decides their rows
+        return repr(dict(self))
+
 
 @cache
 def shipped_file(name: str) -> Mapping[str, Any]:
