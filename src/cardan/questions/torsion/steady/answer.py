@@ -337,7 +337,7 @@ def _longer(found: TorsionResponse) -> Remark:
         swings.append(say(text, periods=periods, longest=LONGEST, torque=torque, where=where))
     text = _(
         "Where backlash opens the motion may repeat {how}; that counts in lowest and highest torques where a slow "
-        "run-up or run-down leads to it, else it takes a blow or an abrupt start. Orders are of the motion of one "
+        "run-up or run-down leads to it, else it takes a blow or an abrupt start; orders are of the motion of one "
         "period."
     )
     return Remark(text=say(text, how=Joined(swings)), tone="warning")
