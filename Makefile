@@ -7,7 +7,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
 EXAMPLE ?= truck-printed-angles
-WORKERS ?= 3
+WORKERS ?= 2
 
 FILE ?=
 
