@@ -311,6 +311,19 @@ def test_what_an_answer_lacks_is_offered_as_fields_and_then_it_is_there(page_of:
     assert len(drive.supports) == 1
 
 
+def test_what_nothing_can_be_judged_without_is_offered_too(page_of: Open, url: str) -> None:
+    """The half shaft tells its torque and no size: its strength needs these, and says so with fields."""
+    page = page_of(f"{url}/?example=front-halfshaft", reduced_motion="reduce")
+    ready(page)
+    mark(page, "tab-strength").click()
+    offer = page.locator('[data-mark="sheet-strength"] [data-mark="offer"]')
+    field = offer.get_by_label("outer mm", exact=True)
+    field.fill("32")
+    field.press("Enter")
+    field.wait_for(state="detached")
+    assert loads(text_of(page)).shafts[1].outer == pytest.approx(0.032)
+
+
 def test_the_geometry_stands_in_its_views_and_as_numbers(page: Any) -> None:
     mark(page, "way-geometry").click()
     page.locator(".drag-views circle").first.wait_for()

@@ -110,6 +110,11 @@ class Question:
         found: Lacking = self.home.lacking(drive)
         return found
 
+    def wanting(self, drive: Drive) -> Lacking:
+        """Return what a drive file that lacks nothing to begin with needs all the same before anything can be told."""
+        found: Lacking = self.home.wanting(drive) if hasattr(self.home, "wanting") else ()
+        return found
+
     def ask(self, drive: Drive, **given: Any) -> Any:
         """Return its result, None where nothing can be told.
 

@@ -237,7 +237,8 @@ class Sheet:
 
     async def _offered(self, drive: Drive) -> None:
         """Offer the keys that the drive lacks for it."""
-        lacking = await asyncio.to_thread(QUESTIONS[self.name].lacking, drive)
+        question = QUESTIONS[self.name]
+        lacking = await asyncio.to_thread(lambda: question.lacking(drive) or question.wanting(drive))
         if drive is self.session.drive and not self.body.is_deleted:
             self._offer_keys.show(lacking)
 

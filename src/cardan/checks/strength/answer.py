@@ -9,7 +9,7 @@ from typing import Any
 
 from cardan.answers.answer import FILE, Answer, Column, Depth, KeyFigure, Remark, Table, Tone, heads
 from cardan.answers.quantity import Joined, Quantity, Say, Text, say
-from cardan.answers.question import Lacking, absent
+from cardan.answers.question import Lacking, absent, all_of
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import Catalogue
 from cardan.checks.verdict import AMBER, Verdict
@@ -64,6 +64,12 @@ def ask(drive: Drive, *, known: Catalogue | None = None) -> Strength | None:
     if not found.binding or not found.torque > 0.0:
         return None
     return with_events(drive, replace(found, left_out=left_out(drive, found)))
+
+
+def wanting(drive: Drive) -> Lacking:
+    """Return what the drive file lacks where its torque is known and nothing can be judged."""
+    found = strength(drive)
+    return () if found.binding and found.torque > 0.0 else all_of(found.missing)
 
 
 def otherwise(drive: Drive) -> str:
