@@ -16,7 +16,7 @@ from cardan.drive.joint_parts import Rating
 from cardan.drive.joints.hooke import Hooke
 from cardan.drive.movement import Movement
 from cardan.drive.pose import Pose
-from cardan.reading.fields import fields_of
+from cardan.reading.fields import fields_of, scaled
 from cardan.texts import _
 
 from .answer import SURE
@@ -105,16 +105,9 @@ def _posed(drive: Drive, pose: Pose) -> _Given:
         there = place(drive, path)
         key = there.field.key
         found.values["", in_words(bare_path(drive, path))] = _value(
-            _in_si(value, there.factor), key.dimension or "", key.choices
+            scaled(value, there.factor), key.dimension or "", key.choices
         )
     return found
-
-
-def _in_si(value: Any, factor: float) -> Any:
-    """Return numbers of a key with a unit in SI."""
-    if isinstance(value, tuple):
-        return tuple(_in_si(one, factor) for one in value)
-    return value * factor if isinstance(value, float | int) and not isinstance(value, bool) else value
 
 
 def sources(drive: Drive, known: Catalogue | None = None) -> Iterator[Text]:

@@ -22,7 +22,7 @@ from cardan.questions.motion.equivalence import SYNCHRONOUS
 from cardan.texts import _
 from cardan.units import deg
 
-from .phasing import Phasing
+from .phasing import Phasing, joint_angle_of
 from .setting import YokeSetting
 from .spline_pitch import EVERY, on_teeth, steps
 
@@ -212,8 +212,8 @@ def sought(
         feasible=low == 0.0,
         speed_fluctuation_min=low,
         speed_fluctuation_max=high,
-        joint_angle_min=_joint_angle(low),
-        joint_angle_max=_joint_angle(high),
+        joint_angle_min=joint_angle_of(math.asinh(0.5 * low)),
+        joint_angle_max=joint_angle_of(math.asinh(0.5 * high)),
         free=tuple(k + 2 for k in free),
         fixed=tuple(sorted(held)),
         settings=told([best], ["A"]) if len(as_built) else (),
@@ -228,11 +228,6 @@ def sought(
 
 def _only(left: Array) -> Array:
     return left[..., 0]
-
-
-def _joint_angle(fluctuation: float) -> float:
-    """Return the angle of the Hooke joint with a speed fluctuation δ = sin α tan α [rad]."""
-    return 2.0 * math.atan(math.sqrt(math.tanh(0.5 * math.asinh(0.5 * fluctuation))))
 
 
 def _setting(drawn: Course, posed: Sequence[Course], yokes: Array, as_built: Array, label: str) -> YokeSetting:

@@ -24,7 +24,7 @@ from cardan.texts import _
 
 from . import own_laws
 from .family import STRETCHED, Blocks, best_member, blocks, distinct
-from .phasing import Phasing
+from .phasing import Phasing, joint_angle_of
 from .setting import NEAREST, SYNCHRONOUS, Choice, Goal, LeastIntermediate, YokeSetting, settings, turned, with_yokes
 from .spline_pitch import EVERY, TIE, best_pitched, on_teeth, steps
 from .steering import columns
@@ -122,8 +122,8 @@ def phases(
         feasible=feasible,
         speed_fluctuation_min=2.0 * math.sinh(low),
         speed_fluctuation_max=2.0 * math.sinh(high),
-        joint_angle_min=_joint_angle(low),
-        joint_angle_max=_joint_angle(high),
+        joint_angle_min=joint_angle_of(low),
+        joint_angle_max=joint_angle_of(high),
         free=tuple(k + 2 for k in free),
         fixed=tuple(sorted(held)),
         settings=evaluated(rows, [chr(ord("A") + k) for k in range(len(rows))]) if whole.joints > 1 else (),
@@ -156,10 +156,6 @@ def _by_laws(drive: Drive, held: Mapping[int, float], poses: Mapping[str, Drive]
         share=share,
         labels=(_pose_labels({}, 2), _spline_labels(teeth, PITCHED) if teeth else []),
     )
-
-
-def _joint_angle(length: float) -> float:
-    return 2.0 * math.atan(math.sqrt(math.tanh(0.5 * length)))
 
 
 def _weights(drive: Drive) -> Array:

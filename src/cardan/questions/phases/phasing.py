@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -79,3 +80,8 @@ class Phasing:
         return max(
             self.speed_fluctuation_max, *(float(np.max(one.pose_speed_fluctuation, initial=0.0)) for one in every)
         )
+
+
+def joint_angle_of(length: float) -> float:
+    """Return the angle of the Hooke joint [rad] of a length L = asinh(δ/2) = -ln cos α; δ = sin α tan α."""
+    return 2.0 * math.atan(math.sqrt(math.tanh(0.5 * length)))
