@@ -44,6 +44,8 @@ DIGITS = "joint angles at a speed have the digits of Spicer's table, in twelfths
 
 GREASES = "intervals of lubrication of industrial shafts and of power take-offs stand beside those of the book"
 
+TEETH = "a yoke on a spline is turned from tooth to tooth, so that a remedy is an angle that exists"
+
 NUMBERS: tuple[tuple[str, str, str], ...] = (
     (r"catalogue$", r"tables\.rows", GUIDES),
     (r"catalogue (max_bends|max_joint_angles)", r"rows\.max_(bend|joint_angle)_deg", DIGITS),
@@ -109,6 +111,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
     (r"joint$", r"kinds\.keys\..*", "a tripod has a key more, the far joint on which its shaft pivots"),
     (r"mobility examples/(truck-duty-cycle|two-piece-rubber-bearing)\.toml", r".*", HELD),
     (r"check examples/truck-duty-cycle\.toml --torque-Nm", r"(cures|remedies)\..*", TOP),
+    (r"check examples/truck-printed-angles\.toml", r"(most_helpful|remedies)\.(change|value)", TEETH),
     (r"sweep examples/sweeps/tolerance-field\.toml", r"reductions\.histogram irregularity\..*", BINS),
     (r"phases examples/truck-rear-axle\.toml", r"settings\..*", MORE),
     (r"articulation examples/(pto-hitch|truck-rear-axle)\.toml", r"(joints|worst)\..*", TOPS),
