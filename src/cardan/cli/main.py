@@ -6,6 +6,7 @@ cardan itself; 130 interrupted.
 
 from __future__ import annotations
 
+import atexit
 import gc
 import gettext
 import os
@@ -22,8 +23,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 """cardan solves many small systems: threads of the linear algebra itself cost more than they gain, six times as much
 on a machine that is busy. Set before numpy is loaded; what the user says counts."""
 
-SELDOM = 20_000
+SELDOM = 100_000
 """New objects before garbage is looked for: all that loading makes stays."""
+
+atexit.register(gc.freeze)  # nothing is looked through once more when the process ends and all goes anyway
 
 app, failure = later("cardan.cli.app"), later("cardan.cli.shared.failure")
 """The parser, and what is said when something goes wrong: they load while an early ctrl-C is answered already."""
