@@ -17,6 +17,7 @@ from cardan.drive.movement import Movement
 from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import highest, tops, turning_points
 from cardan.maths.kernel import frames
+from cardan.questions.motion.length import slipping
 from cardan.questions.motion.moving_chain import moving_shafts
 from cardan.questions.motion.moving_points import default_times, moving_points
 from cardan.texts import _
@@ -114,41 +115,54 @@ def _largest(ask: Callable[[slice, Array], Array], points: Array, movements: Seq
     return Moved(most=np.concatenate(found).reshape(*outer, -1))
 
 
-def extreme_lengths(points: Array, movements: Sequence[Movement]) -> tuple[Array, Array]:
+def extreme_lengths(
+    points: Array, movements: Sequence[Movement], rest: Array, ends: Sequence[int] = ()
+) -> tuple[Array, Array]:
     """Return the least and the greatest length of every shaft over the instants of a movement, arrays (..., n+1) [m].
 
-    points (..., n+2, 3) [m]: points of the axis as drawn.
+    points (..., n+2, 3) [m]: points of the axis as drawn; rest (..., n+1) [m], ends: lengths at which splines of end
+    shafts hold the shafts beside them, and which do, see `slipping`.
     Up to `FEW` different drives exactly, as `motion.articulation` has them; of more the parabola through the
     extreme instant and its neighbours.
     """
     count = points.shape[-2]
-    flat, back = np.unique(points.reshape(-1, 3 * count), axis=0, return_inverse=True)
-    rows = flat.reshape(-1, count, 3)
+    outer = np.broadcast_shapes(points.shape[:-2], rest.shape[:-1])
+    points, held = np.broadcast_to(points, (*outer, count, 3)), np.broadcast_to(rest, (*outer, count - 1))
+    held = held.reshape(-1, count - 1)
+    flat, back = np.unique(np.hstack((points.reshape(-1, 3 * count), held)), axis=0, return_inverse=True)
+    rows, held = flat[:, : 3 * count].reshape(-1, count, 3), flat[:, 3 * count :]
     if rows.shape[0] > FEW:
-        lengths = [frames.norm(np.diff(moved, axis=-2)) for _part, moved in _moved(rows, movements)]
+        lengths = [lengths_at(moved, held[part, None], ends) for part, moved in _moved(rows, movements)]
         low, high = (
             sign * np.concatenate([np.max(tops(sign * np.swapaxes(one, -1, -2)), axis=-1) for one in lengths])
             for sign in (-1.0, 1.0)
         )
     else:
-        ends = np.stack([_extremes(row, movements) for row in rows])
-        low, high = ends[..., 0], ends[..., 1]
-    shape = (*points.shape[:-2], count - 1)
+        found = np.stack([_extremes(row, movements, own, ends) for row, own in zip(rows, held, strict=True)])
+        low, high = found[..., 0], found[..., 1]
+    shape = (*outer, count - 1)
     return low[back.ravel()].reshape(shape), high[back.ravel()].reshape(shape)
 
 
-def _extremes(points: Array, movements: Sequence[Movement]) -> Array:
+def lengths_at(points: Array, rest: Array, ends: Sequence[int]) -> Array:
+    """Return the lengths of shafts between points (..., n+2, 3), array (..., n+1) [m]; rest, ends: of `slipping`."""
+    if not ends:
+        return frames.norm(np.diff(points, axis=-2))
+    return slipping(moving_shafts((points, 0.0 * points, 0.0 * points)), rest, ends).length
+
+
+def _extremes(points: Array, movements: Sequence[Movement], rest: Array, ends: Sequence[int]) -> Array:
     """Return least and greatest length of every shaft of one drive, array (n+1, 2) [m]; nan where its ends meet."""
     times = default_times(movements)
     with np.errstate(divide="ignore", invalid="ignore"):
-        shafts = moving_shafts(moving_points(points, movements, times))
+        shafts = slipping(moving_shafts(moving_points(points, movements, times)), rest, ends)
     found = np.full((points.shape[0] - 1, 2), np.nan)
-    for k, ends in enumerate(found):
+    for k, row in enumerate(found):
         good = np.isfinite(shafts.length_acceleration[:, k])
         if np.any(good):
             parts = (shafts.length, shafts.length_rate, shafts.length_acceleration)
             values = turning_points((times[good], *(part[good, k] for part in parts)))[1]
-            ends[:] = np.min(values), np.max(values)
+            row[:] = np.min(values), np.max(values)
     return found
 
 

@@ -8,9 +8,11 @@ import numpy as np
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
-from cardan.checks.movement_loads import extreme_lengths
+from cardan.checks.movement_loads import extreme_lengths, lengths_at
 from cardan.checks.verdict import Verdict
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames
+from cardan.questions.motion.length import slip_ends
 from cardan.texts import _, mark
 from cardan.units import mm
 
@@ -66,14 +68,18 @@ def slid(design: Design, shafts: Sequence[int]) -> dict[int, tuple[Array, Array,
     moves, drawn = design.drive.movements, design.drawn
     if not moves and not design.drive.poses and drawn is None:
         return {}
-    reach = extreme_lengths(design.points, moves) if moves else None
+    ends, rest = slip_ends(design.drive), frames.norm(np.diff((drawn or design).points, axis=-2))
+    reach = extreme_lengths(design.points, moves, rest, ends) if moves else None
     ways = {}
     for k in shafts:
         shaft = design.drive.shafts[k]
         origin = design if drawn is None or shaft.spline != drawn.drive.shafts[k].spline else drawn
-        standing, zero = design.length(k), origin.length(k)
+        beside = min(max(k, 1), design.joints - 1)
+        standing, zero = design.length(beside), origin.length(beside)
         if standing is None or zero is None:
             continue
+        if k in ends:
+            standing, zero = (lengths_at(one.points, rest, ends)[..., k] for one in (design, origin))
         low = high = np.asarray(standing, dtype=float)
         if reach is not None:
             low, high = (np.where(np.isfinite(one[..., k]), one[..., k], standing) for one in reach)

@@ -19,6 +19,7 @@ from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.curves.paths import Path
 from cardan.maths.kernel import frames
+from cardan.questions.motion.length import slip_ends, slipping
 from cardan.questions.motion.motion import motion, positions
 from cardan.questions.motion.moving_chain import moving_centres
 from cardan.questions.motion.moving_points import moving_path, start_time
@@ -309,7 +310,8 @@ def _moving(
     stand = swinging(found.axes, found.spins)
     points = np.asarray(found.points[0]).copy()
     points[:, 0] = points[:, 1] - place.length[0] * found.shafts.axis[:, 0]
-    sense = -np.sign(np.asarray(found.shafts.length_rate)[:, list(whole.splines)])
+    slid = slipping(found.shafts, place.length, slip_ends(drive))
+    sense = -np.sign(slid.length_rate[:, list(whole.splines)])
     torque = np.zeros(angle.shape) + (duty.torque or 0.0)
     carried = _carried(whole, stand, torque, duty.torque_at)
     whole = replace(whole, normal=None)

@@ -23,7 +23,7 @@ from cardan.texts import _
 
 from .instants import Instants, Position, Question
 from .kinds import kind_name
-from .length import LengthCompensation, length_compensation
+from .length import LengthCompensation, length_compensation, slip_ends, slipping
 from .moving_points import default_times, moving_path, shortest_period, start_time
 from .random_motion import RandomMotion, random_motion
 
@@ -274,9 +274,10 @@ def _instants(times: ArrayLike) -> Array:
 
 
 def _splines(drive: Drive, place: Geometry, found: Instants) -> tuple[LengthCompensation, ...]:
-    """Judge every intermediate shaft that slides or has a spline, over the instants at which its ends lie apart."""
-    shafts, splines = found.shafts, []
-    for k in range(1, len(drive.joints)):
+    """Judge every shaft that slides or has a spline, over the instants at which its ends lie apart."""
+    ends, splines = slip_ends(drive), []
+    shafts = slipping(found.shafts, place.length, ends)
+    for k in sorted({*range(1, len(drive.joints)), *ends}):
         good = np.isfinite(shafts.length_acceleration[:, k])
         if not np.any(good):
             continue

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cardan.answers.quantity import Quantity, Text, say
+from cardan.drive.drive import Drive
 from cardan.drive.duty import Limits
 from cardan.drive.shaft import Spline
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import Series, crossings, turning_points, values_at
+from cardan.maths.kernel import frames
 from cardan.maths.ties import foremost_on
 from cardan.texts import _
+
+from .moving_chain import Shafts
 
 STIFF = 1e-6
 """A shaft whose length changes by less than this share of it does not slide: rounded coordinates do as much."""
@@ -110,6 +115,42 @@ def length_compensation(
         gap_min=None if gap is None else gap + (float(values[low]) - base),
         flags=flags,
     )
+
+
+def slip_ends(drive: Drive) -> tuple[int, ...]:
+    """Return the end shafts, from 0, whose splines take up the length of the shaft beside them, which has none."""
+    last = len(drive.shafts) - 1
+    beside = {0: 1, last: last - 1} if last > 1 else {}
+    return tuple(k for k, j in beside.items() if drive.shafts[k].spline and not drive.shafts[j].spline)
+
+
+def slipping(shafts: Shafts, rest: ArrayLike, ends: Sequence[int]) -> Shafts:
+    """Return the shafts with lengths as splines of end shafts make them: those beside keep theirs.
+
+    rest (..., n+1) [m]: lengths as drawn; ends: of `slip_ends`. A movement puts the joint of an end shaft at the
+    distance L from the next one, and that shaft has the length L_0. So the yoke slips along the end shaft by
+    s = q - √W, W = L_0² - L² + q², q = L cos α. Between two such ends each is taken to slip by all of it.
+    """
+    length, rate, acceleration = (
+        np.array(one) for one in (shafts.length, shafts.length_rate, shafts.length_acceleration)
+    )
+    for end in ends:
+        k = 1 if end == 0 else end - 1
+        (e, e1, e2), (a, a1, a2) = (
+            (shafts.axis[..., i, :], shafts.axis_rate[..., i, :], shafts.axis_acceleration[..., i, :]) for i in (end, k)
+        )
+        c, c1 = frames.dot(e, a), frames.dot(e1, a) + frames.dot(e, a1)
+        c2 = frames.dot(e2, a) + 2.0 * frames.dot(e1, a1) + frames.dot(e, a2)
+        x, x1, x2 = (one[..., k] for one in (shafts.length, shafts.length_rate, shafts.length_acceleration))
+        q, q1, q2 = x * c, x1 * c + x * c1, x2 * c + 2.0 * x1 * c1 + x * c2
+        own = np.asarray(rest, dtype=float)[..., k]
+        root = np.sqrt(own**2 - x**2 + q**2)
+        root1 = (q * q1 - x * x1) / root
+        root2 = (q1**2 + q * q2 - x1**2 - x * x2 - root1**2) / root
+        for whole, slip, still in ((length, q - root, own), (rate, q1 - root1, 0.0), (acceleration, q2 - root2, 0.0)):
+            whole[..., end] += slip
+            whole[..., k] = still
+    return replace(shafts, length=length, length_rate=rate, length_acceleration=acceleration)
 
 
 def _series(times: ArrayLike, length: ArrayLike, rate: ArrayLike, acceleration: ArrayLike) -> Series:
