@@ -8,6 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from cardan import Drive, torsion_response
+from cardan.checks import check
 from cardan.drive.conditions import LoadCase
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
@@ -22,6 +23,7 @@ from cardan.questions.forces.turn_loads import case_loads
 from cardan.questions.life.life import life
 from cardan.questions.torsion.steady.dynamic_torque import dynamic_torque, steady_torque
 from cardan.units import deg, mm, rpm
+from tests.questions.torsion.steady.test_torsion_response import three_joints
 
 ONE, TWO = 14 * deg, 9 * deg
 STIFF, DAMP, INERTIA = 38_400.0, 4.0, 1.0
@@ -134,6 +136,19 @@ def test_an_order_that_does_not_repeat_counts_as_in_the_response():
     assert found.high[0, 1] == pytest.approx(float(runs.torque_highest[0]), rel=1e-3)
     assert found.low[0, 1] == pytest.approx(float(runs.torque_lowest[0]), rel=1e-3)
     assert found.high[0, 1] - steady_torque(drive()).high[0, 1] == pytest.approx(float(found.beside[0, 1]), rel=0.05)
+
+
+def test_a_dip_that_the_response_does_not_show_is_no_reversal():
+    """Up and down an order that does not repeat moves the torque by unlike amounts: 89 N·m up are no 89 N·m down.
+
+    Shaft 1 ends in a yoke without mass, so that its joint carries what its spring carries: 5.9 to 284 N·m.
+    """
+    engine = three_joints()
+    found, runs = steady_torque(engine), torsion_response(engine)
+    assert found.low[0, 0] == pytest.approx(float(runs.torque_lowest[0]), rel=1e-3)
+    assert found.high[0, 0] == pytest.approx(float(runs.torque_highest[0]), rel=1e-3)
+    assert float(runs.torque_lowest[0]) > 5.0
+    assert not [one for one in check(engine, only=["torque_reversal"]) if one.run]
 
 
 def test_without_masses_the_torques_are_those_of_statics():

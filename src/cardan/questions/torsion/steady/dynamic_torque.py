@@ -110,10 +110,10 @@ def _torques(asked: _Vibrating) -> DynamicTorque:
     torque = np.moveaxis(element_torques(drives, q, rate), -1, -2)
     alone = -peak(-torque), peak(torque)
     lowest, highest = widened(*_with_bands(orbit, asked.loose, *alone), others)
-    beside: Array = np.maximum(alone[0] - lowest, highest - alone[1])
-    at_joints = np.stack([_of_shafts(model, beside, k, shafts) for k in range(shafts)], axis=-1)
-    at_ends = np.maximum(at_joints[:, :-1], at_joints[:, 1:])
-    ends = [(-peak(-one) - at_ends, peak(one) + at_ends) for one in part.at_joints(part.angle)]
+    falls, rises = (_at_joints(model, one, shafts) for one in (alone[0] - lowest, highest - alone[1]))
+    at_ends: Array = np.max([*falls, *rises], axis=0)
+    through = part.at_joints(part.angle)
+    ends = [(-peak(-one) - less, peak(one) + more) for one, less, more in zip(through, falls, rises, strict=True)]
     low, high = np.full((len(speeds), shafts), np.inf), np.full((len(speeds), shafts), -np.inf)
     for k in range(shafts):
         own = [e for e, (a, b) in enumerate(model.elements) if model.shaft[a] == k and asked.line[b]]
@@ -156,6 +156,20 @@ def _amplitudes(model: TorsionalModel, station: int, law: Law, speeds: Array) ->
     """Return how far a torque that does not repeat swings every element, array (s, E) [N·m]."""
     assert isinstance(law, Swinging)
     return np.abs(straight_waves(model, station, law.amplitude, law.frequency * np.abs(speeds)).torque)
+
+
+def _at_joints(model: TorsionalModel, values: Array, shafts: int) -> tuple[Array, Array]:
+    """Return by how much what enters and leaves every joint (s, n) moves where elements move by values (s, E).
+
+    A yoke without mass passes on what its shaft carries; beside one with mass the larger of both shafts counts.
+    """
+    every = np.stack([_of_shafts(model, values, k, shafts) for k in range(shafts)], axis=-1)
+    larger = np.maximum(every[:, :-1], every[:, 1:])
+    pushed = {one.station for one in model.torques}
+    heavy = [bool(np.any(model.inertia[..., k] != 0.0)) or k in pushed for k in range(model.inertia.shape[-1])]
+    yokes = sorted((one[1], one[0], k) for k, one in enumerate(model.driven) if one is not None)
+    driving, driven = np.asarray([[heavy[a], heavy[b]] for _joint, a, b in yokes]).T
+    return np.where(driving, larger, every[:, :-1]), np.where(driven, larger, every[:, 1:])
 
 
 def _of_shafts(model: TorsionalModel, values: Array, k: int, shafts: int) -> Array:
