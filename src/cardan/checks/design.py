@@ -222,17 +222,18 @@ class Design:
         if joint_angle is not None:
             flat = np.asarray(joint_angle, dtype=float)[..., None] + np.zeros(self.joints)
             chain = at_joint_angle(self.given, flat, self.drive.joints)
+        history = one.path == "duty.torque_history"
         speed = self.varied.get(f"{one.path}.speed", one.speed)
-        if one.path == "duty.torque_history" or (self.value(f"{one.path}.speed") is None and one.speed_range is None):
+        if (history or self.value(f"{one.path}.speed") is None) and one.speed_range is None:
             speed = self.value("duty.speed")
         timed = part or (bool(self.duty.cases) and one.share > 0.0)
-        history = one.path == "duty.torque_history"
         return Case(
             chain=chain,
             unit=unit if joint_angle is None else {},
             name=one.name,
             torque=_size(self.varied.get(f"{one.path}.torque", one.torque)),
             speed=_size(speed),
+            fastest=self._fastest(one),
             held=one.held or one.speed_range is None,
             share=self.varied.get(f"{one.path}.share", one.share if timed or history else 1.0),
             block=timed,
@@ -240,8 +241,15 @@ class Design:
             torque_at=one.torque_at,
             harmonics=one.harmonics,
             scale=scale,
+            history=history,
             vibrating=lambda: None if history else self._vibration(one),
         )
+
+    def _fastest(self, one: LoadCase) -> Array | float | None:
+        """Return the highest speed of a way to run over a range of speeds [rad/s]; None where it is at one speed."""
+        if one.speed_range is not None and one.path != "duty":
+            return one.speed_range[1]
+        return self.value("duty.speed_range[1]") if one.ranges and self.duty.speed_range is not None else None
 
     def _vibration(self, one: LoadCase) -> Vibration | None:
         """Return what torsional vibration adds to the loads in a way to run, of the drive itself."""
@@ -269,7 +277,7 @@ class Design:
     def range_tops(self) -> list[Array | float]:
         """Highest speeds of the ranges in which these drives run, arrays (...) [rad/s]."""
         own = [] if self.duty.speed_range is None else [self.value("duty.speed_range[1]")]
-        cycle = (one for one in self._cycle if one.pose in ("", self.pose))
+        cycle = (one for one in load_cases(self.duty) if one.path != "duty" and one.pose in ("", self.pose))
         return own + [one.speed_range[1] for one in cycle if one.speed_range is not None]
 
     def _asked(self, ask: Callable[[Case], Array], *, shocks: bool = True) -> list[Array]:

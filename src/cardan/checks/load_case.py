@@ -140,6 +140,8 @@ class Case:
     name: str = ""  # what to call it; empty for the duty itself
     torque: Array | float | None = None  # (...) [N·m]: size of the torque
     speed: Array | float | None = None  # (...) [rad/s]: size of the input speed
+    # (...) [rad/s]: highest of the speeds at which it runs; None where it is one speed
+    fastest: Array | float | None = None
     held: bool = True  # whether it holds that speed, and it is not the middle of a range
     share: Array | float = 1.0  # (...): share of the whole time
     block: bool = False  # whether it is part of a duty cycle
@@ -148,6 +150,7 @@ class Case:
     harmonics: tuple[Harmonic, ...] = ()  # its swinging parts
     # (...) [N·m]: mean torque that the harmonics belong to, and with which they grow; zero where they do not
     scale: Array | float = 0.0
+    history: bool = False  # whether it is the peak of a measured torque
     # finds what torsional vibration adds
     vibrating: Callable[[], Vibration | None] = lambda: None
 

@@ -35,7 +35,7 @@ class LoadCase:
     speed: float | None = None  # [rad/s]: input speed with its sign; the middle of a range
     share: float = 1.0  # share of the whole time; 0 for a peak, and for the duty beside its duty cycle
     path: str = "duty"  # where it stands in the drive file: ``duty``, ``duty.cases[1]``
-    # [rad/s]: lowest and highest input speed, where the case has its own
+    # [rad/s]: lowest and highest input speed, where the case has its own or they were measured
     speed_range: tuple[float, float] | None = None
     # whether it runs over the speed range of the duty: not where it holds a speed of its own beside the duty itself
     ranges: bool = True
@@ -122,7 +122,19 @@ def load_cases(duty: Duty) -> tuple[LoadCase, ...]:
         most = max(history.torques, key=abs)
         name = _("the peak of the torque history")
         path = "duty.torque_history"
-        found.append(LoadCase(name=name, torque=most, speed=duty.speed, share=0.0, path=path, shock_factor=shocks))
+        speeds = [abs(one) for one in history.speeds]
+        between = (min(speeds), max(speeds)) if speeds else None
+        speed = 0.5 * sum(between) if between and duty.speed is None else duty.speed
+        peak = LoadCase(
+            name=name,
+            torque=most,
+            speed=speed,
+            share=0.0,
+            path=path,
+            speed_range=between,
+            shock_factor=shocks,
+        )
+        found.append(peak)
     return tuple(found)
 
 

@@ -2,12 +2,15 @@
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from cardan import load
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.checks import check
 from cardan.checks.design import design
 from cardan.checks.strength.section import sections
@@ -16,7 +19,13 @@ from cardan.checks.strength.strength import strength
 from cardan.choices.remedy import remedies
 from cardan.choices.sizing import size
 from cardan.cli.main import main
+from cardan.drive.conditions import used_speeds
+from cardan.drive.cross import Cross
+from cardan.drive.joint_parts import Needles
+from cardan.drive.joints import Hooke
+from cardan.questions.life.life import life
 from cardan.questions.life.rainflow import rainflow
+from cardan.units import deg, mm, rpm
 
 FILE = """
 format = 1
@@ -126,6 +135,44 @@ def test_a_remedy_makes_both_verdicts_pass(drive):
     assert "fatigue life of shaft 2" in thicker[0].solves
 
 
+def measured(folder: Path, torque, speed=None):
+    """Return the drive with another torque [N·m], four rows a second, and the input speed beside it [rpm]."""
+    path = written(folder, seconds=1)
+    columns = [0.25 * np.arange(len(torque)), torque, *([] if speed is None else [speed])]
+    names = ["time_s", "torque_Nm", "speed_rpm"][: len(columns)]
+    np.savetxt(folder / "torque.csv", np.transpose(columns), delimiter=",", header=",".join(names), comments="")
+    return load(path)
+
+
+def test_a_measured_torque_that_reverses_is_told_and_keeps_no_gap_closed(tmp_path):
+    """Once a second it drives or brakes: 119 times in 119.75 s it passes through zero, 3,577 times an hour."""
+    torque = 1600.0 * np.tile([1.0, 1.0, 1.0, 1.0, -0.5, -0.5, -0.5, -0.5], 60)
+    names = ["torque_reversal", "gap_closure"]
+    (found,) = [one for one in check(measured(tmp_path, torque), only=names) if one.run]
+    assert (found.check, found.advice) == ("torque_reversal", True)
+    assert (found.value, found.limit) == (2400.0, 1600.0)
+    assert told(found.note, USUAL).startswith("3\u202f577 reversals per hour; the file gives no backlash")
+    (found,) = [one for one in check(measured(tmp_path, 2000.0 + torque), only=names) if one.run]
+    assert (found.check, found.value) == ("gap_closure", pytest.approx(1200.0))  # the least of it, not its peak
+
+
+def test_speeds_measured_beside_the_torque_are_in_use(tmp_path):
+    """A run at 6,000 rpm counts where speeds are judged, though the duty says 1,000; life asks for no other speed."""
+    torque, speed = np.full(40, 800.0), np.linspace(300.0, 6000.0, 40)
+    still, fast = measured(tmp_path, torque), measured(tmp_path, torque, speed)
+    names = ["critical_speed", "gap_closure"]
+    before, after = ({one.check: one for one in check(drive, only=names) if one.run} for drive in (still, fast))
+    assert after["critical_speed"].value == pytest.approx(6.0 * before["critical_speed"].value)
+    assert after["gap_closure"].limit == pytest.approx(36.0 * before["gap_closure"].limit)  # joints shake by its square
+    assert used_speeds(fast.duty) == pytest.approx((300 * rpm, 6000 * rpm))
+    assert used_speeds(replace(fast.duty, speed=None)) == pytest.approx((300 * rpm, 6000 * rpm))
+    rated = replace(Hooke(joint_angle=6 * deg), cross=Cross(span=80 * mm), needles=Needles(capacity=25e3))
+    lives = [
+        life(replace(fast, joints=(rated, rated), duty=replace(fast.duty, speed=one))) for one in (None, 1e3 * rpm)
+    ]
+    assert lives[0].of("iso").tolist() == pytest.approx(lives[1].of("iso").tolist())
+
+
 def test_many_drives_at_once_are_the_single_ones(drive):
     widths = [70.0, 76.0, 95.0]
     names = ["tube_fatigue", "shaft_life"]
@@ -161,8 +208,8 @@ def test_very_many_different_cycles_damage_as_one_by_one(drive):
 def test_command_line_and_first_page(tmp_path, capsys):
     path = written(tmp_path)
     assert main(["check", str(path), "--json"]) == 1
-    told = json.loads(capsys.readouterr().out)
-    rows = {row["check"]: row for row in told["verdicts"]}
+    answered = json.loads(capsys.readouterr().out)
+    rows = {row["check"]: row for row in answered["verdicts"]}
     assert rows["shaft_life"]["state"] == "failed"
     assert rows["shaft_life"]["value"] == pytest.approx(54.1, abs=0.1)
     assert rows["shaft_life"]["unit"] == "h"

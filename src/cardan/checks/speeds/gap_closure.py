@@ -9,7 +9,7 @@ import numpy as np
 from cardan.answers.quantity import Text, numbered, say
 from cardan.checks.check import Check
 from cardan.checks.design import Design
-from cardan.checks.load_case import Case, blocks
+from cardan.checks.load_case import Case, blocks, largest
 from cardan.checks.speeds.shaft_inertia import shaft_inertia
 from cardan.checks.verdict import Verdict, joined
 from cardan.drive.models.kinematics_model import Chain
@@ -25,14 +25,14 @@ def _judge(design: Design) -> Iterator[Verdict]:
     own = each[:-1] or each
     lacking = [f"shafts[{k}].inertia" for k, one in enumerate(own, 1) if one is None]
     lacking += [*design.unloaded, *design.unmoved]
-    running = [case for case in design.loaded if case.speed is not None and np.any(np.asarray(case.torque) > 0.0)]
+    running = [case for case in design.loaded if case.speed is not None and np.any(_pressing(design, case) > 0.0)]
     if lacking or not running:
         if lacking:
             yield Verdict(missing=tuple(lacking))
         return
     inertia = np.stack(np.broadcast_arrays(*(np.asarray(0.0 if one is None else one) for one in each)), axis=-1)
     needs = [_needed(design, case, inertia) for case in running]
-    torques = [np.asarray(case.torque, dtype=float) for case in running]
+    torques = [_pressing(design, case) for case in running]
     rows = np.broadcast_arrays(*torques, *(np.maximum(np.max(one, axis=-1), 0.0) for one in needs))
     torque, needed = np.stack(rows[: len(running)]), np.stack(rows[len(running) :])
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -60,11 +60,23 @@ def _judge(design: Design) -> Iterator[Verdict]:
     )
 
 
+def _pressing(design: Design, case: Case) -> Array:
+    """Return the torque that presses the joints one way all the time, array (...) [N·m]; 0 where it changes its sign.
+
+    Of a measured torque it is the least; where it reverses, `torque_reversal` tells it.
+    """
+    history = design.duty.torque_history
+    if not case.history or history is None:
+        return np.asarray(case.torque, dtype=float)
+    low, high = min(history.torques), max(history.torques)
+    return np.asarray(max(low, -high, 0.0))
+
+
 def _needed(design: Design, case: Case, inertia: Array) -> Array:
     """Return the least torque that keeps each joint pressed one way, of many drives block by block (..., n) [N·m]."""
     whole = case.chain
     outer = np.broadcast_shapes(whole.joint_angle.shape[:-1], design.shape)
-    speed = design.top_speed if not case.name and design.duty.speed_range is not None else case.speed
+    speed = largest([one for one in (case.speed, case.fastest) if one is not None])
     own = design.value("duty.torque")
     torque, scale = np.asarray(case.torque, dtype=float), np.abs(np.asarray(case.scale, dtype=float))
     share = np.where(scale > 0.0, torque / np.where(scale > 0.0, scale, 1.0), 1.0)

@@ -410,9 +410,12 @@ def _vibrating(result: Strength, *, runs_up: bool) -> Iterator[Remark]:
     found = result.vibration
     if found is None:
         text = _("Torsional vibration is not counted: the file says nothing of masses and stiffness (stations).")
-        if result.vibrates:
+        measured = result.vibrates and any(case.history for case in result.cases)
+        if measured:
+            text = _("Torsional vibration counts as far as the measured torque holds it.")
+        elif result.vibrates:
             text = _("Torsional vibration is not counted: the file has masses or stiffness, but no motion can be told.")
-        yield Remark(text=text, tone="warning", alarm=result.vibrates)
+        yield Remark(text=text, tone="plain" if measured else "warning", alarm=result.vibrates and not measured)
         return
     speed = Quantity(found.speed, "angular_speed", 3)
     if not found.stable:

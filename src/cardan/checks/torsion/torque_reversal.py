@@ -1,4 +1,4 @@
-"""Whether torsional vibration turns the torque of a shaft about, so that what has backlash rattles."""
+"""Whether the torque of a shaft turns about, measured or by torsional vibration, so that what has backlash rattles."""
 
 from __future__ import annotations
 
@@ -6,20 +6,28 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, say
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.load_case import Case
 from cardan.checks.verdict import Verdict
 from cardan.maths.arrays import Array
+from cardan.questions.torsion.road.places import sign_changes
 from cardan.texts import _, mark
 
 from .line import lacking, worst
+
+SOURCE = mark("where the torque passes through zero, backlash opens and strikes shut")
+
+HOUR = 3600.0
+"""Seconds in an hour."""
 
 LEAST = 1e-9
 """Mean torque that counts where there is none [N·m]."""
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
+    yield from _measured(design)
     missing = (*lacking(design), *design.unloaded)
     if missing:
         yield Verdict(missing=missing)
@@ -36,11 +44,33 @@ def _judge(design: Design) -> Iterator[Verdict]:
             subject=f"shafts[{k}]",
             value=value,
             limit=limit,
-            source=_("where the torque passes through zero, backlash opens and strikes shut"),
+            source=_(SOURCE),
             design_variables=(*design.torque_design_variables, *loose),
             note="" if loose else _("the file gives it no backlash: what has some will rattle"),
             advice=not loose,
         )
+
+
+def _measured(design: Design) -> Iterator[Verdict]:
+    """Yield the range of a measured torque beside its largest size, which it passes where it changes its sign."""
+    history = design.duty.torque_history
+    if history is None or len(history.torques) < 2:
+        return
+    low, high = min(history.torques), max(history.torques)
+    if low >= 0.0 or high <= 0.0:
+        return
+    rate = float(sign_changes(np.asarray(history.torques))) / (history.times[-1] - history.times[0])
+    loose = any(_loose(design, k) for k in range(design.joints + 1))
+    struck = _("{count} reversals per hour; at each of them the backlash given strikes")
+    free = _("{count} reversals per hour; the file gives no backlash: what has some will rattle")
+    yield Verdict(
+        title=_("range of the measured torque, against reversal"),
+        value=np.asarray(high - low),
+        limit=np.asarray(max(high, -low)),
+        source=_(SOURCE),
+        note=say(struck if loose else free, count=Quantity(HOUR * rate, digits=3)),
+        advice=True,
+    )
 
 
 def _dip(case: Case, k: int) -> tuple[Array, Array]:
@@ -66,7 +96,7 @@ def _loose(design: Design, k: int) -> tuple[str, ...]:
 
 CHECK = Check(
     name="torque_reversal",
-    doc=mark("torque of shafts with backlash against reversal by torsional vibration"),
+    doc=mark("torque of shafts with backlash against reversal, as measured or by torsional vibration"),
     judge=_judge,
     moves=True,
     title=mark("reversal of the torque"),

@@ -297,7 +297,7 @@ def duty_parts(duty: Duty) -> tuple[tuple[LoadCase, ...], Duty, Levels | None, C
         return timed, duty, None, None
     history = duty.torque_history
     problems = []
-    if not duty.speed:
+    if not duty.speed and not (history and history.speeds):
         zero = Problem("duty.speed", _("is zero; at standstill bearings do not wear"))
         lacks = Problem("duty.speed", _("missing; how long a joint lasts depends on it"), "missing")
         problems.append(zero if duty.speed == 0.0 else lacks)
