@@ -5,10 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cardan.answers.answer import FILE
 from cardan.answers.data import data
 from cardan.answers.printed import printed
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
+from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.movement import Hitch
@@ -18,6 +20,7 @@ from cardan.questions.forces import moving_answer
 from cardan.questions.forces.answer import Carried, answer, ask, lacking
 from cardan.questions.forces.forces import forces
 from cardan.questions.forces.moving_forces import moving_forces
+from cardan.questions.losses import answer as losses_answer
 from cardan.texts import speaking
 from cardan.units import deg
 
@@ -132,3 +135,18 @@ def test_the_movement_alone_tells_its_extremes_and_when():
 def test_what_the_drive_file_lacks_is_told():
     assert lacking(TRUCK) == ()
     assert lacking(Drive.from_angles([0.3])) == (("duty.torque",), ("supports",))
+
+
+def test_torques_of_rigid_shafts_say_so_where_vibration_can_be_told():
+    """Statics tell 304 N·m in the telescope, of which the response makes several times as much: not without a word."""
+    drive = example("pto-flywheel")
+    drive = replace(
+        drive, joints=tuple(replace(one, friction=0.1, cross=Cross(span=0.08, journal=0.02)) for one in drive.joints)
+    )
+    lost = losses_answer.answer(drive, losses_answer.ask(drive))
+    for found in (of(drive), lost):
+        assert [one.command for one in found.remarks if one.code == "rigid_shafts"] == [
+            ("cardan", "torsion", "response", FILE)
+        ]
+    bare = replace(drive, stations=())
+    assert not any(one.code == "rigid_shafts" for one in of(bare).remarks)

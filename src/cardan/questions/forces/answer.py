@@ -25,7 +25,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.curves.cycle_statistics import harmonics
 from cardan.maths.ties import foremost, largest
 from cardan.questions.motion.articulation_answer import random_facts, random_tables
-from cardan.questions.motion.kinds import steep_joints
+from cardan.questions.motion.kinds import steep_joints, without_vibration
 from cardan.questions.motion.random_motion import RandomMotion, Results, random_motion
 from cardan.texts import _, mark, plural
 
@@ -269,6 +269,7 @@ def _remarks(drive: Drive, result: Carried, machines: tuple[int, ...]) -> Iterat
         text = _("Warning: forces on the supports are not calculated: {field}: {message}")
         yield Remark(text=say(text, **_parts(problem)), tone="warning", alarm=k == 0)
     yield from steep_joints(drive)
+    yield from without_vibration(drive)
     yield from yokes_estimated(drive)
     if centred := [str(i) for i, joint in enumerate(drive.joints, start=1) if joint.centred]:
         text = plural(

@@ -23,6 +23,7 @@ from cardan.figures.figure import Figure
 from cardan.figures.palette import colour
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost, largest
+from cardan.questions.motion.kinds import without_vibration
 from cardan.texts import _, mark, plural
 
 from .figure import loss_parts, losses_figures, map_figures, power
@@ -235,6 +236,7 @@ def _remarks(drive: Drive, result: Losses, over: LossMap | None) -> Iterator[Rem
     rubbing = any(support.friction is not None for support in drive.supports)
     yield from held_by_machines(machines_of(drive) if rubbing else ())
     yield from _gathered(drive, result, over)
+    yield from without_vibration(drive)
     yield from _uncounted(result.uncounted)
     if any(joint.single_cross for joint in drive.joints):
         text = _(

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cardan.answers.answer import Remark
+from cardan.answers.answer import FILE, Remark
 from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.joints.joint import Inside
 from cardan.drive.models.kinematics_model import given_chain
 from cardan.drive.models.wobble import wobbles
+from cardan.drive.torsional_layout import has_torsion
 from cardan.texts import _, plural
 
 TINY = 1e-9  # way of a joint centre [m] that is rounding
@@ -48,6 +49,13 @@ def steep_joints(drive: Drive) -> Iterator[Remark]:
         found = steep(joint, number, float(joint_angle))
         if found is not None:
             yield Remark(text=say(_("Warning: {what}"), what=found), tone="warning")
+
+
+def without_vibration(drive: Drive) -> Iterator[Remark]:
+    """Yield that torques are those of rigid shafts, of a drive whose torsional vibration could be told."""
+    if has_torsion(drive) and drive.duty.speed:
+        text = _("Torques are those of rigid shafts; what torsional vibration adds to them is told by:")
+        yield Remark(text=text, command=("cardan", "torsion", "response", FILE), code="rigid_shafts", once=True)
 
 
 def inside(drive: Drive) -> Iterator[tuple[int, Inside]]:

@@ -250,4 +250,4 @@ def test_motions_of_several_periods_that_take_a_blow_are_told_and_do_not_count()
     assert not any(one.runs or one.reached for one in found.beside)
     assert found.torque_lowest[0] > 0.0
     assert min(float(one.lowest[0]) for one in found.beside) < 0.0
-    assert any("may repeat" in told_text(one.text, USUAL) for one in answer(drive, found).remarks)
+    assert any("further motions" in told_text(one.text, USUAL) for one in answer(drive, found).remarks)

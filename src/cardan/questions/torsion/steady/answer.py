@@ -326,9 +326,9 @@ def _longer(found: TorsionResponse) -> Remark:
     swings: list[Text] = []
     for periods in sorted({one.periods for one in longer}, reverse=True):
         own = [one for one in longer if one.periods == periods]
-        text = _("every {periods} periods (up to ±{torque}{where})")
+        text = _("one that repeats every {periods} periods (up to ±{torque}{where})")
         if not periods:
-            text = _("not within {longest} periods (up to ±{torque} over a long run{where})")
+            text = _("one that does not repeat within {longest} periods (up to ±{torque} over a long run{where})")
         where: Text = ""
         if found.speed.ndim:
             rows = np.isin(np.arange(len(found.speed)), [one.row for one in own])
@@ -336,9 +336,9 @@ def _longer(found: TorsionResponse) -> Remark:
         torque = _torque(max(float(np.max(one.swing)) for one in own))
         swings.append(say(text, periods=periods, longest=LONGEST, torque=torque, where=where))
     text = _(
-        "Where backlash opens the motion may repeat {how}; that counts in lowest and highest torques where a slow "
-        "run-up or run-down leads to it, else it takes a blow or an abrupt start; orders are of the motion of one "
-        "period."
+        "Where backlash opens there are further motions: {how}; such a motion counts in lowest and highest torques "
+        "where a slow run-up or run-down leads to it, else it takes a blow or an abrupt start; orders are of the "
+        "motion of one period."
     )
     return Remark(text=say(text, how=Joined(swings)), tone="warning")
 
