@@ -12,9 +12,11 @@ from cardan.drive.joints import Tripod
 from cardan.drive.movement import Arm, Body, Harmonic, Hitch, Parallel, Random, Spectrum, Table
 from cardan.drive.shaft import Shaft, Spline
 from cardan.errors import InputError, JointAngleLimitError
+from cardan.io.drive_file import loads
 from cardan.questions.motion.articulation import articulation
 from cardan.questions.motion.instants import Position
 from cardan.questions.motion.moving_points import moving_path
+from cardan.questions.motion.turning import each_shaft
 from cardan.units import deg
 
 REAR = ("joints[1]", "output")
@@ -22,6 +24,46 @@ REAR = ("joints[1]", "output")
 
 def words(found):
     return [told(one, USUAL) for one in found.warnings]
+
+
+WOBBLING = {
+    "offset cross": """kind = "offset_cross"
+offset_mm = 20
+reach_mm = 200""",
+    "tripod": """kind = "tripod"
+track_radius_mm = 20""",
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("joint", WOBBLING)
+def test_shafts_that_wobble_do_so_at_every_instant(joint):
+    drive = loads(f"""format = 1
+input.point_mm = [-300, 0, 0]
+output.point_mm = [700, 100, -300]
+[[joints]]
+{WOBBLING[joint]}
+centre_mm = [0, 0, 0]
+[[joints]]
+centre_mm = [380, 20, -150]
+[[shafts]]
+number = 2
+yoke_angle_deg = -60
+[[movements]]
+kind = "harmonic"
+moves = ["joints[1]", "output"]
+amplitude_mm = [0, 60, 50]
+frequency_Hz = 1
+""")
+    found = articulation(drive, times=[0.0, 0.1, 0.3, 0.6])
+    blind = replace(drive.joints[0], **({"offset": 0.0} if joint == "offset cross" else {"track_radius": None}))
+    exact = articulation(replace(drive, joints=(blind, drive.joints[1])), times=found.times)
+    for k, (first, *centres, last) in enumerate(found.points):
+        joints = tuple(replace(one, centre=tuple(at)) for one, at in zip(drive.joints, centres, strict=True))
+        ends = replace(drive.input, point=tuple(first)), replace(drive.output, point=tuple(last))
+        still = replace(drive, joints=joints, input=ends[0], output=ends[1], movements=())
+        assert found.speed_fluctuation[k] == pytest.approx(each_shaft(still).speed_fluctuation[-1], rel=1e-6)
+        assert abs(found.speed_fluctuation[k] - exact.speed_fluctuation[k]) > 1e-4, "it wobbles"
 
 
 def hitched(before, behind):

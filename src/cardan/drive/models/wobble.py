@@ -71,7 +71,8 @@ def course(
     rows: list[Stance] = []
     starts, turned = [], [phi]
     for i, joint in enumerate(drive.joints):
-        rest, here, length = place.axis[i + 1], place.points[i + 1], known.get(i + 2)
+        rest, here = place.axis[i + 1], place.points[i + 1]
+        length = float(place.length[i + 1]) if i + 2 in known else None
         held = joint.held(length)
         stop = None if held is None else here + held * rest
         stance = _settled(joint, centre, before, rest, stop, mark, float(place.length[i + 1]), still)

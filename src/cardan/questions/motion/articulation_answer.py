@@ -13,6 +13,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
+from cardan.drive.models.wobble import wobbling
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role
 from cardan.texts import _, mark
@@ -336,7 +337,9 @@ def _remarks(drive: Drive, found: Articulation) -> Iterator[Remark]:
         tone: Tone = "failed" if bad else "warning"
         yield Remark(text=say(_("Failed: {what}.") if bad else _("Warning: {what}."), what=what), tone=tone)
     moving, frozen = _worst(found, "moving_speed_fluctuation"), _worst(found, "speed_fluctuation")
-    if moving is not None and frozen is not None:
+    if moving is not None and wobbling(drive):
+        yield Remark(text=_("A shaft wobbles: δ counts it, speeds that include the articulation rate do not."))
+    elif moving is not None and frozen is not None:
         text = _("Including the articulation rate: δ = {share} peak to peak, at {time}.")
         if moving.value < SYNCHRONOUS:
             text = _("Including the articulation rate, the output stays uniform.")

@@ -10,10 +10,12 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
-from cardan.drive.models.geometry import Geometry, geometry_from_points
+from cardan.drive.models.geometry import Geometry, geometry_from_points, polyline
 from cardan.drive.models.kinematics_model import Chain, turning, unmapped
+from cardan.drive.models.wobble import course, wobbling
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
+from cardan.maths.curves.extremes import peak
 from cardan.maths.curves.paths import Jet, Path
 from cardan.maths.kernel import frames
 from cardan.texts import _
@@ -81,6 +83,10 @@ class Instants:
         return np.minimum(*ends), np.maximum(*ends)
 
 
+WOBBLED = 120
+"""Places of a turn looked at where shafts wobble."""
+
+
 @dataclass(frozen=True, eq=False)
 class Question:
     """A drive, how its points move and how fast it turns: ask it for any instants."""
@@ -136,7 +142,7 @@ class Question:
             shafts=shafts,
             joint_angle=held(frozen.joint_angle),
             plane_twist=held(np.unwrap(frozen.plane_twist, axis=0)),
-            shaft_speed_fluctuation=held(self._fluctuation(chain, shafts.axis)),
+            shaft_speed_fluctuation=held(self._fluctuation(chain, shafts.axis, frozen.points)),
             shaft_speed=None if motion is None else held(motion.spins.spin),
             shaft_acceleration=None if motion is None else held(motion.spins.spin_acceleration),
             speed_range=None if speeds is None else (held(speeds[0]), held(speeds[1])),
@@ -144,14 +150,23 @@ class Question:
             status=status,
         )
 
-    def _fluctuation(self, chain: Chain, axis: Array) -> Array:
+    def _fluctuation(self, chain: Chain, axis: Array, points: Array) -> Array:
         """Return δ of every shaft behind a joint with the axes at rest where they are, array (t, n)."""
         joints = self.drive.joints
+        if wobbling(self.drive):
+            return np.stack([self._wobbled(polyline(one)) for one in points])
         if not unmapped(joints):
             return np.asarray(equivalent_joint(turning(chain, joints)).shaft_speed_fluctuation)
         still = np.zeros_like(axis)
         low, high = speed_range((axis, still, still), yoke_angle=chain.yoke_angle, speed=1.0, kinds=joints)
         return np.asarray(high - low)[..., 1:]
+
+    def _wobbled(self, place: Geometry) -> Array:
+        """Return δ of every shaft behind a joint where shafts wobble, array (n,)."""
+        turn = np.arange(WOBBLED) * (2.0 * np.pi / WOBBLED)
+        ahead = np.fft.rfft(np.unwrap(course(self.drive, turn, place).turned[1:] - turn, axis=-1))
+        rate = np.fft.irfft(1j * np.arange(ahead.shape[-1]) * ahead, WOBBLED)
+        return peak(rate) + peak(-rate)
 
     def _motion(self, times: Array, gamma: Array, speed: float) -> MovingMotion:
         return moving_centres(
