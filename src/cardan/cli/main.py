@@ -6,7 +6,6 @@ cardan itself; 130 interrupted.
 
 from __future__ import annotations
 
-import atexit
 import gc
 import gettext
 import os
@@ -25,8 +24,6 @@ on a machine that is busy. Set before numpy is loaded; what the user says counts
 
 SELDOM = 100_000
 """New objects before garbage is looked for: all that loading makes stays."""
-
-atexit.register(gc.freeze)  # nothing is looked through once more when the process ends and all goes anyway
 
 app, failure = later("cardan.cli.app"), later("cardan.cli.shared.failure")
 """The parser, and what is said when something goes wrong: they load while an early ctrl-C is answered already."""
