@@ -338,7 +338,10 @@ class Pair:
 
     id: str = plain(doc="name of the joint, its own")
     type: str = plain(doc="kind of pair", choices=tuple(PAIRS))
-    links: tuple[str, str] = plain(doc="the two links it joins")
+    links: tuple[str, str] = plain(
+        doc="the two links it joins; a bore, groove or plane, and axis with it, belongs to the first, "
+        "a ball to the second"
+    )
     point: Point = quantity("length", doc="a point of its axis, its centre [x, y, z]")
     axis: Point | None = plain(None, doc="its axis, or the normal of its plane; any length [x, y, z]")
     axis2: Point | None = plain(None, doc="second axis of a universal pair, axis of the cylinder on a plane [x, y, z]")

@@ -17,6 +17,7 @@ NAMES = (
     "crank-slider",
     "hooke-cured",
     "maize-drive-cured",
+    "pin-coupling-apart",
     "reuleaux",
     "slipper-joint",
     "three-joints-c",
