@@ -27,7 +27,22 @@ from cardan.report.render import html
 from cardan.report.render.exports import exported
 from cardan.texts import language
 
-SILENT = ("name", "role", "roles", "dash", "side", "level", "tone", "source", "title", "full", "form", "amount", "keys")
+SILENT = (
+    "name",
+    "role",
+    "roles",
+    "dash",
+    "side",
+    "level",
+    "tone",
+    "source",
+    "title",
+    "full",
+    "form",
+    "amount",
+    "keys",
+    "lacking",
+)
 """Fields of a page that nobody reads as a sentence."""
 
 IN_WORDS = ("check", "strength")

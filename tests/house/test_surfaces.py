@@ -27,8 +27,8 @@ AMERICAN = Reader(
     decimal=",",
 )
 
-READERS = {"en": ("en", Reader()), "ru": ("ru", Reader()), "inches": ("en", AMERICAN)}
-"""Who reads: language, units and decimal sign."""
+READERS = {"en": ("en", Reader()), "ru": ("ru", Reader(keys="page")), "inches": ("en", AMERICAN)}
+"""Who reads: language, units, decimal sign, and how parts are counted."""
 
 FEW = ("single-20deg", "overconstrained-pump")
 """Examples that are quick; the others are asked when there is time."""
@@ -49,6 +49,9 @@ QUOTED = re.compile(
     r"Kozhevnikov &|rating by|Hertz; 4000 MPa stands behind ISO 76|rule of practice|A yoke 1° off|δ\(γ ± 1°\)"
 )
 """How words begin that say by what rule a limit or a rating is, in the units of that rule, or what a degree does."""
+
+FROM_ZERO = re.compile(r"\w\[\d+\]")
+"""A part as a file counts it."""
 
 POINT = re.compile(r"(?<![\w.])\d+\.\d+(?![\w.])")
 """A number with a decimal point."""
@@ -108,6 +111,8 @@ def told_on_every_surface(name, who, one, question, drive, result):
     assert surfaces.csv(told, reader) or not told.tables, where
     assert "<" in surfaces.app(page) or not page.blocks, where
     said = list(surfaces.texts(page))
+    if reader.keys == "page":
+        assert [text for text in said if FROM_ZERO.search(text)] == [], where
     if heavy(name, one, who):
         assert "<html" in surfaces.report(page), where
         cells = surfaces.workbook(page)

@@ -42,13 +42,13 @@ def test_a_report_holds_no_keys(name: str) -> None:
 def test_a_key_in_a_sentence_is_told_to_each_reader_in_their_way() -> None:
     said = say("Give {keys}{how}.", keys=written("shafts[1].yoke_angle", "duty.speed"), how=Written(" (both)", ""))
     assert told(said, Reader()) == "Give shafts[1].yoke_angle_deg, duty.speed_rpm (both)."
-    assert told(said, Reader(writes=False)) == "Give shaft 2: yoke angle, input speed."
+    assert told(said, Reader(keys="meaning")) == "Give shaft 2: yoke angle, input speed."
 
 
 def test_the_table_of_checks_not_run_is_told_in_both_ways() -> None:
     drive = load(EXAMPLES / "z-arrangement.toml")
     table: Table = missing_table([one for one in check(drive) if one.missing])
-    keys, meant = (str(printed(table, reader)) for reader in (Reader(), Reader(writes=False)))
+    keys, meant = (str(printed(table, reader)) for reader in (Reader(), Reader(keys="meaning")))
     assert "shafts[1].outer_mm" in keys
     assert "Keys count from 0" in keys
     assert "shaft 2: outer diameter" in meant

@@ -111,16 +111,19 @@ class Written:
 
     >>> Written("shafts[1].yoke_angle_deg", "shaft 2: yoke angle").told(Reader())
     'shafts[1].yoke_angle_deg'
-    >>> Written("shafts[1].yoke_angle_deg", "shaft 2: yoke angle").told(Reader(writes=False))
+    >>> Written("shafts[1].yoke_angle_deg", "shaft 2: yoke angle").told(Reader(keys="meaning"))
     'shaft 2: yoke angle'
     """
 
     key: str
     name: Text
+    page: str | None = None  # the key where parts are counted as a page counts; as the file has it when not given
 
     def told(self, reader: Reader) -> str:
         """Return one of both for a reader."""
-        return self.key if reader.writes else told(self.name, reader)
+        if reader.keys == "meaning":
+            return told(self.name, reader)
+        return self.key if self.page is None or reader.keys == "file" else self.page
 
 
 @dataclass(frozen=True)

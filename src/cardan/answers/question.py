@@ -9,7 +9,8 @@ The module that a question names holds, by these names:
 ``answer(drive, result)``
     What there is to say of it, an `Answer`.
 
-and, where there is need, ``otherwise(drive)``, why nothing can be told although nothing is missing,
+and, where there is need, ``otherwise(drive)``, why nothing can be told although nothing is missing, or the paths that
+it needs all the same,
 ``brief(drive, result)``, its answer with key figures, sentence and tone alone where the rest takes long,
 ``over_movement(drive)``, its key figures over the instants of a movement as arrays, and ``COLUMNS``, what a sweep may
 ask of it: each a `cardan.answers.sweepable.SweepQuestion`.
@@ -110,9 +111,9 @@ class Question:
         found: Lacking = self.home.lacking(drive)
         return found
 
-    def wanting(self, drive: Drive) -> Lacking:
-        """Return what a drive file that lacks nothing to begin with needs all the same before anything can be told."""
-        found: Lacking = self.home.wanting(drive) if hasattr(self.home, "wanting") else ()
+    def otherwise(self, drive: Drive) -> str | Lacking:
+        """Return why nothing can be told although nothing is missing, or what is needed all the same."""
+        found: str | Lacking = self.home.otherwise(drive)
         return found
 
     def ask(self, drive: Drive, **given: Any) -> Any:
@@ -135,12 +136,19 @@ class Question:
         InputError
             What the drive lacks for it, or why nothing can be told.
         """
-        needed = _("missing; the question {name} needs it").format(name=self.name)
-        check(Problem(_(" or ").join(some), needed, "missing") for some in self.lacking(drive))
+        self._check(self.lacking(drive))
         found = self.ask(drive)
         if found is None:
-            raise refuse(self.name, self.home.otherwise(drive))
+            why = self.otherwise(drive)
+            if isinstance(why, str):
+                raise refuse(self.name, why)
+            self._check(why)
         return found
+
+    def _check(self, lacking: Lacking) -> None:
+        """Refuse what is missing."""
+        needed = _("missing; the question {name} needs it").format(name=self.name)
+        check(Problem(_(" or ").join(some), needed, "missing") for some in lacking)
 
     def answer(self, drive: Drive, result: Any) -> Answer:
         """Return what there is to say of its result."""

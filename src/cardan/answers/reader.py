@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
 
 from cardan.errors import InputError, Problem
 from cardan.texts import _, language
@@ -70,6 +71,10 @@ def _point(decimals: int) -> str:
     return "." + "0" * decimals if decimals > 0 else ""
 
 
+Keys: TypeAlias = Literal["file", "page", "meaning"]
+"""As they stand in the file, counted from 0; as a page counts, from 1; by what they mean, to who writes no file."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Reader:
     """Units and decimal sign of whoever looks; the usual ones where nothing is said."""
@@ -77,7 +82,7 @@ class Reader:
     # dimension -> unit, as in the keys of a drive file: ``{"length": "in"}``
     units: Mapping[str, str] = field(default_factory=dict)
     decimal: str = ""  # sign between whole and part, ``"."`` or ``","``; empty for that of the language
-    writes: bool = True  # whether they write drive files: keys are told as they stand there, else by what they mean
+    keys: Keys = "file"  # how keys of a file are told
 
     def __post_init__(self) -> None:
         problems = [*_unknown(self.units)]

@@ -10,8 +10,9 @@ import numpy as np
 
 from cardan.answers.answer import Cell, Column, KeyFigure, Remark, Table, Tone
 from cardan.answers.quantity import Joined, Quantity, Text, Unit, Written, say
+from cardan.answers.question import Lacking, all_of
 from cardan.drive.fields.keys import key_of
-from cardan.drive.fields.paths import in_words
+from cardan.drive.fields.paths import written
 from cardan.texts import _, plural
 from cardan.units import factor
 
@@ -228,7 +229,7 @@ MISSING = "missing"  # name of the table of checks not run
 
 def counting() -> Written:
     """Return how keys count parts."""
-    return Written(_("Keys count from 0: joints[0] is joint 1, shafts[0] is shaft 1."), "")
+    return Written(_("Keys count from 0: joints[0] is joint 1, shafts[0] is shaft 1."), "", "")
 
 
 def missing_table(verdicts: Sequence[Verdict], depth: Any = "full") -> Table:
@@ -246,11 +247,9 @@ def missing_table(verdicts: Sequence[Verdict], depth: Any = "full") -> Table:
             Column(
                 key="",
                 heading=_("key to add"),
-                values=[
-                    Joined([Written(key_of(path), in_words(path)) for path in group[0].missing])
-                    for group in groups.values()
-                ],
+                values=[written(*group[0].missing) for group in groups.values()],
                 left=True,
+                wrap=True,
             ),
             Column(
                 key="",
@@ -263,6 +262,17 @@ def missing_table(verdicts: Sequence[Verdict], depth: Any = "full") -> Table:
         note=counting() if counted else "",
         depth=depth,
     )
+
+
+def least_needs(verdicts: Sequence[Verdict]) -> Lacking:
+    """Return what lets something be judged: of each kind of part what that check lacks which lacks least."""
+    least: dict[str, tuple[str, ...]] = {}
+    for one in verdicts:
+        if one.missing:
+            part = one.missing[0].partition(".")[0].partition("[")[0]
+            if part not in least or len(one.missing) < len(least[part]):
+                least[part] = tuple(one.missing)
+    return all_of([path for some in least.values() for path in some])
 
 
 def _unsaid(one: Verdict) -> Text:

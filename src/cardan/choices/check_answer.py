@@ -25,6 +25,7 @@ from cardan.checks.verdict_table import (
     MOST,
     alike,
     counting,
+    least_needs,
     missing_table,
     share,
     title_of,
@@ -34,8 +35,7 @@ from cardan.checks.verdict_table import (
     verdict_table,
 )
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import key_of
-from cardan.drive.fields.paths import bare_path, in_words
+from cardan.drive.fields.paths import bare_path, counted, in_words
 from cardan.drive.yokes import yokes_estimated
 from cardan.texts import _, mark, plural
 from cardan.units import dimension_of, factor
@@ -141,12 +141,9 @@ def ask(drive: Drive, *, known: Catalogue | None = None) -> Checked | None:
     return found if found.binding or found.beyond else None
 
 
-def otherwise(drive: Drive) -> str:
+def otherwise(drive: Drive) -> str | Lacking:
     """Return why nothing can be told."""
-    paths = dict.fromkeys(path for one in check(drive) for path in one.missing)
-    if not paths:
-        return _("There is nothing to be told of this drive.")
-    return _("This answer needs more in the drive file: {keys}.").format(keys=", ".join(map(key_of, paths)))
+    return least_needs(check(drive)) or _("There is nothing to be told of this drive.")
 
 
 def answer(drive: Drive, result: Checked, *, sources: bool = False, missing: bool = False) -> Answer:
@@ -304,15 +301,14 @@ def remedy_table(drive: Drive, result: Checked, *, helpful: bool = False) -> Tab
     found = result.remedies
     best = list(most_helpful(found))
     shown = best if helpful else [*best, *_others(found, best)]
-    counted = not helpful and any("[" in one.path for one in shown)
-    notes: list[Text] = [counting()] if counted else []
+    notes: list[Text] = [counting()] if not helpful and any("[" in one.path for one in shown) else []
     if 0 < len(best) < len(shown):
         text = plural("The first change helps most.", "The first {count} changes together help most.", len(best))
         notes.insert(0, text.format(count=len(best)))
     if helpful:
         notes.extend(_unremedied(result))
     words = [in_words(bare_path(drive, one.path)) for one in shown]
-    keys = [Written(one.path, said) for one, said in zip(shown, words, strict=True)]
+    keys = [Written(one.path, said, counted(one.path)) for one, said in zip(shown, words, strict=True)]
     heading = _("what") if helpful else _("key to change")
     return Table(
         title=_("Changes that help most") if helpful else _("Corrective changes (one parameter each)"),

@@ -7,11 +7,11 @@ from typing import Any, TypeAlias
 
 from cardan.answers.answer import Answer, Tone
 from cardan.answers.quantity import Quantity, say
-from cardan.answers.question import Lacking, Question
+from cardan.answers.question import Question
 from cardan.answers.reader import reader
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import key_of
+from cardan.drive.fields.paths import needed
 from cardan.errors import InputError
 from cardan.questions.gathering import gather, principal
 from cardan.questions.motion.equivalence import SPECK
@@ -21,7 +21,6 @@ from cardan.texts import _, plural
 from cardan.version import VERSION
 
 from .block import Listing, Page, Points, Words, page
-from .counted import counted
 from .description import signs
 from .subject import Progress, Subject
 from .summary import steep_joints
@@ -62,11 +61,15 @@ def page_of(
     title = _(question.title)
     drive = principal(question, on.drive)
     missing = question.lacking(drive)
-    if missing:
-        return Page(name=question.name, title=title, answer=told(missing), blocks=())
-    return found_page(question, on, progress, choices, kept) or Page(
-        name=question.name, title=title, answer=question.home.otherwise(on.drive), blocks=()
-    )
+    if not missing:
+        found = found_page(question, on, progress, choices, kept)
+        if found is not None:
+            return found
+        why = question.otherwise(drive)
+        if isinstance(why, str):
+            return Page(name=question.name, title=title, answer=why, blocks=())
+        missing = why
+    return Page(name=question.name, title=title, answer=needed(missing), blocks=(), lacking=missing)
 
 
 def found_page(
@@ -95,16 +98,6 @@ def found_page(
 
 
 # What a part of the report says where the drive file does not answer it: what is missing, or why it is refused.
-
-
-def told(lacking: Lacking) -> str:
-    """Return in a sentence what is to be added to the drive file.
-
-    lacking: paths; of each inner tuple any one would do.
-    """
-    either = _(" or ")
-    keys = "; ".join(either.join(counted(key_of(path)) for path in some) for some in lacking)
-    return _("This answer needs more in the drive file: {keys}.").format(keys=keys)
 
 
 def refused(name: str, title: str, error: InputError) -> Page:

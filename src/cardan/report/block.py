@@ -16,6 +16,7 @@ from cardan.answers.answer import Answer, Depth, KeyFigure, Listing, Tone
 from cardan.answers.printed import SHOWN, SIGNS, Cell, Column, Table, framed, printed
 from cardan.answers.printed import number as printed_number
 from cardan.answers.quantity import Quantity, say, told
+from cardan.answers.question import Lacking
 from cardan.answers.reader import Reader, reader
 from cardan.figures import Figure
 from cardan.figures.for_reader import for_reader
@@ -98,6 +99,7 @@ class Page:
     tone: Tone = "plain"  # how good it is
     keys: Sequence[Any] = ()  # what of it stands on the first page
     alarms: Sequence[Words] = ()  # what of it the reader of the first page must not overlook
+    lacking: Lacking = ()  # what the drive file lacks, where it tells nothing for want of keys
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "answer", shown(self.answer))

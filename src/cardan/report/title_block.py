@@ -73,7 +73,7 @@ class Noting(Reader):
 
 def noting(who: Reader) -> Noting:
     """Return a reader of a report, who writes no file, with the units and the decimal sign of another."""
-    return Noting(units=who.units, decimal=who.decimal, writes=False)
+    return Noting(units=who.units, decimal=who.decimal, keys="meaning")
 
 
 def given(block: TitleBlock) -> dict[str, str]:

@@ -17,6 +17,7 @@ from cardan.checks.verdict_table import MOST, alike, limit, verdict_key
 from cardan.choices.check_answer import sentence as said
 from cardan.choices.remedy import Remedy, remedies, typed
 from cardan.drive.drive import Drive
+from cardan.drive.fields.paths import counted
 from cardan.errors import CardanError, InputError
 from cardan.figures.axes import percent
 from cardan.questions.motion.articulation import articulation
@@ -29,7 +30,6 @@ from cardan.questions.phases.setting import YokeSetting, values_of
 from cardan.texts import _, plural
 
 from .block import capital
-from .counted import counted
 from .subject import Progress, Subject
 
 FIRST = "speed_fluctuation"  # the check whose number stands first

@@ -207,8 +207,6 @@ class Sheet:
         self._hold()
         self._asked += 1
         self.about = question.drive
-        if self.name in QUESTIONS:
-            self.session.later(partial(self._look_for_lacking, question.drive))
         if self.name == "selection":
             self._offer(question.drive)
         if self.name in AT_ONCE and self.quick:
@@ -230,17 +228,6 @@ class Sheet:
         """Give up a long answer."""
         self._jobs_end()
         self._look()
-
-    def _look_for_lacking(self, drive: Drive) -> None:
-        if not self.body.is_deleted:
-            background_tasks.create(self._offered(drive), name=f"what {self.name} lacks")
-
-    async def _offered(self, drive: Drive) -> None:
-        """Offer the keys that the drive lacks for it."""
-        question = QUESTIONS[self.name]
-        lacking = await asyncio.to_thread(lambda: question.lacking(drive) or question.wanting(drive))
-        if drive is self.session.drive and not self.body.is_deleted:
-            self._offer_keys.show(lacking)
 
     async def _beside(self, question: Question, number: int) -> None:
         """Answer beside the page's own work."""
@@ -283,6 +270,7 @@ class Sheet:
         self._progress.hide()
         self.view.element.classes(remove="stale")
         self.view.show(page, {one.label: _("apply") for one in self._settings if one.values})
+        self._offer_keys.show(page.lacking)
 
     def _pressed(self, label: str) -> None:
         """Put a setting of the yokes into the file."""

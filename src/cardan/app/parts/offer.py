@@ -11,9 +11,9 @@ from cardan.answers.question import Lacking
 from cardan.app.state.form import Entry, section
 from cardan.app.state.session import Session
 from cardan.drive.fields.keys import key_of
+from cardan.drive.fields.paths import counted
 from cardan.io.amend import insert
 from cardan.io.keys import file_keys, written_in_examples
-from cardan.report.counted import counted
 from cardan.texts import _
 from cardan.units import label
 

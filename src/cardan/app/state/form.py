@@ -12,11 +12,11 @@ from typing import Any, Literal, TypeAlias, get_args, get_origin
 from cardan.catalogue import catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import KINDS, NAMED
+from cardan.drive.fields.paths import counted
 from cardan.errors import InputError, Problem
 from cardan.io.amend import kind_at, steps_of
 from cardan.io.text import parsed
 from cardan.reading.fields import WORD_OR_FLAG, Field, fields_of
-from cardan.report.counted import counted
 from cardan.texts import _, visible
 
 Sort: TypeAlias = Literal[

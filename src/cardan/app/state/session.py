@@ -132,7 +132,7 @@ class Session:
     @property
     def reader(self) -> Reader:
         """The units and the decimal sign that the user likes."""
-        return Reader(units=dict(self.choices.units), decimal=self.choices.decimal)
+        return Reader(units=dict(self.choices.units), decimal=self.choices.decimal, keys="page")
 
     def read(self, text: str) -> Document:
         """Return the document that a text is in this workspace."""

@@ -9,14 +9,20 @@ from typing import Any
 
 from cardan.answers.answer import FILE, Answer, Column, Depth, KeyFigure, Remark, Table, Tone, heads
 from cardan.answers.quantity import Joined, Quantity, Say, Text, say
-from cardan.answers.question import Lacking, absent, all_of
+from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import Catalogue
 from cardan.checks.verdict import AMBER, Verdict
-from cardan.checks.verdict_table import missing_table, share, unconfirmed_remark, verdict_records, verdict_table
+from cardan.checks.verdict_table import (
+    least_needs,
+    missing_table,
+    share,
+    unconfirmed_remark,
+    verdict_records,
+    verdict_table,
+)
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import key_of
 from cardan.drive.torsional_layout import has_torsion
 from cardan.drive.yokes import yokes_estimated
 from cardan.texts import _, mark, plural
@@ -66,18 +72,9 @@ def ask(drive: Drive, *, known: Catalogue | None = None) -> Strength | None:
     return with_events(drive, replace(found, left_out=left_out(drive, found)))
 
 
-def wanting(drive: Drive) -> Lacking:
-    """Return what the drive file lacks where its torque is known and nothing can be judged."""
-    found = strength(drive)
-    return () if found.binding and found.torque > 0.0 else all_of(found.missing)
-
-
-def otherwise(drive: Drive) -> str:
+def otherwise(drive: Drive) -> str | Lacking:
     """Return why nothing can be told."""
-    keys = ", ".join(key_of(path) for path in strength(drive).missing)
-    if not keys:
-        return _("There is nothing to be told of this drive.")
-    return _("This answer needs more in the drive file: {keys}.").format(keys=keys)
+    return least_needs(strength(drive).verdicts) or _("There is nothing to be told of this drive.")
 
 
 def answer(drive: Drive, result: Strength) -> Answer:

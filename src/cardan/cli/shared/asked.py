@@ -10,8 +10,11 @@ from math import isfinite
 from pathlib import Path
 from typing import Annotated, TypeAlias
 
+from cardan.answers import quantity
+from cardan.answers.reader import reader
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
+from cardan.drive.fields.paths import needed
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.questions.gathering import principal
 from cardan.reading.ranges import HUGE
@@ -132,13 +135,14 @@ def command_of(name: str) -> Callable[..., int]:
         check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
         whole = on_duty(read(file), speed_rpm, torque)
         drive = principal(question, whole)
-        needed = _("missing; the question {name} needs it").format(name=name)
+        missing = _("missing; the question {name} needs it").format(name=name)
         with keys_of(file):
-            check(Problem(_(" or ").join(map(key_of, some)), needed, "missing") for some in question.lacking(drive))
+            check(Problem(_(" or ").join(map(key_of, some)), missing, "missing") for some in question.lacking(drive))
             with watching(_(question.title)) as progress:
                 result = question.ask(drive, progress=progress)
         if result is None:
-            print_text(question.home.otherwise(drive) + "\n")
+            why = question.otherwise(drive)
+            print_text((why if isinstance(why, str) else quantity.told(needed(why), reader())) + "\n")
             return 0
         return tell(question.answer(drive, result), file, drive, whole=whole, json=json, csv=csv, plot=plot)
 

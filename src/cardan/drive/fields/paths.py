@@ -11,13 +11,14 @@ from copy import copy
 from dataclasses import dataclass, is_dataclass, replace
 from typing import Any, TypeVar, get_args, get_origin
 
-from cardan.answers.quantity import Joined, Written
+from cardan.answers.quantity import Joined, Say, Text, Written, say
+from cardan.answers.question import Lacking
 from cardan.drive.described import Described
 from cardan.errors import InputError, Problem, check
 from cardan.mechanism.mechanism import Mechanism
 from cardan.reading.fields import Field, fields_of, in_unit, spellings_of
 from cardan.reading.scalar import SCALARS, Wrong, as_given, scalar
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import DIMENSIONS, nearest
 
 from .keys import key_of, meant, spelled
@@ -253,11 +254,74 @@ def _first(known: Mapping[str, tuple[str, float]]) -> Iterator[str]:
 CLAUSE = re.compile(r"[;,，；(\[]")  # where the words that name a field end and those on its sign and its form begin
 STEP = re.compile(r"([a-z]+)(?:\[(\d+)\])?")  # part of a drive, with its number from 0 where there are several
 AXES = re.compile(r"\[([012])\]$")  # coordinate of a point
+POINTS = ("centre[", "point[", "centre_", "point_")  # how a key begins that holds one
 
 
 def written(*paths: str) -> Joined:
     """Return keys as they are written, or what they mean where nobody writes them."""
-    return Joined([Written(spelled(path), in_words(path)) for path in paths])
+    return Joined([key_text(path) for path in paths])
+
+
+def needed(lacking: Lacking) -> Say:
+    """Return in a sentence what is to be added to the drive file.
+
+    lacking: paths; of each inner tuple any one would do.
+    """
+    keys = Joined([Joined(written(*some).parts, between=_(" or ")) for some in lacking], between="; ")
+    return say(_("This answer needs more in the drive file: {keys}."), keys=keys)
+
+
+def key_text(path: str, name: Text | None = None, within: str = "{key}") -> Written:
+    """Return a key as it is written, as a page counts it, or what it means where nobody writes it.
+
+    name: what it means, with what stands about it; in_words of the path when not given.
+    within: what stands about the key.
+    """
+    key = key_of(path)
+    return Written(within.format(key=key), in_words(path) if name is None else name, within.format(key=counted(key)))
+
+
+def part_number(path: str) -> int:
+    """Return the number of the part to which a path leads, counted from 1.
+
+    >>> part_number("shafts[2].unbalance")
+    3
+    """
+    return int(re.findall(r"\d+", path)[0]) + 1
+
+
+TITLES = {
+    "joints": mark("Joint {number}"),
+    "shafts": mark("Shaft {number}"),
+    "supports": mark("Support {number}"),
+    "stations": mark("Station {number}"),
+    "movements": mark("Movement {number}"),
+    "poses": mark("Pose {number}"),
+}
+"""List of tables of a drive file -> what one of them is called on a page."""
+
+
+def counted(path: str) -> str:
+    """Return a path as a page counts, the names of keys as the file has them; a name of something else as it is.
+
+    >>> counted("shafts[2].parts[0].mass_kg")
+    'Shaft 3 · parts 1 · mass_kg'
+    >>> counted("joints[0].centre_mm[2]")
+    'Joint 1 · centre_mm z'
+    """
+    if "[" not in path:
+        return path
+    words = [_STEP.fullmatch(word) for word in path.split(".")]
+    told: list[str] = []
+    for word in words:
+        if word is None:  # the name of a file, say
+            return path
+        name, *numbers = (word[1], *(int(k) for k in re.findall(r"\d+", word[2])))
+        if name in TITLES and numbers:
+            name = _(TITLES[name]).format(number=numbers.pop(0) + 1)
+        places = "xyz" if name.startswith(POINTS) else "123456789"
+        told.append(" ".join([name, *(places[k] if k < len(places) else str(k + 1) for k in numbers)]))
+    return " · ".join(told)
 
 
 def with_key(path: str) -> str:
@@ -295,7 +359,7 @@ def in_words(path: str, *, inside: str = "", doc: str = "") -> str:
         "speed_range[1]": _("highest speed"),
     }
     name = path.rpartition(".")[2]
-    axis = AXES.search(name) if name.startswith(("centre[", "point[")) else None
+    axis = AXES.search(name) if name.startswith(POINTS) else None
     bare = AXES.sub("", path)
     field = bare.rpartition(".")[2]
     doc = doc or meant(bare)

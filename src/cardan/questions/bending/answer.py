@@ -15,6 +15,7 @@ from cardan.answers.sweepable import MODES, OutputColumn, SweepQuestion, each, f
 from cardan.drive.body import pieces
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
+from cardan.drive.fields.paths import key_text, part_number
 from cardan.drive.yokes import unweighed, yokes_estimated
 from cardan.formulas.critical_speed import CATALOGUE, PRACTICE
 from cardan.formulas.damping import LOSS
@@ -332,8 +333,10 @@ def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
     yield from yokes_estimated(drive)
     worn = [path for path in result.assumed if path.endswith("wear_factor")]
     if worn:
+        factor = _("the wear factor of shaft {number}")
+        factors = [key_text(path, factor.format(number=part_number(path))) for path in worn]
         text = _("With a spline the real speed counts as 0.9 of the computed one; {key} changes that (0.7 when worn).")
-        yield Remark(text=say(text, key=Written(", ".join(map(spelled, worn)), _("the wear factor of the shaft"))))
+        yield Remark(text=say(text, key=Joined(factors)))
     if result.used is None:
         text = _("How far the drive stays away needs {range} or {speed} in the file.")
         keys = {

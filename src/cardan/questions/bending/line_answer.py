@@ -13,6 +13,7 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
+from cardan.drive.fields.paths import key_text, part_number
 from cardan.drive.yokes import yokes_estimated
 from cardan.formulas.run_up import Progress
 from cardan.maths.arrays import Array
@@ -318,9 +319,7 @@ def _assumptions(drive: Drive, result: LineWhirl) -> Iterator[Remark]:
             "Shafts without a measured unbalance, {keys}, count with what their balance grade allows, in the middle."
         )
         shaft = _("shaft {number}")
-        keys = [
-            Written(spelled(path), shaft.format(number=int(path.split("[")[1].split("]")[0]) + 1)) for path in taken
-        ]
+        keys = [key_text(path, shaft.format(number=part_number(path))) for path in taken]
         yield Remark(text=say(text, keys=Joined(keys)))
     if "duty.torque" in result.assumed:
         text = _("Without a torque the secondary couples of the joints do not count; give {key}.")

@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table
-from cardan.answers.quantity import Quantity, Text, Written, say
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
+from cardan.drive.fields.paths import key_text
 from cardan.drive.yokes import yokes_estimated
 from cardan.errors import InputError
 from cardan.maths.ties import foremost_of
@@ -264,8 +265,8 @@ def _shaft(rotor: Rotor) -> Iterator[Remark]:
         xi, eta = (Quantity(loss, "share", 3) for loss in rotor.crack.losses)
         yield Remark(text=say(text, xi=xi, eta=eta))
     else:
-        how = _("; {key} in the file gives it one").format(key=f"shafts[{rotor.shaft - 1}].crack")
-        yield Remark(text=say(_("It has no crack{how}."), how=Written(how, "")))
+        how = key_text(f"shafts[{rotor.shaft - 1}].crack", "", _("; {key} in the file gives it one"))
+        yield Remark(text=say(_("It has no crack{how}."), how=how))
 
 
 def _remarks(result: RotorResponse) -> Iterator[Remark]:

@@ -12,6 +12,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, Written, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
+from cardan.drive.fields.paths import key_text
 from cardan.drive.models.machine_held import held_by_machines, machine_held, machines_of
 from cardan.errors import InputError
 from cardan.figures.figure import Figure
@@ -253,9 +254,11 @@ def _changes(drive: Drive, spare: Sequence[str]) -> Iterator[Written]:
         gone = [hold for hold in own if f"supports[{k}].{hold}" in spare]
         if gone and gone == own:
             name = omitted.format(support=_("support {number}").format(number=k + 1))
-            yield Written(omitted.format(support=f"supports[{k}]"), name)
+            yield key_text(f"supports[{k}]", name, omitted.format(support="{key}"))
         else:
-            yield from (Written(f"supports[{k}].{hold} = false", words[hold].format(number=k + 1)) for hold in gone)
+            yield from (
+                key_text(f"supports[{k}].{hold}", words[hold].format(number=k + 1), "{key} = false") for hold in gone
+            )
 
 
 def _checked(result: AssemblyForces) -> Iterator[Remark]:

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, Tone
-from cardan.answers.quantity import Joined, Quantity, Say, Written, say
+from cardan.answers.quantity import Joined, Quantity, Say, Text, Written, say
 from cardan.answers.question import Lacking, all_of
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
+from cardan.drive.fields.paths import key_text
 from cardan.drive.models.machine_held import balls_of, held_by_machines, machines_of
 from cardan.errors import InputError, refuse
 from cardan.figures.figure import Figure
@@ -349,12 +350,16 @@ def _remedies(thing: Drive | Mechanism, result: Mobility, remedies: Sequence[Rep
         elif k:
             yield Remark(text=say(_("Or {what}."), what=what))
         else:
-            keys = _(" and ").join(_keys(thing, repair))
-            told = Joined([what, Written(f" ({keys})", "")], between="") if keys else what
-            yield Remark(text=say(_("Remedy: {what}."), what=told))
+            keys = list(_keys(thing, repair))
+            told: list[Text] = [what, BRACKET, Joined(keys, last=_(" and ")), BRACKETED] if keys else [what]
+            yield Remark(text=say(_("Remedy: {what}."), what=Joined(told, between="")))
 
 
-def _keys(thing: Drive | Mechanism, repair: Repair) -> Iterator[str]:
+BRACKET, BRACKETED = Written(" (", ""), Written(")", "")
+"""What stands about keys, for those who are told keys."""
+
+
+def _keys(thing: Drive | Mechanism, repair: Repair) -> Iterator[Written]:
     """Yield what to write in a drive file for changes of its supports."""
     if not isinstance(thing, Drive):
         return
@@ -365,12 +370,12 @@ def _keys(thing: Drive | Mechanism, repair: Repair) -> Iterator[str]:
         if k is None:
             continue
         if not change.after:
-            yield _("{support} omitted").format(support=f"supports[{k}]")
+            yield key_text(f"supports[{k}]", "", _("{support} omitted").format(support="{key}"))
             continue
         before, after = holds[change.before], holds[change.after]
         for name, was, kept in zip(("radial", "axial", "tilt"), before, after, strict=True):
             if was and not kept:
-                yield f"supports[{k}].{name} = false"
+                yield key_text(f"supports[{k}].{name}", "", "{key} = false")
 
 
 def _facts(
