@@ -144,6 +144,20 @@ def test_places_are_counted_as_the_page_counts_and_keys_named_as_the_file_names_
     page.locator(".q-notification").filter(has_text=f"{cure}: applied").wait_for()
 
 
+def test_a_remedy_is_applied_that_was_seen_although_others_are_being_looked_for(opened: Open) -> None:
+    page = opened("truck-printed-coordinates")
+    cures = page.locator(".lights details.failed .cure code")
+    cures.first.wait_for(state="attached")
+    seen = cures.first.text_content()
+    typed(page, "centre mm y", "3.25")
+    page.wait_for_function(
+        "seen => ![...document.querySelectorAll('.cure code')].some((one) => one.innerText === seen)", arg=seen
+    )
+    pressed = "seen => {const old = document.createElement('button'); old.dataset.do = `cure ${seen}`;"
+    page.evaluate(pressed + "document.querySelector('[data-mark=verdicts] summary').after(old); old.click();}", seen)
+    page.locator(".q-notification").filter(has_text=f"{seen}: applied").wait_for()
+
+
 def test_the_picture_fills_the_screen_and_gives_it_back(opened: Open) -> None:
     page = opened("car-propshaft")
     mark(page, "whole-screen").click()

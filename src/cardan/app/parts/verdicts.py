@@ -35,6 +35,7 @@ from .widgets import Live, Timer, escaped, first
 
 QUIET = 0.4  # seconds without an edit after which cures are looked for
 LOOK = 0.2  # seconds between two looks whether they were found
+KEPT = 100  # remedies that can be pressed, the newest ones: the browser may show older ones for a moment
 
 PRESSED = """(event) => {
   const button = event.target.closest('[data-do]');
@@ -55,6 +56,7 @@ class Verdicts:
     def __init__(self, session: Session, jobs: Jobs, *, compare: Callable[[], object] | None = None) -> None:
         self.session = session
         self.lights: tuple[Light, ...] = ()
+        self._offered: dict[str, Applicable] = {}  # by label; those too of a moment ago: what is pressed was seen
         self._jobs = jobs
         self._job: Job | None = None
         self._due: Timer | None = None
@@ -152,6 +154,9 @@ class Verdicts:
 
     def _show(self, found: Sequence[Light]) -> None:
         self.lights = tuple(found)
+        offered = {remedy.label: remedy for one in self.lights for remedy in one.remedies}
+        older = [one for one in self._offered.items() if one[0] not in offered]
+        self._offered = dict([*older, *offered.items()][-KEPT:])
         self._list.show(lights_html(self.lights))
 
     def _judge(self) -> None:
@@ -171,11 +176,9 @@ class Verdicts:
             if light is not None and light.tone == "failed":
                 self.session.select(field_of(light))
             return
-        number, _space, name = name.partition(" ")
-        light = next((one for one in self.lights if one.name == name), None)
-        if light is not None and int(number) < len(light.remedies):
+        if name in self._offered:
             with self.session.speaking():
-                applied(self.session, light.remedies[int(number)])
+                applied(self.session, self._offered[name])
 
     def _even(self) -> None:
         """Put the best exact setting of the yokes into the file, or say why there is none."""
@@ -259,8 +262,8 @@ def _remedies(one: Light) -> list[str]:
         return []
     word = escaped(_("apply"))
     made = [f"<h3>{escaped(_('Remedies'))}</h3>"]
-    for k, remedy in enumerate(one.remedies):
-        name = escaped(f"cure {k} {one.name}")
+    for remedy in one.remedies:
+        name = escaped(f"cure {remedy.label}")
         made.append(
             f'<div class="cure"><code>{escaped(remedy.label)}</code><small>{escaped(remedy.effect)}</small>'
             f'<button type="button" class="apply" data-do="{name}">{word}</button></div>'
