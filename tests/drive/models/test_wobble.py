@@ -59,14 +59,15 @@ def row(vector):
     return tuple(float(x) for x in vector)
 
 
+@pytest.mark.parametrize(("reach", "length"), [(0.2, 0.3), (0.1, 0.15)])
 @pytest.mark.parametrize("side", ["near", "far"])
-def test_two_offset_crosses_turn_as_their_closed_loops(side):
-    drive = crosses(0.2, side, length=0.3)
+def test_two_offset_crosses_turn_as_their_closed_loops(side, reach, length):
+    drive = crosses(reach, side, length=length)
     place, count = geometry(drive), 40
     angle = np.linspace(0.0, 2.0 * np.pi, count + 1)
     found = course(drive, angle)
     (o1, o2) = (found.centre[k, 0] for k in range(2))
-    (s1, s2) = (place.points[k + 1] + 0.2 * place.axis[k + 1] for k in range(2))
+    (s1, s2) = (place.points[k + 1] + reach * place.axis[k + 1] for k in range(2))
     pins = [
         Pair(id=f"{k}{side}", type="R", links=links, point=row(point), axis=row(axis))
         for k, links, point, axis in (
