@@ -78,28 +78,38 @@ class Linkage:
         Newton's method; of the motions that nothing holds the smallest.
         """
         here = self.scaled(poses, 1.0)
-        free = np.asarray(moving, dtype=int)
-        if not len(free):
+        if not len(moving):
             return poses, self._misfit(self.rows(here)[1])
         for _round in range(ROUNDS):
-            matrix, rest = self.matrix(here)
-            if tied is not None:
-                matrix[..., tied[1], :] += matrix[..., tied[0], :]
-            slope = np.reshape(matrix[..., free, :], (*matrix.shape[:-2], -1))
+            slope, rest = self.slopes(here, moving, tied)
             turned = np.swapaxes(slope, -1, -2)
             square = turned @ slope
             most = np.max(np.abs(np.diagonal(square, axis1=-2, axis2=-1)), axis=-1)
             damped = square + (DAMPING * most)[..., None, None] * np.eye(square.shape[-1])
             step = -np.linalg.solve(damped, turned @ rest[..., None])[..., 0]
             step = step / np.maximum(1.0, np.max(np.abs(step), axis=-1, keepdims=True) / LONGEST)
-            twist = np.reshape(step, (*step.shape[:-1], len(free), 6))
-            steps = screws.exponential(twist, np.ones(twist.shape[:-1]))
-            here[..., free, :, :] = steps @ here[..., free, :, :]
-            if tied is not None:
-                here[..., tied[0], :, :] = steps[..., int(np.argmax(free == tied[1])), :, :] @ here[..., tied[0], :, :]
+            self.step(here, step, moving, tied)
             if np.max(np.abs(step)) < RESTS:
                 break
         return self.scaled(here, -1.0), self._misfit(self.rows(here)[1])
+
+    def slopes(self, poses: Array, moving: Sequence[int], tied: tuple[int, int] | None) -> tuple[Array, Array]:
+        """Return how twists of the moving links change what the pairs miss, (..., s, 6n), and what they miss (..., s).
+
+        poses: scaled; tied: as `settled` has it.
+        """
+        matrix, rest = self.matrix(poses)
+        if tied is not None:
+            matrix[..., tied[1], :] += matrix[..., tied[0], :]
+        return np.reshape(matrix[..., list(moving), :], (*rest.shape, -1)), rest
+
+    def step(self, poses: Array, step: Array, moving: Sequence[int], tied: tuple[int, int] | None) -> None:
+        """Step scaled poses (..., n, 4, 4) of the moving links, and of one tied, by twists (..., 6n), in place."""
+        twist = np.reshape(step, (*step.shape[:-1], len(moving), 6))
+        steps = screws.exponential(twist, np.ones(twist.shape[:-1]))
+        poses[..., list(moving), :, :] = steps @ poses[..., list(moving), :, :]
+        if tied is not None:
+            poses[..., tied[0], :, :] = steps[..., list(moving).index(tied[1]), :, :] @ poses[..., tied[0], :, :]
 
     def motions(self, poses: Array, moving: Sequence[int]) -> Array:
         """Return the small motions that the pairs leave, array (w, moving, 6): twists, lengths over the size."""
@@ -177,6 +187,12 @@ class Linkage:
             for k, part in enumerate((self.row_way < 3, self.row_way >= 3)):
                 found[..., j, k] = np.max(np.abs(rest[..., part & (self.row_pair == j)]), axis=-1, initial=0.0)
         return np.where(np.isfinite(found), found, np.inf)
+
+
+def open_by(misfit: Array) -> tuple[float, float]:
+    """Return the largest gap, over the size, and lean [rad] of pairs (m, 2); what rounding leaves is none."""
+    gap, lean = (float(one) if one > CLOSED else 0.0 for one in np.max(misfit, axis=0))
+    return gap, lean
 
 
 def by_rounding(gap: float) -> str:

@@ -164,19 +164,26 @@ def problems(mechanism: Mechanism) -> Iterator[Problem]:
     for k, pair in enumerate(joints):
         if pair.carrier and pair.carrier not in (*known, mechanism.frame):
             yield Problem(f"joints[{k}].carrier", _no_link(pair.carrier, mechanism.frame, known), "inconsistent")
-    if mechanism.rounding is not None and not _closes_by_input(mechanism):
-        text = _(
-            "of no use here: an input link that turns in the frame, or slides in it over a stroke, tells how the loops "
-            "are to close, of links that do not roll"
-        )
-        yield Problem("rounding", text, "inconsistent")
+    if mechanism.rounding is not None:
+        yield from _rounding_problems(mechanism)
     yield from _load_problems(mechanism, known)
 
 
-def _closes_by_input(mechanism: Mechanism) -> bool:
-    """Return whether an input in the frame moves loops that pairs alone close."""
-    driven = mechanism.driving is not None and mechanism.base == mechanism.frame
-    return driven and mechanism.travel is not None and not any(pair.kind.rolls for pair in mechanism.joints)
+def _rounding_problems(mechanism: Mechanism) -> Iterator[Problem]:
+    """Yield why no changes of a mechanism close its loops all along the way of its input."""
+    rolling = next((pair.id for pair in mechanism.joints if pair.kind.rolls), "")
+    if mechanism.driving is None or mechanism.travel is None:
+        text = _(
+            "of no use here: an input link that turns, or slides over a stroke, in a pair of type R or P tells how the "
+            "loops are to close"
+        )
+        yield Problem("rounding", text, "inconsistent")
+    elif rolling:
+        text = _(
+            "of no use here: {pair} rolls, it holds a speed, not a place; where its links stand depends on the way "
+            "that they came, so that no changes of pairs close loops at every place"
+        )
+        yield Problem("rounding", text.format(pair=repr(rolling)), "inconsistent")
 
 
 def _load_problems(mechanism: Mechanism, known: tuple[str, ...]) -> Iterator[Problem]:

@@ -110,7 +110,8 @@ def _met(mechanism: Mechanism) -> tuple[int, Point, float] | None:
     driven, allowed = mechanism.driving, mechanism.rounding or 0.0
     ends = {mechanism.frame, mechanism.output_link}
     bearings = [k for k, pair in enumerate(mechanism.joints) if set(pair.links) == ends and pair.axis is not None]
-    if driven is None or mechanism.slides or len(bearings) != 1 or mechanism.output_link == mechanism.input_link:
+    shafts = not mechanism.slides and mechanism.base == mechanism.frame
+    if driven is None or not shafts or len(bearings) != 1 or mechanism.output_link == mechanism.input_link:
         return None
     bearing = mechanism.joints[bearings[0]]
     normal = frames.cross(driven.along, bearing.along)
@@ -131,8 +132,9 @@ def _with(joints: tuple[Pair, ...], number: int, point: Point, _gap: float) -> t
 def _followed(mechanism: Mechanism, linkage: Linkage) -> Array:
     """Return where links stand best at `PLACES` of the input's way, array (p, n, 4, 4); the first is the drawing."""
     assert mechanism.driving is not None
-    about, fast = mechanism.driving.freedoms[0], linkage.links.index(mechanism.input_link)
-    moving = _moving(mechanism, linkage)
+    about = mechanism.driving.freedoms[0]
+    fast, below = (linkage.links.index(one) for one in (mechanism.input_link, mechanism.base))
+    moving, tied = _moving(mechanism, linkage)
     step = STEP * (linkage.size if mechanism.slides else 1.0)
     ends = [end for end in mechanism.travel or () if end]
     rows = [linkage.drawn()]
@@ -142,15 +144,18 @@ def _followed(mechanism: Mechanism, linkage: Linkage) -> Array:
         here = before = rows[0]
         for k in range(1, count * each + 1):
             ahead = here @ np.linalg.inv(before) @ here
-            ahead[fast] = moved_along(about, np.asarray(k * end / (count * each)))
-            before, here = here, linkage.settled(ahead, moving)[0]
+            ahead[fast] = ahead[below] @ moved_along(about, np.asarray(k * end / (count * each)))
+            before, here = here, linkage.settled(ahead, moving, tied)[0]
             if k % each == 0:
                 rows.append(here)
     return np.stack(rows)
 
 
-def _moving(mechanism: Mechanism, linkage: Linkage) -> list[int]:
-    return [k for k, link in enumerate(linkage.links) if link not in (mechanism.frame, mechanism.input_link)]
+def _moving(mechanism: Mechanism, linkage: Linkage) -> tuple[list[int], tuple[int, int] | None]:
+    """Return the links that settle, and the input with the link that it is driven against, where that settles too."""
+    fast, below, frame = map(linkage.links.index, (mechanism.input_link, mechanism.base, mechanism.frame))
+    moving = [k for k in range(len(linkage.links)) if k not in (fast, frame)]
+    return moving, (fast, below) if below in moving else None
 
 
 def _closed(linkage: Linkage, poses: Array, mechanism: Mechanism, fixed: list[int]) -> Array:
@@ -158,11 +163,10 @@ def _closed(linkage: Linkage, poses: Array, mechanism: Mechanism, fixed: list[in
 
     fixed: pairs that stay as they are.
     """
-    free = _moving(mechanism, linkage)
+    free, tied = _moving(mechanism, linkage)
     here, count = linkage.scaled(poses, 1.0), len(poses)
     for step in range(ROUNDS):
-        matrix, rest = linkage.matrix(here)
-        slope = np.reshape(matrix[..., free, :], (*rest.shape, -1))
+        slope, rest = linkage.slopes(here, free, tied)
         change = _changes(linkage, here)
         change[..., fixed, :] = 0.0
         change = np.reshape(change, (*rest.shape, -1))
@@ -175,8 +179,7 @@ def _closed(linkage: Linkage, poses: Array, mechanism: Mechanism, fixed: list[in
         by, gap = left[..., :-1], left[..., -1]
         damped = np.einsum("psa,psb->ab", by, by) + count * max(FIRST * FALL**step, LAST) * np.eye(by.shape[-1])
         moved = -np.linalg.solve(damped, np.einsum("psa,ps->a", by, gap))
-        twist = -np.reshape(taken[..., -1] + taken[..., :-1] @ moved, (count, len(free), 6))
-        here[:, free] = screws.exponential(twist, np.ones(twist.shape[:-1])) @ here[:, free]
+        linkage.step(here, -(taken[..., -1] + taken[..., :-1] @ moved), free, tied)
         _change(linkage, np.reshape(moved, (-1, 12)))
         if np.max(np.abs(linkage.rows(here)[1])) < CLOSED:
             return np.asarray(linkage.scaled(here, -1.0)[0])

@@ -19,7 +19,7 @@ from cardan.maths.kernel import frames, screws
 from cardan.texts import _
 from cardan.units import deg, label, mm
 
-from .closing import CLOSED, Linkage, by_rounding, moved_along
+from .closing import CLOSED, Linkage, by_rounding, moved_along, open_by
 from .constraints import FRAME
 from .kinetostatics import Placed, Rates, rates, speeds
 from .mechanism import Mechanism
@@ -259,7 +259,7 @@ class _Way:
     def _refuse(self, misfit: Array, angle: float) -> None:
         """Refuse a mechanism whose pairs do not close: which link cannot follow, at which angle, what is lacking."""
         pair = self.linkage.joints[int(np.argmax(np.max(misfit, axis=-1)))]
-        gap, lean = np.max(misfit, axis=0)
+        gap, lean = open_by(misfit)
         link = next(
             (one for one in pair.links[::-1] if one not in (self.mechanism.frame, self.mechanism.input_link)), ""
         )
@@ -276,12 +276,12 @@ class _Way:
             link=repr(link or pair.links[1]),
             input=repr(self.mechanism.input_link),
             pair=repr(pair.id),
-            gap=float(gap) * self.linkage.size / mm,
-            lean=float(lean) / deg,
+            gap=gap * self.linkage.size / mm,
+            lean=lean / deg,
             angle=angle / deg,
             path=angle / mm,
         )
-        raise InputError([Problem("input_link", said + by_rounding(float(gap)), "out_of_range")])
+        raise InputError([Problem("input_link", said + by_rounding(gap), "out_of_range")])
 
 
 def _drawn_back(ahead: Array, twist: Array) -> Array:

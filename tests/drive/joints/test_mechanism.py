@@ -213,6 +213,8 @@ def test_what_is_no_joint_is_refused_with_link_angle_and_amount():
     assert "cannot follow: with the driving link turned by" in said
     assert "mm and" in said
     assert "rounding_mm" not in said
+    rolling = tuple(replace(one, type="RO") if one.id == "scissor 1" else one for one in drawing.joints)
+    assert "'scissor 1' rolls: it holds a speed, not a place" in refusal(replace(drawing, joints=rolling))
     assert "needs one pair with the frame" in refusal(example_mechanism("crank-slider"))
     assert "missing: neither this key nor input_link" in refusal(replace(drawing, input_link=""))
 

@@ -14,7 +14,7 @@ from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array, unit_complex
 from cardan.maths.kernel import frames, mobius, screws
 from cardan.maths.kernel.meshes import Surface, ball, joined, placed, revolved
-from cardan.mechanism.closing import CLOSED, Linkage, by_rounding, turn_about
+from cardan.mechanism.closing import CLOSED, Linkage, by_rounding, open_by, turn_about
 from cardan.mechanism.kinetostatics import Placed, carried
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.rounding import exactly, fitted
@@ -491,7 +491,7 @@ class Inside:
     def opened(self, misfit: Array, theta: float, joint_angle: float) -> str:
         """Return which pair opens most, of which link, and how far."""
         pair = self.linkage.joints[int(np.argmax(np.max(misfit, axis=-1)))]
-        gap, lean = np.max(misfit, axis=0)
+        gap, lean = open_by(misfit)
         text = _(
             "{link} cannot follow: with the driving link turned by {angle:.4g}°, at a joint angle of "
             "{joint_angle:.4g}°, {pair} stays open: its pairs lack {gap:.3g} mm and {lean:.3g}°"
@@ -500,12 +500,12 @@ class Inside:
         said = text.format(
             link=repr(link),
             pair=repr(pair.id),
-            gap=float(gap) * self.linkage.size / mm,
-            lean=float(lean) / deg,
+            gap=gap * self.linkage.size / mm,
+            lean=lean / deg,
             angle=theta / deg,
             joint_angle=joint_angle / deg,
         )
-        return said + by_rounding(float(gap))
+        return said + by_rounding(gap)
 
 
 def steepness(leads: Array) -> float:
@@ -565,6 +565,11 @@ def _pair_problems(mechanism: Mechanism, bearings: tuple[int, int]) -> Iterator[
             yield Problem("file", text.format(pair=repr(pair.id), link=repr(link)), "inconsistent")
         if pair.kind.screw:
             text = _("{pair} is a helical pair; a joint that turns all round cannot have one")
+            yield Problem("file", text.format(pair=repr(pair.id)), "inconsistent")
+        if pair.kind.rolls:
+            text = _(
+                "{pair} rolls: it holds a speed, not a place; a joint stands alike after a turn, whatever way it came"
+            )
             yield Problem("file", text.format(pair=repr(pair.id)), "inconsistent")
 
 

@@ -288,7 +288,8 @@ def _turned(around: Turned | None) -> Iterator[Remark]:
         return
     over, closure = around.positions, around.closure
     if closure is not None and not closure.closes:
-        worst = closure.worst
+        worst, least = closure.worst, closure.tolerance
+        gap, turn = (float(one) if one > least else 0.0 for one in (closure.gap[worst], closure.turn[worst]))
         text = _(
             "Failed: it does not turn through 360°: at {angle} its loops miss each other by {gap} and {turn}, a "
             "clearance that it needs."
@@ -303,8 +304,8 @@ def _turned(around: Turned | None) -> Iterator[Remark]:
             end=_place(over, around.end or 0.0),
             **_range(over),
             angle=_place(over, closure.angle[worst]),
-            gap=Quantity(float(closure.gap[worst]), "length", 3),
-            turn=Quantity(float(closure.turn[worst]), "angle", 3),
+            gap=Quantity(gap, "length", 3),
+            turn=Quantity(turn, "angle", 3),
         )
         yield Remark(text=said, tone="failed")
     elif len(over.special):
