@@ -88,16 +88,28 @@ def stopped(
     of each of them.
     """
     for pose, one in (("", design), *stood(design)):
-        if not one.drive.movements:
-            continue
-        if one.varied:
+        if one.varied and one.drive.movements:
             yield Joined([pose, _("while the drive moves")]), _worst_of_instants(one, judge)
-            continue
-        for time in worst_instants(one.drive, _course(one, judge, slides=slides), rounds=1):
-            here = still(one.drive, time)
-            at = say(_("while the drive moves, at {time}"), time=Quantity(time, "time", 3, trim=True))
-            other = replace(one, drive=here, duty=here.duty, drawn=design.drawn or design)
-            yield Joined([pose, at]), judge(other)
+        else:
+            yield from ((Joined([pose, said]), judge(still)) for said, still in _stops(one, judge, slides=slides))
+
+
+def stops(design: Design, judge: Callable[[Design], Sequence[Verdict]]) -> Iterator[tuple[Text, Design]]:
+    """Yield the instants at which `stopped` looks at one drive, and the design that stands still there."""
+    for pose, one in (("", design), *stood(design)):
+        yield from ((Joined([pose, said]), here) for said, here in _stops(one, judge, slides=False))
+
+
+def _stops(
+    design: Design, judge: Callable[[Design], Sequence[Verdict]], *, slides: bool
+) -> Iterator[tuple[Text, Design]]:
+    """Yield the instants of the movements of one drive at which verdicts use most of their limits, as `stops` does."""
+    if not design.drive.movements:
+        return
+    for time in worst_instants(design.drive, _course(design, judge, slides=slides), rounds=1):
+        here = still(design.drive, time)
+        at = say(_("while the drive moves, at {time}"), time=Quantity(time, "time", 3, trim=True))
+        yield at, replace(design, drive=here, duty=here.duty, drawn=design.drawn or design)
 
 
 def _course(design: Design, judge: Callable[[Design], Sequence[Verdict]], *, slides: bool) -> Callable[[Array], Array]:
