@@ -46,6 +46,8 @@ GREASES = "intervals of lubrication of industrial shafts and of power take-offs 
 
 TEETH = "a yoke on a spline is turned from tooth to tooth, so that a remedy is an angle that exists"
 
+SOUGHT = "joints shake a line whatever it carries, so that the torque rating is sought and not found in proportion"
+
 NUMBERS: tuple[tuple[str, str, str], ...] = (
     (r"catalogue$", r"tables\.rows", GUIDES),
     (r"catalogue (max_bends|max_joint_angles)", r"rows\.max_(bend|joint_angle)_deg", DIGITS),
@@ -135,6 +137,11 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         r"torsion (absorber|calm) examples/truck-power-unit\.toml",
         r"(unstable_before_rpm|values|without)\b.*",
         BANDS,
+    ),
+    (
+        r"strength examples/(cured-drive|pto-flywheel(-absorber)?|unstable-drive)\.toml",
+        r"(limits\.limit_torque_Nm|rated_torque_Nm|torque_factor)",
+        SOUGHT,
     ),
     (r"check examples/truck-power-unit\.toml", r"verdicts\.(utilisation|value)", BANDS),
     (

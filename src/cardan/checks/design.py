@@ -66,6 +66,8 @@ class Design:
         The drives as drawn, where this is one of its poses: engaged length and gap of a spline hold there.
     pose : str
         Name of that pose.
+    vibrates : bool
+        Whether what torsional vibration adds to the loads counts.
     """
 
     drive: Drive
@@ -74,6 +76,7 @@ class Design:
     varied: Mapping[str, Array] = field(default_factory=dict)
     drawn: Design | None = None
     pose: str = ""
+    vibrates: bool = True
 
     @cached_property
     def shape(self) -> tuple[int, ...]:
@@ -253,7 +256,7 @@ class Design:
 
     def _vibration(self, one: LoadCase) -> Vibration | None:
         """Return what torsional vibration adds to the loads in a way to run, of the drive itself."""
-        if not has_torsion(self.drive):
+        if not self.vibrates or not has_torsion(self.drive):
             return None
         return vibration(replace(self.drive, poses=()) if self.drive.poses else self.drive, one)
 

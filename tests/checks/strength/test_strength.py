@@ -6,9 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cardan import Drive, InputError, forces
+from cardan import Drive, InputError, example, forces
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.catalogue import completed
 from cardan.checks import check
+from cardan.checks.strength.answer import answer
 from cardan.checks.strength.strength import STRENGTH, strength
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty, Harmonic, History, Limits
@@ -110,6 +113,39 @@ def test_a_drive_loaded_with_its_rating_is_just_at_its_limit():
         if one.check == "bearing_life" and one is not at.governing:
             continue  # by the power of the torque alone; masses count as well
         assert one.torque_factor * rated == pytest.approx(700.0 * before.torque_factor, rel=1e-8), one.title
+
+
+@pytest.mark.parametrize(
+    ("name", "torque"),
+    [
+        ("unstable-drive", 60.0),  # vibration that joints make: four times the torque, twice as much at the rating
+        ("unstable-drive", 1000.0),  # too weak: the rating lies below the torque
+        pytest.param("pto-baler", 150.0, marks=pytest.mark.slow),  # vibrates while it turns on the headland alone
+        pytest.param("pto-flywheel", 300.0, marks=pytest.mark.slow),  # backlash that opens under little torque
+    ],
+)
+def test_a_drive_that_vibrates_is_at_its_limit_under_its_rating(name, torque):
+    drive = example(name)
+    found = strength(drive, replace(drive.duty, torque=torque))
+    at = strength(drive, replace(drive.duty, torque=found.rated_torque))
+    # the rating lies on a chord at most 5 % long
+    assert at.utilisation == pytest.approx(1.0, rel=2e-3)
+    assert at.rated_torque == pytest.approx(found.rated_torque, rel=2e-3)
+    if not name.endswith("baler"):  # whose drawn position does not vibrate
+        assert found.vibration.factor > 1.05
+    # a torque in proportion would be another one
+    plain = found.torque / found.utilisation
+    assert abs(plain / found.rated_torque - 1.0) > 0.03
+
+
+def test_a_drive_that_vibration_alone_breaks_has_no_rating():
+    drive = example("unstable-drive")
+    weak = replace(drive, limits=Limits(twist=0.5 * deg))
+    found = strength(weak)
+    assert strength(weak, replace(drive.duty, torque=1e-3)).utilisation > 1.0
+    assert found.rated_torque == 0.0
+    assert found.governing.check == "twist"
+    assert "even without load" in told(answer(weak, found).sentence, USUAL)
 
 
 def everything():

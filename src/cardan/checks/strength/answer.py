@@ -31,7 +31,7 @@ from .event_damage import cheapest, event_damages, events_lost, ramp_damages
 from .figure import strength_figures
 from .omitted import LeftOut, Vibration
 from .part_strength import ShaftStrength
-from .strength import LITTLE, Strength, left_out, strength
+from .strength import LITTLE, Strength, left_out, reached, strength
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 
@@ -111,6 +111,8 @@ def _sentence(result: Strength) -> Say | str:
     text = _("too weak for {torque}; torque rating {rated}, governed by {title}.")
     if result.enough:
         text = _("carries {torque}; torque rating {rated}, governed by {title}.")
+    if not result.rated_torque:
+        text = _("too weak for {torque} and even without load, by torsional vibration alone; governed by {title}.")
     torque: Text = _torque(result.torque)
     if result.case:
         torque = say("{torque} ({case})", torque=torque, case=result.case)
@@ -135,7 +137,7 @@ def with_events(drive: Drive, found: Strength) -> Strength:
 
 def _tables(drive: Drive, result: Strength) -> Iterator[Table]:
     if result.judged:
-        order = sorted(result.judged, key=lambda one: (one.advice, float(one.torque_factor)))
+        order = sorted(result.judged, key=lambda one: (one.advice, reached(one)))
         yield replace(verdict_table(order, _("Limits of the parts"), torque=result.torque), aside=True)
     yield _shafts(drive, result)
     yield _joints(drive, result)
@@ -440,7 +442,7 @@ def _keys(result: Strength) -> Iterator[KeyFigure]:
     first = result.governing
     if first is None or not math.isfinite(result.rated_torque):
         return
-    used = result.torque / result.rated_torque
+    used = result.torque / result.rated_torque if result.rated_torque else math.inf
     tone: Tone = "failed" if used > 1.0 else "warning" if used >= AMBER or not first.sure else "good"
     near = _("near the limit") if used >= AMBER else _("met, unconfirmed rating")
     yield KeyFigure(

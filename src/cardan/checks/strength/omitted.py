@@ -4,6 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
+from cardan.checks.design import Design
+from cardan.drive.drive import Drive
+from cardan.errors import InputError
+from cardan.maths.ties import foremost_of
+from cardan.questions.torsion.steady.run_stability import Verdict as StabilityVerdict
+from cardan.questions.torsion.steady.torsion_response import torsion_response
+from cardan.texts import _
+
 
 @dataclass(frozen=True, kw_only=True)
 class Vibration:
@@ -34,3 +44,31 @@ class LeftOut:
     journal: Journal | None = None
     supported: bool = False  # whether the supports of the drive are known, so that its forces are
     runs_up: bool = False  # whether its run-up is known, too
+
+
+def vibration(subject: Design) -> Vibration | None:
+    """Return what torsional vibration makes of the torque; None where the file does not let it be told.
+
+    The torque of a steady motion that grows is the least that the drive reaches.
+    """
+    told = [(case, one) for case in subject.loaded if (one := case.vibration) is not None]
+    if not told:
+        return None
+    _case, worst = foremost_of(told, lambda one: float(np.nanmax(one[1].growth)))
+    s, k = np.unravel_index(int(np.nanargmax(worst.growth)), worst.growth.shape)
+    return Vibration(
+        speed=abs(float(worst.speed[s])),
+        stable=not subject.duty.speed or _stable(subject.drive),
+        name=_("shaft {number}").format(number=int(k) + 1),
+        low=float(worst.low[s, k]),
+        high=float(worst.high[s, k]),
+        factor=float(worst.growth[s, k]),
+    )
+
+
+def _stable(drive: Drive) -> bool:
+    """Tell whether torsional vibration dies out at the speed of the duty, as far as it is known."""
+    try:
+        return int(torsion_response(drive).floquet.verdict) != StabilityVerdict.UNSTABLE
+    except InputError:
+        return True

@@ -13,21 +13,17 @@ from cardan.catalogue import Catalogue
 from cardan.checks.check import Check
 from cardan.checks.design import Design, design
 from cardan.checks.load_case import Case
-from cardan.checks.moving import stood, stopped, worst_of_poses
+from cardan.checks.moving import stood, stops, worst_of_poses
 from cardan.checks.verdict import Verdict
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.dynamics_model import train
 from cardan.drive.torsional_layout import has_torsion
 from cardan.errors import InputError, Problem, check
-from cardan.formulas.joint_rating import POWER
-from cardan.maths.arrays import Array
-from cardan.maths.ties import foremost, foremost_of
+from cardan.maths.ties import foremost_of
 from cardan.questions.forces.forces import forces
 from cardan.questions.life.bearing_loads import bearing_loads
-from cardan.questions.life.life import duty_parts, life
-from cardan.questions.torsion.steady.run_stability import Verdict as StabilityVerdict
-from cardan.questions.torsion.steady.torsion_response import torsion_response
+from cardan.questions.life.life import duty_parts
 from cardan.texts import _
 
 from . import (
@@ -49,8 +45,9 @@ from . import (
     yoke_strength,
 )
 from .event_damage import EventDamage
-from .omitted import Journal, LeftOut, Vibration
+from .omitted import Journal, LeftOut, Vibration, vibration
 from .part_strength import JointStrength, ShaftStrength, joint_strength, shaft_strength
+from .rating import lasting_as_long, rated, scaled
 from .section import sections
 
 STRENGTH = tuple(
@@ -78,12 +75,6 @@ STRENGTH = tuple(
 
 WIDEST = 0.254
 """Diameter up to which the size factor of fatigue is measured [m], Shigley chapter 6."""
-
-ROUNDS = 8
-"""Times that a torque for a life is bettered at most; three are usual."""
-
-RESTS = 1e-11
-"""Change of the torque at which this ends."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -156,7 +147,7 @@ class Strength:
     @property
     def governing(self) -> Verdict | None:
         """The limit that is reached first when all torques grow; None where nothing is judged."""
-        return foremost_of(self.binding, lambda one: float(one.torque_factor), least=True) if self.binding else None
+        return foremost_of(self.binding, reached, least=True) if self.binding else None
 
     @property
     def torque_factor(self) -> float:
@@ -182,6 +173,15 @@ class Strength:
     def of(self, subject: str) -> tuple[Verdict, ...]:
         """Return the verdicts on a part, as ``joints[0]`` or ``shafts[1]``."""
         return tuple(one for one in self.verdicts if one.subject == subject)
+
+
+def reached(one: Verdict) -> float:
+    """Return what orders verdicts by the torques at which they are reached, the most used first of those at none.
+
+    >>> reached(Verdict(value=1.0, limit=2.0, power=1.0))
+    2.0
+    """
+    return float(one.torque_factor) or -float(one.utilisation)
 
 
 def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None = None) -> Strength:
@@ -217,7 +217,8 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
     (261), von Mises, twist (262), Goodman's line with Marin's factors, where a secondary couple turns with its shaft
     and swings fully; composite tubes against buckling. Splines: core, teeth, flanks. Joints: Book (263)-(265), ISO 76,
     Hertz; life by ISO 281 where the duty asks for one. Stresses grow with the torque, contact pressure with its root,
-    life with its power -10/3: so each use tells the torque at which it ends.
+    life with its power -10/3: so each use tells the torque at which it ends. Where torsional vibration adds to the
+    torque, which joints make whatever a drive carries, that torque is sought (`rating.rated`).
 
     Examples
     --------
@@ -237,12 +238,12 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
         cases=subject.loaded,
         shafts=tuple(shaft_strength(subject, k) for k in parts),
         joints=tuple(joint_strength(subject, i) for i in parts[:-1]),
-        verdicts=tuple(_verdicts(subject)),
+        verdicts=_rated(subject),
         torque=max(abs(float(case.torque or 0.0)) for case in subject.loaded),
         shock_factor=float(subject.shock),
         dynamic_factor=_dynamic(subject),
         case=subject.called(max(subject.loaded, key=lambda case: abs(float(case.torque or 0.0)))),
-        vibration=_vibration(subject),
+        vibration=vibration(subject),
         vibrates=has_torsion(subject.drive),
         extrapolated=tuple(
             k + 1
@@ -252,73 +253,74 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
     )
 
 
-def _verdicts(subject: Design) -> Iterator[Verdict]:
-    """Yield the verdicts on shafts, on all of them together, on joints."""
+@dataclass(frozen=True, eq=False)
+class _Stance:
+    """A design as drawn, in a pose or at an instant of its movements, and the checks that judge it there."""
+
+    said: Text
+    subject: Design
+    checks: Sequence[Check]
+
+    def verdicts(self) -> list[Verdict]:
+        """Return its verdicts."""
+        return _judged(self.checks, self.subject)
+
+    def at(self, factor: float) -> _Stance:
+        """Return it with all torques times a factor."""
+        duty = scaled(self.subject.duty, factor)
+        return replace(self, subject=replace(self.subject, drive=replace(self.subject.drive, duty=duty), duty=duty))
+
+    @property
+    def vibrates(self) -> list[bool]:
+        """Whether the torsional vibration of each way to run is known."""
+        return [case.vibration is not None for case in self.subject.loaded]
+
+
+def _judged(checks: Sequence[Check], subject: Design) -> list[Verdict]:
+    return [one for check in checks for one in check.verdicts(subject) if _asked(one)]
+
+
+def _stances(subject: Design) -> Iterator[_Stance]:
+    """Yield the design as drawn, in its poses, and at the instants of its movements at which its loads are worst."""
     worst = [check for check in STRENGTH if check.gathers == "worst"]
     loads = [check for check in worst if check.instants]
+    yield _Stance("", subject, STRENGTH)
+    yield from (_Stance(said, stand, worst) for said, stand in stood(subject))
+    yield from (_Stance(said, stand, loads) for said, stand in stops(subject, lambda at: _judged(loads, at)))
 
-    def judged(some: Sequence[Check], at: Design) -> list[Verdict]:
-        return [one for check in some for one in check.verdicts(at) if _asked(one)]
 
-    poses: list[tuple[Text, Sequence[Verdict]]] = [(said, judged(worst, stand)) for said, stand in stood(subject)]
-    poses += stopped(subject, lambda at: judged(loads, at))
-    every = worst_of_poses(judged(STRENGTH, subject), poses)
+def _rated(subject: Design) -> tuple[Verdict, ...]:
+    """Return the verdicts with the torques at which their limits are reached.
+
+    In proportion where machines of their own, and not the torques of the duty, make a drive vibrate.
+    """
+    stances, duty = list(_stances(subject)), subject.duty
+    every = lasting_as_long(subject.drive, duty, _verdicts(stances))
+    if not has_torsion(subject.drive) or duty.engine or duty.motor or duty.load or duty.torques:
+        return every
+
+    def at(factor: float) -> tuple[Verdict, ...]:
+        other = [one.at(factor) for one in stances]
+        known = all(one.vibrates == before.vibrates for one, before in zip(other, stances, strict=True))
+        return _verdicts(other) if known else ()
+
+    resting = [replace(one, subject=replace(one.subject, vibrates=False)) for one in stances]
+    return rated(every, _verdicts(resting), at)
+
+
+def _verdicts(stances: Sequence[_Stance]) -> tuple[Verdict, ...]:
+    """Return the verdicts on shafts, on all of them together, on joints."""
+    every = worst_of_poses(stances[0].verdicts(), [(one.said, one.verdicts()) for one in stances[1:]])
     limits = {(one.check, one.subject) for one in every if not one.advice}
-    kept = [one for one in every if not (one.advice and (one.check, one.subject) in limits)]  # no rule beside a limit
-    longer = _longer(subject)
+    kept = (one for one in every if not (one.advice and (one.check, one.subject) in limits))  # no rule beside a limit
     order = {"shafts": 0, "": 1, "joints": 2}
-    for one in sorted(kept, key=lambda one: (order[one.subject.partition("[")[0]], one.number)):
-        yield replace(one, factor=float(longer[one.number - 1])) if one.check == "bearing_life" and one.run else one
+    return tuple(sorted(kept, key=lambda one: (order[one.subject.partition("[")[0]], one.number)))
 
 
 def _asked(one: Verdict) -> bool:
     """Tell whether a verdict is about what the drive has and is to do: no life that nobody asks for."""
     rated = one.check != "rated_torque" or not any(path.endswith(".rating.torque") for path in one.missing)
     return not one.unfit and rated and "duty.life" not in one.missing
-
-
-def _longer(subject: Design) -> Array:
-    """Return by which factor the torques may grow for the life demanded, joint by joint, array (n,).
-
-    Masses count in a life, so that it is not quite a power of the torque: of the joint that fails first the factor is
-    bettered until it rests, that of the others is left at the power.
-    """
-    drive, duty = subject.drive, subject.duty
-    found = bearing_life.lives(drive)
-    if isinstance(found, tuple) or duty.life is None:
-        return np.full(subject.joints, math.nan)
-    with np.errstate(divide="ignore"):
-        factors = (found / duty.life) ** (1.0 / POWER)
-    first = int(foremost(factors, least=True)) if not np.all(np.isnan(factors)) else -1
-    for _round in range(ROUNDS if first >= 0 and math.isfinite(factors[first]) else 0):
-        now = life(drive, scaled(duty, factors[first]), method="iso").of("iso")[first]
-        step = float((now / duty.life) ** (1.0 / POWER))
-        factors[first] *= step
-        if abs(step - 1.0) < RESTS:
-            break
-    return factors
-
-
-def scaled(duty: Duty, factor: float) -> Duty:
-    """Return a duty with all its torques times a factor.
-
-    >>> scaled(Duty(torque=100.0), 1.5).torque
-    150.0
-    """
-    history = duty.torque_history
-    return replace(
-        duty,
-        torque=None if duty.torque is None else factor * duty.torque,
-        harmonics=tuple(replace(one, torque=factor * one.torque) for one in duty.harmonics),
-        blocks=tuple(replace(one, torque=factor * one.torque) for one in duty.blocks),
-        cases=tuple(replace(one, torque=factor * one.torque) for one in duty.cases),
-        events=tuple(
-            replace(one, torque=factor * one.torque) if one.kind == "load_step" else one for one in duty.events
-        ),
-        torque_history=None
-        if history is None
-        else replace(history, torques=tuple(factor * one for one in history.torques)),
-    )
 
 
 def _dynamic(subject: Design) -> float:
@@ -352,34 +354,6 @@ def left_out(drive: Drive, found: Strength) -> LeftOut:
         supported=supported,
         runs_up=drive.duty.run_up is not None,
     )
-
-
-def _vibration(subject: Design) -> Vibration | None:
-    """Return what torsional vibration makes of the torque; None where the file does not let it be told.
-
-    The torque of a steady motion that grows is the least that the drive reaches.
-    """
-    told = [(case, one) for case in subject.loaded if (one := case.vibration) is not None]
-    if not told:
-        return None
-    _case, worst = foremost_of(told, lambda one: float(np.nanmax(one[1].growth)))
-    s, k = np.unravel_index(int(np.nanargmax(worst.growth)), worst.growth.shape)
-    return Vibration(
-        speed=abs(float(worst.speed[s])),
-        stable=not subject.duty.speed or _stable(subject.drive),
-        name=_("shaft {number}").format(number=int(k) + 1),
-        low=float(worst.low[s, k]),
-        high=float(worst.high[s, k]),
-        factor=float(worst.growth[s, k]),
-    )
-
-
-def _stable(drive: Drive) -> bool:
-    """Tell whether torsional vibration dies out at the speed of the duty, as far as it is known."""
-    try:
-        return int(torsion_response(drive).floquet.verdict) != StabilityVerdict.UNSTABLE
-    except InputError:
-        return True
 
 
 def _journal(drive: Drive, found: Strength) -> Journal | None:
