@@ -8,8 +8,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import joint_pages
+
 import cardan
-from cardan.units import DIMENSIONS, deg, rpm
+from cardan.units import DIMENSIONS
 
 
 def write(folder: Path) -> None:
@@ -26,11 +28,10 @@ def write(folder: Path) -> None:
         "questions.md": questions(),
         "examples.md": examples(),
         "catalogue.md": rows(),
-        "joint-types.md": joint_types(),
         "faults.md": faults(),
         "validation.md": validation(),
         "performance.md": performance(),
-        **joints(),
+        **joint_pages.pages(),
     }
     for name, text in pages.items():
         file = folder / name
@@ -116,84 +117,6 @@ def rows() -> str:
         lines += ["| " + " | ".join(_cell(one.get(key)) for key in keys) + " |" for one in flat]
         parts.append(f"## {name}\n\n{doc}\n\n" + "\n".join(lines) + "\n")
     return "\n".join(parts)
-
-
-def joint_types() -> str:
-    """Return the table of all types of joints with their limits, by the law by which they turn."""
-    from cardan.drive.joints import JOINTS
-    from cardan.questions.motion.joint_law import types_of
-
-    lines = [
-        "| kind | type of the catalogue | uniform | joint angle to | torque to | speed times joint angle |",
-        "|---|---|---|---|---|---|",
-    ]
-    for kind in JOINTS:
-        for row in types_of(kind):
-            torque = "–" if row.max_torque is None else f"{row.max_torque:,.10g} N·m".replace(",", "\u202f")
-            joint_angle = "–" if row.max_joint_angle is None else f"{row.max_joint_angle / deg:.3g}°"
-            fast = "–" if row.max_speed_angle is None else f"{row.max_speed_angle / (rpm * deg):,.0f} rpm·°"
-            even = "as a pair" if row.synchronous_as_pair else row.synchronous
-            cells = (f"`{kind}`", row.name, even, joint_angle, torque, fast.replace(",", "\u202f"))
-            lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
-
-
-GROOVES = "driving_offset_mm = 4\ndriven_offset_mm = 4\ngroove_radius_mm = 30"
-"""Sizes of a Rzeppa joint of which loads are told; with its lever alone they are not."""
-
-
-def joints() -> dict[str, str]:
-    """Return what every kind of joint carries and how far it goes, by the name of its page."""
-    from cardan.drive.joints import JOINTS
-    from cardan.io.drive_file import loads
-    from tests.fixtures.joint_keys import KEYS
-
-    keys = KEYS | {"rzeppa": GROOVES}
-    text = "format = 1\n[[joints]]\njoint_angle_deg = 10\n"
-    made = {kind: loads(f'{text}kind = "{kind}"\n{keys[kind]}\n').joints[0] for kind in JOINTS}
-    return {f"joint-{kind}.md": _joint(kind, joint) for kind, joint in made.items()}
-
-
-def _joint(kind: str, joint: Any) -> str:
-    """Return loads and limits of a joint of a kind."""
-    import numpy as np
-
-    from cardan.questions.motion.joint_law import types_of
-    from cardan.questions.motion.joint_mechanism import joint_carried
-
-    carried = joint_carried(joint, 0.1, np.asarray([0.3])).pairs
-    told = [one.name for one in carried if "{number}" in one.name and one.name != "joint {number}"]
-    parts = dict.fromkeys(name.replace(" of joint {number}", "").replace(" {count}", "") for name in told)
-    named = NAMED.get(kind, ", ".join(parts) or "its couple alone")
-    lines = [f"**Loads** told by `cardan forces`: {named}."]
-    sizes = zip(TELL, (joint.rubbing, joint.pressed, joint.rated), strict=True)
-    lines += [f"{what} {', '.join(f'`{one}`' for one in names)}." for what, names in sizes if names]
-    for answer, why in (("No losses are told", joint.refusal("losses")), ("No life is told", joint.refusal("life"))):
-        lines += [f"{answer}: {why}."] if why else []
-    types = [row for row in types_of(kind) if row.max_joint_angle is not None]
-    rows = ", ".join(f"{row.name} {row.max_joint_angle / deg:.3g}°" for row in types)
-    steep = f"above {joint.steepest / deg:.3g}° none of the kind works, which is checked whatever its type"
-    lines += [f"**Limits**: {steep if joint.steepest < RIGHT else 'the angle at which its sizes let it turn no more'}."]
-    lines += [f"By type: {rows}."] if rows else []
-    return " ".join(line for line in lines if line) + "\n"
-
-
-NAMED = {
-    "hooke": "its journals in both yokes, with the needles of the most loaded one",
-    "elastic_half_cardan": "couple and forces by its stiffness against joint angle and shifts, and its wind-up",
-    "mechanism": "every pair of its file",
-}
-"""What is loaded in kinds that are not told by the pairs of their own."""
-
-RIGHT = 89.9 * deg
-"""Joint angle [rad] beyond which a kind has no limit of its own."""
-
-TELL = (
-    "With `friction`, its losses follow from",
-    "Its contact pressure by Hertz is a check with",
-    "Its life by ISO 281 follows from",
-)
-"""What sizes of a joint tell: what rubs in it, the pressure of its balls or rollers, the life of its bearings."""
 
 
 def faults() -> str:

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from cardan.io import example_mechanism
 from cardan.maths.kernel import screws
 from cardan.mechanism.constraints import constraints
 from cardan.questions.mobility.mobility import mobility, stresses
@@ -125,6 +126,19 @@ def test_the_stress_of_a_hooke_joint_is_any_force_through_its_centre():
     assert all(one.couple.size and np.max(np.abs(one.couple)) < 1e-12 for one in pins)
     assert [one.turning for one in pins] == [("free", "needed", "needed")] * 2
     assert [one.turning for one in found.joints if one.id in "AD"] == [("free", "strained", "strained")] * 2
+
+
+@pytest.mark.parametrize(("bearing", "redundant"), [("R", 3), ("S", 1), ("SG", 0)])
+def test_a_cross_between_bearings_is_held_as_the_instrument_joint_of_the_book_counts(bearing, redundant):
+    """Book Fig. 8: W_F = -2, q = 3 in plain bearings, 1 with a spherical one; the page on Hooke joints says so."""
+    drawn = example_mechanism("hooke-stiff-bearings")
+    joints = tuple(
+        replace(one, type=bearing, axis=None if bearing == "S" else one.axis) if one.id == "bearing 2" else one
+        for one in drawn.joints
+    )
+    found = mobility(replace(drawn, joints=joints))
+    assert (found.mobility, found.redundant) == (1, redundant)
+    assert found.formula == 1 - redundant
 
 
 def test_the_double_joint_without_spline_binds_along_its_shaft_alone():
