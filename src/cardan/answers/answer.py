@@ -119,7 +119,6 @@ class Remark:
     depth: Depth = "brief"  # how deep it goes
     aside: bool = False  # whether a report tells it with ``--full`` alone
     alarm: bool = False  # whether the reader of the first page must not overlook it
-    once: bool = False  # whether it is of the drive, whatever is asked: a report says it on the first page that has it
 
 
 @dataclass(frozen=True, kw_only=True)

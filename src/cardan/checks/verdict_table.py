@@ -302,12 +302,13 @@ def _ends(one: Verdict) -> tuple[Quantity | None, Quantity | None]:
 def alike(verdicts: Iterable[Verdict]) -> list[tuple[Verdict, ...]]:
     """Return verdicts in groups: of one check, with limits used alike to a percent, differing in joint or shaft alone.
 
-    The one that uses most of its limit stands first.
+    Advice that is not followed is told once, however far each is from it. The one that uses most of its limit stands
+    first.
     verdicts: single ones that were reached.
     """
     groups: dict[tuple[str, ...], list[Verdict]] = {}
     for one in verdicts:
-        used = f"{float(np.max(one.utilisation)):.2f}"
+        used = "" if one.advice and not one.met else f"{float(np.max(one.utilisation)):.2f}"
         groups.setdefault((one.check, one.kind or one.title, used, one.state), []).append(one)
     return [_worst_first(sorted(group, key=lambda one: one.subject)) for group in groups.values()]
 

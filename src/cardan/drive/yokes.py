@@ -102,7 +102,7 @@ def yokes_estimated(drive: Drive) -> Iterator[Remark]:
             "it.",
             len(which),
         )
-        yield Remark(text=say(text, which=Joined(which, last=_(" and "))), code="estimated_mass", once=True)
+        yield Remark(text=say(text, which=Joined(which, last=_(" and "))), code="estimated_mass")
 
 
 def yoke_mass(joint: Joint) -> float:

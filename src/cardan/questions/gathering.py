@@ -329,7 +329,10 @@ def _varies(told: Sequence[Told], name: str) -> bool:
 
 
 def _table(told: Sequence[Told]) -> Table:
-    """Return the key figures of all conditions side by side; sentences where there are none."""
+    """Return the key figures of all conditions side by side; sentences where there are none.
+
+    What is the same in all of them stands with the rest of the answer, and here for programs only.
+    """
     keys = list({key.name: key for one in told for key in one.answer.keys}.values())
     shares = [one.way.share for one in told]
     columns = [
@@ -350,6 +353,7 @@ def _table(told: Sequence[Told]) -> Table:
                 unit=value.unit,
                 digits=value.digits,
                 decimals=value.decimals,
+                depth="brief" if _varies(told, key.name) else "data",
             )
         )
     if not keys:

@@ -53,7 +53,6 @@ class Words:
     text: Text
     tone: Tone = "plain"
     title: str = ""
-    once: bool = False  # whether a report says it on the first page that has it only
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "text", shown(self.text))
@@ -157,7 +156,7 @@ def _blocks(answer: Answer, reader: Reader, depth: Depth, whole: bool) -> Iterat
     yield from (Words(text=told(one.text, reader), tone=one.tone) for one in remarks if one.tone == "failed")
     yield from (Picture(figure=one) for one in _of(answer.figures(), whole))
     yield from (printed(_filled(one), reader, depth) for one in _of(answer.tables, whole) if one.depth in shown)
-    yield from (Words(text=told(one.text, reader), once=one.once) for one in remarks if one.tone in ("plain", "good"))
+    yield from (Words(text=told(one.text, reader)) for one in remarks if one.tone in ("plain", "good"))
     minded = [told(one.text, reader) for one in remarks if one.tone == "warning"]
     if minded:
         yield Points(title=_("To mind"), items=list(dict.fromkeys(minded)))

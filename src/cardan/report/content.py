@@ -125,6 +125,7 @@ def _said(on: Subject, limits: Judged, source_text: str | None, *, full: bool) -
     calm = [one for one in told if one.tone == "good" and one.name in QUESTIONS and QUESTIONS[one.name].place.calm]
     keys = key_figures([*(one.keys for one in told), limits.keys])
     behind = (*calm, *pages_of(on, aside, limits), *_appendix(on, limits, source_text)) if full else ()
+    first = tuple((warnings_by_laws if on.by_laws else warnings)(on, told))
     return Content(
         title=on.drive.name or _("Universal-joint drive"),
         note=on.drive.note,
@@ -132,13 +133,13 @@ def _said(on: Subject, limits: Judged, source_text: str | None, *, full: bool) -
         date=today(),
         head=Head(),
         judgement=(judgement_by_laws if on.by_laws else judgement)(on, told),
-        warnings=tuple((warnings_by_laws if on.by_laws else warnings)(on, told)),
+        warnings=first,
         lights=limits.lights,
         remedies=limits.changes,
         sketch=space_figure(on.drive, on.seen, name="sketch"),
         figures=key_table(untold(keys, limits.urgent)),
         changes=changes_by_laws(on) if on.by_laws else changes(on),
-        pages=tuple(_told_once([one for one in told if one not in calm])),
+        pages=tuple(_told_once([one for one in told if one not in calm], {one.text for one in first})),
         appendix=behind,
     )
 
@@ -218,16 +219,20 @@ def _appendix(on: Subject, limits: Judged, source_text: str | None) -> Iterator[
     yield (method_by_laws if on.by_laws else method)(on, source_text)
 
 
-def _told_once(pages: Sequence[Page]) -> Iterator[Page]:
-    """Yield pages; what is to be minded of several, or is of the drive, is told on the first of them."""
-    told: set[str] = set()
+def _told_once(pages: Sequence[Page], told: set[str]) -> Iterator[Page]:
+    """Yield pages; sentences that several of them say, below tables as well, are told on the first of them.
+
+    told: what the summary says, to which is added.
+    """
     for one in pages:
         blocks: list[Block] = []
         for block in one.blocks:
             if isinstance(block, Points):
                 items = _new(block.items, told)
                 blocks += [replace(block, items=items)] if items else []
-            elif not isinstance(block, Words) or not block.once or _new([block.text], told):
+            elif isinstance(block, Table):
+                blocks.append(replace(block, note="".join(_new([block.note], told))))
+            elif not isinstance(block, Words) or _new([block.text], told):
                 blocks.append(block)
         yield replace(one, blocks=blocks)
 

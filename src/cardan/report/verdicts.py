@@ -87,6 +87,7 @@ def _cited(given: answer.Table, sources: list[Text]) -> answer.Table:
         if one.key == BY:
             own = [shown(text) for text in one.values]
             sources += [text for text in dict.fromkeys(own) if text and text not in sources]
-            one = replace(one, values=[f"[{sources.index(text) + 1}]" if text else "" for text in own])
+            numbers = [f"[{sources.index(text) + 1}]" if text else "" for text in own]
+            one = replace(one, heading=_("no."), values=numbers)
         columns.append(one)
     return replace(given, columns=columns)

@@ -65,7 +65,7 @@ def test_a_measured_torque_has_its_figure():
     drive = example("car-propshaft")
     measured = History(file="run.csv", times=(0.0, 5.0, 30.0, 40.0), torques=(100.0, 500.0, 200.0, 100.0))
     said = of(replace(drive, duty=replace(drive.duty, blocks=(), torque=None, torque_history=measured)))
-    assert [figure.name for figure in said.figures()] == ["life", "life-history"]
+    assert [figure.name for figure in said.figures()] == ["life", "life-methods", "life-history"]
 
 
 @pytest.mark.parametrize("change", ["no bearings", "no life asked for", "no duty"])

@@ -16,7 +16,7 @@ from cardan.figures.figure import Bars, Curve
 from cardan.figures.for_reader import for_reader
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
-from cardan.questions.life.figure import SHOWN, history_figure, load_figure, parts_figure
+from cardan.questions.life.figure import SHOWN, history_figure, methods_figure, parts_figure
 from cardan.questions.life.life import life
 
 HOUR = 3600.0
@@ -42,8 +42,9 @@ def series(figure, kind):
 @pytest.mark.parametrize("demanded", [None, 100 * HOUR, 1e6 * HOUR])
 def test_the_duty_lies_on_the_curve_of_the_joint_that_fails_first(demanded):
     found = life(DRIVE, Duty(speed=100.0, torque=400.0, life=demanded))
-    (figure,) = figures.for_result(found)
+    figure, methods = figures.for_result(found)
     drawn(figure, sentence=demanded is not None)
+    drawn(methods, sentence=False)
     *curves, point = series(figure, Curve)
     assert len(curves) == 2
     first = curves[found.governing - 1]
@@ -53,7 +54,7 @@ def test_the_duty_lies_on_the_curve_of_the_joint_that_fails_first(demanded):
 
 def test_bars_are_the_lives_by_each_method():
     found = life(DRIVE, Duty(speed=100.0, torque=400.0, life=100 * HOUR))
-    (bars,) = series(load_figure(found), Bars)
+    (bars,) = series(methods_figure(found), Bars)
     i = found.governing - 1
     wanted = [found.combined(one)[i] for one in (found.driving, found.driven, found.simple, found.maker, found.book)]
     np.testing.assert_allclose(bars.size, np.asarray([*wanted, 100 * HOUR]) / HOUR)
@@ -63,7 +64,7 @@ def test_parts_are_told_by_time_and_damage():
     blocks = tuple(Block(torque=100.0 + 10.0 * k, speed=50.0, share=1 / 20) for k in range(20))
     found = life(DRIVE, Duty(blocks=blocks))
     for figure in figures.for_result(found):
-        drawn(figure, sentence=figure.name != "life")
+        drawn(figure, sentence=figure.name not in ("life", "life-methods"))
     time, damage = series(parts_figure(found), Bars)
     assert len(time.size) == SHOWN
     assert damage.size[0] == pytest.approx(100.0 * found.damage[-1, found.governing - 1])
@@ -76,7 +77,7 @@ def test_a_measured_torque_is_a_histogram():
     history = History(file="x.csv", times=(0.0, 1.0, 3.0), torques=(-100.0, 500.0, 200.0))
     found = life(DRIVE, Duty(speed=100.0, torque_history=history))
     for figure in figures.for_result(found):
-        drawn(figure, sentence=figure.name != "life")
+        drawn(figure, sentence=figure.name not in ("life", "life-methods"))
     for bars in series(history_figure(found), Bars):
         assert np.sum(bars.size) == pytest.approx(100.0)
 

@@ -55,7 +55,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     used = [case.severity * case.couple[..., i] / limit for case, limit in zip(turning, allowed, strict=True)]
     worst = int(foremost([float(np.max(one)) for one in used]))
     yield Verdict(
-        title=_("load of the needles of joint {number}, the book's rule"),
+        title=_("load of the needles of joint {number}, the handbook's rule"),
         value=turning[worst].severity * turning[worst].couple[..., i] * design.shock / design.value(span),
         limit=np.minimum(allowed[worst], capacity),
         source=_("Kozhevnikov & Perfil'ev (1978), eq. 266, one oscillation a turn"),
@@ -67,7 +67,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
 
 CHECK = Check(
     name="needle_static",
-    doc=mark("largest load of the needle bearings against ISO 76 and the book's rule"),
+    doc=mark("largest load of the needle bearings against ISO 76 and the handbook's rule"),
     joint=_judge,
     title=mark("load of the needles of joint {number} at rest"),
     dimension="force",

@@ -105,9 +105,7 @@ def held_by_machines(machines: tuple[int, ...]) -> Iterator[Remark]:
             len(machines),
         )
         which = Joined([str(number) for number in machines], last=_(" and "))
-        yield Remark(
-            text=say(text, which=which, key=Written("[[supports]]", _("supports"))), code="held_by_machines", once=True
-        )
+        yield Remark(text=say(text, which=which, key=Written("[[supports]]", _("supports"))), code="held_by_machines")
 
 
 def proposed(drive: Drive) -> tuple[Support, ...]:

@@ -360,7 +360,7 @@ def _remarks(drive: Drive, result: Life, loose: tuple[str, ...]) -> Iterator[Rem
             "Forces on the supports count weights where masses are given; torsional vibration, unbalance and "
             "misalignment are not in them."
         )
-        yield Remark(text=text, once=True, code="support_forces")
+        yield Remark(text=text, code="support_forces")
     yield from _cautions(result)
     for one in result.uncounted:
         if not one.key:
@@ -437,7 +437,7 @@ def _vibration(drive: Drive, result: Life) -> Remark:
         text = _("Torsional vibration counts as far as the measured torque holds it.")
     elif has_torsion(drive):
         text = _("Warning: torsional vibration is not counted: no steady motion could be told.")
-    return Remark(text=text, tone="warning" if has_torsion(drive) and result.history is None else "plain", once=True)
+    return Remark(text=text, tone="warning" if has_torsion(drive) and result.history is None else "plain")
 
 
 def _cautions(result: Life) -> Iterator[Remark]:

@@ -31,6 +31,8 @@ def life_figures(found: Life) -> tuple[Figure, ...]:
     if not math.isfinite(found.drive):
         return (_unlimited(found),)
     figures = [load_figure(found)]
+    if np.any(np.isfinite(found.joints)):
+        figures.append(methods_figure(found))
     if found.history is not None:
         figures.append(history_figure(found))
     elif len(found.parts) > 1:
@@ -39,7 +41,7 @@ def life_figures(found: Life) -> tuple[Figure, ...]:
 
 
 def load_figure(found: Life) -> Figure:
-    """Return the life of every joint over its loads, and that of the first to fail by each method.
+    """Return the life of every joint over its loads.
 
     found: of a drive whose life is limited. Supports that outlive every joint are left out.
     """
@@ -67,14 +69,8 @@ def load_figure(found: Life) -> Figure:
         name="life",
         title=_("How long the bearings last") if found.supports is not None else _("How long the joints last"),
         sentence=_sentence(found),
-        source=_(
-            "ISO 281 with the exact integral over the turn; Kozhevnikov & Perfil'ev (1978), eq. 267, 269; "
-            "makers' formulas"
-        ),
-        rows=(
-            Row(panels=(over,), height=2.0),
-            *((Row(panels=(_methods(found),), height=1.3),) if np.any(np.isfinite(found.joints)) else ()),
-        ),
+        source=_("ISO 281 with the exact integral over the turn"),
+        rows=(Row(panels=(over,), height=2.0),),
     )
 
 
@@ -91,8 +87,11 @@ def _held(found: Life) -> Iterator[Curve]:
             yield Curve(x=100.0 * REACH, y=lives[:, k], role=shaft(role), dash=dash_of(role), label=label)
 
 
-def _methods(found: Life) -> Panel:
-    """Return the lives of the joint that fails first, by each method."""
+def methods_figure(found: Life) -> Figure:
+    """Return the lives of the joint that fails first, by each method.
+
+    found: with a joint whose life is limited.
+    """
     i = found.governing - 1
     kind = found.bearings.convention[i]
     named = [
@@ -118,13 +117,24 @@ def _methods(found: Life) -> Panel:
         lying=True,
     )
     names = tuple(name for name, _life, _role in rows)
-    return Panel(
+    panel = Panel(
         series=(bars,),
         x=Axis(low=0.0, high=1.16 * top, ticks=ticks, texts=written(ticks)),
         y=Axis(low=0.4, high=len(rows) + 0.6, ticks=tuple(at), texts=names, grid=False),
         title=_("Joint {number} by each method").format(number=found.governing),
         dimension="duration",
         unit="h",
+    )
+    return Figure(
+        name="life-methods",
+        aside=True,  # the table of the joints tells the same
+        title=_("Life by each method"),
+        sentence="",
+        source=_(
+            "ISO 281 with the exact integral over the turn; Kozhevnikov & Perfil'ev (1978), eq. 267, 269; "
+            "makers' formulas"
+        ),
+        rows=(Row(panels=(panel,), height=1.3),),
     )
 
 

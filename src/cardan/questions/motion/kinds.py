@@ -55,7 +55,7 @@ def without_vibration(drive: Drive) -> Iterator[Remark]:
     """Yield that torques are those of rigid shafts, of a drive whose torsional vibration could be told."""
     if has_torsion(drive) and drive.duty.speed:
         text = _("Torques are those of rigid shafts; what torsional vibration adds to them is told by:")
-        yield Remark(text=text, command=("cardan", "torsion", "response", FILE), code="rigid_shafts", once=True)
+        yield Remark(text=text, command=("cardan", "torsion", "response", FILE), code="rigid_shafts")
 
 
 def inside(drive: Drive) -> Iterator[tuple[int, Inside]]:

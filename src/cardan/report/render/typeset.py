@@ -38,6 +38,7 @@ WIDE = 8.2  # width [inch] of a figure with its panels side by side
 LOWER = 0.62  # height of curves on paper over that on a screen
 USUAL = Look()
 FULL = 2.0 / 3.0  # share of the last page that is filled where nothing has to be drawn closer
+READ: Final = 8  # pages that a client reads of a shaft in two pieces
 CLOSER = (1.0, 0.94, 0.88, 0.82)  # shares of their height that pictures and gaps keep, one after the other
 STANDARD: Final = "ua-1"  # the PDF can be read aloud: tagged, with words for every picture
 
@@ -74,12 +75,12 @@ def excerpt(part: Excerpt) -> bytes:
 def compiler(data: dict[str, Any], look: Look = USUAL) -> Any:
     """Return what sets a report, as PDF or in pictures of its pages; data: as of `as_data`.
 
-    What would end on a page of which more than a third stays blank is drawn closer until it ends on the page before,
-    where that can be.
+    What would end on a page of which more than a third stays blank, or on one page more than a client reads, is drawn
+    closer until it ends on the page before, where that can be.
     """
     made = _compiler(data, look, CLOSER[0])
     pages, share = _end(made)
-    for tight in CLOSER[1:] if pages > 1 and share < FULL else ():
+    for tight in CLOSER[1:] if pages > 1 and (share < FULL or pages == READ + 1) else ():
         closer = _compiler(data, look, tight)
         if _end(closer)[0] < pages:
             return closer
