@@ -9,8 +9,19 @@ import pytest
 
 from cardan import Drive, check, forces
 from cardan.drive.duty import Duty
-from cardan.drive.joints import Clemens, PinCoupling, Rzeppa, Tracta, Tripod, Weiss
+from cardan.drive.joints import (
+    Clemens,
+    HalfCardan,
+    Hooke,
+    PinCoupling,
+    Rzeppa,
+    Tracta,
+    Tripod,
+    Weiss,
+    half_cardan,
+)
 from cardan.drive.joints.clemens import Profile
+from cardan.errors import InputError
 from cardan.formulas.hertz import point_contact
 from cardan.io.drive_file import loads
 from cardan.questions.forces import answer as forces_answer
@@ -264,3 +275,26 @@ def test_hinges_of_a_clemens_coupling_press_on_their_pins():
     assert tip.pressure == pytest.approx(tip.high / (np.pi * 0.006**2))
     assert 0.0 < hinge.heating < hinge.pressure * 0.005 * 50.0
     assert inner_loads(drive, forces(drive, Duty(torque=100.0)))[0].heating is None
+
+
+def test_teeth_of_a_half_joint_share_the_torque_by_their_stiffness():
+    """Springs that push, 20 of them, against the one pair that carries all where they are rigid; T/(2r) for a pair."""
+    bend, radius, torque, stiffness = np.radians(2.0), 0.06, 500.0, 4e5
+    rigid = HalfCardan(joint_angle=bend, pairs=20, face_radius=radius)
+    drives = [
+        Drive(joints=(Hooke(joint_angle=bend), one), duty=Duty(torque=torque, speed=100.0))
+        for one in (rigid, replace(rigid, pair_stiffness=stiffness))
+    ]
+    alone, shared = ([row for row in inner_loads(one, forces(one)) if row.joint == 2] for one in drives)
+    assert [row.high for row in alone] == pytest.approx([torque / (2 * radius)] * 2, rel=2e-3)
+    (row,) = shared
+    places = np.linspace(0.0, np.pi, 4001)
+    own = half_cardan.shares(places, bend, 20, torque / stiffness) * stiffness / (2 * radius)
+    assert row.high == pytest.approx(own.max(), rel=1e-3)
+    assert (row.count, row.low) == (20, 0.0)
+    np.testing.assert_allclose(own.sum(axis=-1) * 2 * radius, torque, rtol=1e-9)
+
+
+def test_the_stiffness_of_teeth_goes_with_their_radius():
+    with pytest.raises(InputError, match="goes with pair_stiffness"):
+        Drive(joints=(HalfCardan(joint_angle=0.03, pairs=20, pair_stiffness=4e5),))

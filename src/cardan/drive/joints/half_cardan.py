@@ -22,6 +22,9 @@ from .common.inner import DRIVEN, DRIVING, InnerPair, Stance, bending, crossed
 from .common.site import Site, about
 from .joint import CROSS_ONLY, REFUSALS, Inside, Joint, Strain, both_or_none
 
+SHARED = 61
+"""Places between two pairs of contacts at which it is looked how they share a torque."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class HalfCardan(Joint):
@@ -40,11 +43,32 @@ class HalfCardan(Joint):
     pairs: int = plain(2, doc="pairs of opposite faces or teeth; between two of them there must be play", low=1)
 
     face_radius: float | None = quantity("length", None, doc="distance of faces or teeth from the axis", above=0.0)
+    pair_stiffness: float | None = quantity(
+        "turning_stiffness",
+        None,
+        doc="stiffness of one pair of faces or teeth against turning, by which pairs share the torque; without it one "
+        "pair carries all",
+        above=0.0,
+    )
+
+    def own_problems(self) -> Iterator[Problem]:
+        """Yield a stiffness of teeth without their radius."""
+        if self.pair_stiffness is not None:
+            yield from both_or_none(self, "face_radius", "pair_stiffness")
 
     def loaded(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield its faces, where it is given how far from the axis they are."""
         for pair in self.mechanism(stance) if self.face_radius is not None else ():
-            yield replace(pair, told=pair.type == "R")
+            yield replace(pair, told=pair.type == "R" and self.pair_stiffness is None)
+
+    def shared(self, joint_angle: float, torque: float) -> Iterator[Strain]:
+        """Yield the force on the faces that carry most and least, where it is given how stiff they are."""
+        if self.pair_stiffness is not None and self.face_radius is not None:
+            angle = np.linspace(0.0, math.pi / self.pairs, SHARED)
+            force = shares(angle, joint_angle, self.pairs, torque / self.pair_stiffness)
+            force *= self.pair_stiffness / (2.0 * self.face_radius)
+            name = mark("faces or teeth, sharing by their stiffness")
+            yield Strain(name=name, force=float(np.max(force)), least=float(np.min(force)), count=self.pairs)
 
     def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the map of one pair of faces, that of a Hooke joint."""
@@ -273,6 +297,24 @@ def ratio(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
     """
     phi, alpha = floats(angle, joint_angle)
     return shared_turn.course(phi, _tau(alpha), pairs)[1]
+
+
+def shares(angle: ArrayLike, joint_angle: ArrayLike, pairs: int, windup: ArrayLike) -> Array:
+    """Return by how much each pair of contacts is deflected where pairs as stiff as each other share a torque.
+
+    angle (...) [rad]: input angle φ1; joint_angle (...) [rad]: bend α in [0, π/2); pairs: pairs of opposite contacts N.
+    windup (...) [rad]: the torque over the stiffness of one pair, by how much it would alone be deflected.
+    Returns (..., N) [rad], nought where a pair does not touch; their sum is the windup.
+    The output stays at ψ behind the pairs that touch, whose `demands` δ_k are ahead of it: Σ max(0, δ_k - ψ) = T/c. Of
+    the m farthest ahead alone it would stand at (Σ δ_k - T/c)/m; ψ is the farthest of these for any m, since pairs that
+    are missing, and those that pull, both leave it behind. Play lets the other flanks go.
+    """
+    phi, alpha, wound = floats(angle, joint_angle, windup)
+    xp = namespace(phi, alpha, wound)
+    ahead = demands(phi, alpha, pairs)
+    sums = -xp.cumulative_sum(xp.sort(-ahead, axis=-1), axis=-1)
+    behind = xp.max((sums - wound[..., None]) / xp.arange(1, pairs + 1, dtype=xp.float64), axis=-1)
+    return xp.maximum(ahead - behind[..., None], 0.0 * ahead)
 
 
 def _tau(joint_angle: Array) -> Array:

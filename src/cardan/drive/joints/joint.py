@@ -335,6 +335,10 @@ class Joint:
         """Yield what it does to both shafts beside the torque, as they do not lie in line; joint_angle [rad]."""
         yield from ()
 
+    def shared(self, joint_angle: float, torque: float) -> Iterator[Strain]:
+        """Yield what its parts alike carry of a torque [N·m] by their stiffness, where that is given."""
+        yield from ()
+
     def carried(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the pairs that hold both its shafts in the frame, so that it turns once and is held but once."""
         yield from inner.carried(stance, loose=self.loose, slides=self.slides)
@@ -445,8 +449,10 @@ class Strain:
     """What a joint that gives does to both its shafts, one way on the one and the other way on the other."""
 
     name: str  # marked for translation
-    force: float = 0.0  # [N]
+    force: float = 0.0  # [N]: the largest of parts alike
     couple: float = 0.0  # [N·m]
+    least: float | None = None  # [N]: the least force of parts alike, where they differ
+    count: int = 1  # how many parts alike there are
 
 
 def missed(tilt: float) -> Inside:

@@ -98,10 +98,11 @@ def inner_loads(drive: Drive, found: Forces) -> tuple[InnerLoad, ...]:
                     heating=None if still or not one.area else float(np.max(high * slide)) / one.area,
                 )
             )
-        loads += [
-            InnerLoad(joint=i + 1, name=one.name, count=1, high=one.force, low=one.force, couple=one.couple)
-            for one in joint.strained(float(angles[i]))
-        ]
+        strains = (*joint.strained(float(angles[i])), *joint.shared(float(angles[i]), float(np.max(np.abs(torque)))))
+        for one in strains:
+            low = one.force if one.least is None else one.least
+            parts = InnerLoad(joint=i + 1, name=one.name, count=one.count, high=one.force, low=low, couple=one.couple)
+            loads.append(parts)
     return tuple(loads)
 
 

@@ -48,6 +48,29 @@ def test_the_ratio_is_the_slope_of_the_turn(pairs):
     np.testing.assert_allclose(half_cardan.ratio(phi, 0.8, pairs), slope, atol=1e-9)  # step² and rounding/step
 
 
+@given(st.floats(0.0, 360.0), st.floats(0.5, 40.0), st.integers(1, 24), st.floats(-9.0, 1.0))
+def test_stiff_pairs_share_a_torque_as_springs_that_push(angle, joint_angle, pairs, power):
+    phi, alpha, windup = angle * deg, joint_angle * deg, 10.0**power
+    ahead = half_cardan.demands(phi, alpha, pairs)
+    behind = brentq(
+        lambda at: np.maximum(0.0, ahead - at).sum() - windup,
+        ahead.max() - 1.1 * windup,
+        ahead.max(),
+        xtol=1e-16,
+        rtol=1e-14,
+    )
+    found = half_cardan.shares(phi, alpha, pairs, windup)
+    np.testing.assert_allclose(found, np.maximum(0.0, ahead - behind), atol=1e-13)
+    assert found.sum() == pytest.approx(windup, rel=1e-9, abs=1e-14)
+
+
+def test_rigid_pairs_leave_all_to_one_and_soft_ones_share_alike():
+    phi = np.linspace(0.0, 1.0, 7)
+    stiff, soft = (half_cardan.shares(phi, 2 * deg, 20, windup) / windup for windup in (1e-12, 1e3))
+    np.testing.assert_allclose(np.max(stiff, axis=-1), 1.0, rtol=1e-3)  # two pairs ask for the same here and there
+    np.testing.assert_allclose(soft, 1.0 / 20, rtol=1e-5)
+
+
 def test_the_play_is_the_greatest_difference_of_two_pairs():
     phi = np.linspace(0, np.pi, 20001)
     for joint_angle in (2 * deg, 10 * deg, 40 * deg):
@@ -62,3 +85,5 @@ def test_other_array_libraries():
     phi = strict.asarray([0.1, 2.0])
     for law in (half_cardan.deviation, half_cardan.ratio, half_cardan.demands):
         np.testing.assert_allclose(np.asarray(law(phi, 0.3, 3)), law([0.1, 2.0], 0.3, 3), rtol=1e-13, atol=1e-16)
+    shared = half_cardan.shares(phi, 0.3, 3, 0.01)
+    np.testing.assert_allclose(np.asarray(shared), half_cardan.shares([0.1, 2.0], 0.3, 3, 0.01), rtol=1e-13, atol=1e-16)
