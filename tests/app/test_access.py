@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 from urllib.parse import quote
 
 import pytest
+
+from cardan.io import example_names
 
 axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
 
@@ -197,6 +200,13 @@ def test_nothing_keeps_anybody_out_at_any_width_in_any_language_and_light(
             page.wait_for_function(f"document.body.classList.contains('body--{scheme}')")
             page.wait_for_timeout(QUIET)
             judge(page, f"{width} {scheme}")
+
+
+@pytest.mark.slow
+def test_examples_are_called_in_the_language_of_the_page(opened: Open) -> None:
+    names = opened("/", "desk", "ru", "light").locator(".start .card .head").all_inner_texts()
+    assert len(names) == len(example_names())
+    assert [one for one in names if not re.search("[а-я]", one)] == []
 
 
 QUIET = 600

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+import tomllib
 from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
 from functools import cache
@@ -81,6 +82,8 @@ def _declared() -> Iterator[tuple[str, str]]:
         yield name, (cls.__doc__ or "").strip().splitlines()[0]
         for one in fields_of(cls).values():
             yield name, one.key.doc
+    for name in example_names():
+        yield f"examples/{name}", tomllib.loads(example_text(name))["name"]
     for name in (*example_names(), *mechanism_names(), *recording_names()):
         yield f"examples/{name}", about(example_text(name))
     for group in GROUPS:

@@ -131,7 +131,7 @@ class Start:
     def _card(self, name: str, title: str, count: int) -> None:
         with ui.element("button").classes("card").props(f'data-mark="example-{name}"') as card:
             ui.element("img").props(f'src="/cardan-examples/{name}.svg" loading=lazy alt=""')
-            ui.label(title).classes("head")
+            ui.label(_(title)).classes("head")
             ui.label(about(name)).classes("about")
             ui.label(_("joints: {count}").format(count=count)).classes("hint")
         card.on("click", lambda: open_example(self.session, name))
