@@ -52,15 +52,14 @@ def test_numbers_follow_keys_wheel_hand_and_slider_each_one_step_of_undo(page_of
     shows(page, field, "11.19")  # 10 by steps of a tenth
     says(page, "joint_angle_deg = 11.19")
     assert mark(page, "answer").first.inner_text() != curve
-    box = field.bounding_box()
-    page.mouse.move(box["x"] + 20, box["y"] + 10)
+    field.hover()
     field.focus()
     page.mouse.wheel(0, 100)
     shows(page, field, "11.09")
     says(page, "joint_angle_deg = 11.09")
     name = mark(page, "key-joints[0].joint_angle_deg").locator(".name")
+    name.hover(position={"x": 5, "y": 5})
     box = name.bounding_box()
-    page.mouse.move(box["x"] + 5, box["y"] + 5)
     page.mouse.down()
     page.mouse.move(box["x"] + 45, box["y"] + 5, steps=10)
     page.mouse.up()
@@ -73,6 +72,7 @@ def test_numbers_follow_keys_wheel_hand_and_slider_each_one_step_of_undo(page_of
     slider.focus()
     page.keyboard.press("ArrowRight")
     page.keyboard.press("ArrowRight")
+    shows(page, field, "12.11")
     says(page, "joint_angle_deg = 12.11")
     for text in ("12.09", "11.09", "11.19"):
         mark(page, "undo").click()
