@@ -16,7 +16,7 @@ import numpy as np
 from cardan.errors import InputError, Problem, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames, screws
-from cardan.texts import _
+from cardan.texts import _, plural
 from cardan.units import deg, label, mm
 
 from .closing import CLOSED, Linkage, by_rounding, moved_along, open_by
@@ -301,9 +301,12 @@ def _check_held(way: _Way, angle: Array) -> None:
         own = free[:, mechanism.links.index(name)]
         ways = int(np.linalg.matrix_rank(own, tol=HELD)) if len(own) else 0
         if ways and (mechanism.output_link or not _spins(free, mechanism.links.index(name))):
-            text = _(
-                "{link} is not held: with {input} at rest at {place} it has {count} motions left; a mechanism has "
-                "one input"
+            text = plural(
+                "{link} is not held: with {input} at rest at {place} it has {count} motion left; a mechanism has one "
+                "input",
+                "{link} is not held: with {input} at rest at {place} it has {count} motions left; a mechanism has one "
+                "input",
+                ways,
             )
             at = float(angle[k])
             place = f"{at / mm:.4g} {label('mm')}" if mechanism.slides else f"{at / deg:.4g}°"

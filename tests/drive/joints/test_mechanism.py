@@ -203,7 +203,7 @@ def test_what_is_no_joint_is_refused_with_link_angle_and_amount():
     said = refusal(drawing, driven="lever 9")
     assert said.startswith("joints[0].driven: the mechanism has no moving link 'lever 9'")
     without = replace(drawing, joints=tuple(one for one in drawing.joints if "lever 2" not in one.links))
-    assert "'driven shaft' is not held: with 'driving shaft' at rest it has 1 motion" in refusal(without)
+    assert "'driven shaft' is not held: with 'driving shaft' at rest it has 1 motion left" in refusal(without)
     straight = changed(text, "axis = [24, -7, 0]", "axis = [24, 7, 0]")
     assert "its shafts lie in one line" in refusal(straight)
     apart = changed(text, "point_mm = [144, -42, 0]", "point_mm = [144, -42, 3]")

@@ -223,7 +223,7 @@ def test_more_than_one_input_is_refused():
     )
     said = message(replace(made, joints=joints))
     assert "'rocker' is not held: with 'crank' at rest at" in said.message
-    assert "motions left; a mechanism has one input" in said.message
+    assert "motion left; a mechanism has one input" in said.message
 
 
 def test_rods_that_spin_are_no_second_input():

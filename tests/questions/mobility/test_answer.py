@@ -73,6 +73,20 @@ def test_remedies_name_the_keys_of_the_file():
     assert first.endswith("(supports[2] omitted and supports[3].axial = false).")
 
 
+def test_no_remedy_is_told_that_was_not_tried():
+    """A crank-slider whose rod is too short does not come round, whatever lets go."""
+    slider = example_mechanism("crank-slider")
+    short = replace(
+        slider,
+        joints=tuple(
+            replace(one, point=(0.07, 0.01, 0.0)) if one.id in ("piston pin", "guide") else one for one in slider.joints
+        ),
+    )
+    said = texts(answer(short, mobility(short)))
+    assert any("No change that was tried" in one for one in said)
+    assert not any("Remedy" in one or "add a" in one for one in said)
+
+
 def test_readers_are_told_in_their_units_and_language():
     found = mobility(PUMP)
     said = data(answer(PUMP, found), INCHES)

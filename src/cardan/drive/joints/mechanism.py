@@ -18,7 +18,7 @@ from cardan.mechanism.closing import CLOSED, Linkage, by_rounding, open_by, turn
 from cardan.mechanism.kinetostatics import Placed, carried
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.rounding import exactly, fitted
-from cardan.texts import _, mark
+from cardan.texts import _, mark, plural
 from cardan.units import deg, mm, plain
 
 from .common import site as drawn
@@ -626,7 +626,11 @@ def _turned(drawn_: Inside) -> Inside:
     loose = [drawn_.linkage.motions(one, drawn_.moving) for one in poses[3:-1:17]]
     free = min(_rank(one[:, where]) for one in loose)
     if free:
-        text = _("{link} is not held: with {driving} at rest it has {count} motions left; a joint has one input")
+        text = plural(
+            "{link} is not held: with {driving} at rest it has {count} motion left; a joint has one input",
+            "{link} is not held: with {driving} at rest it has {count} motions left; a joint has one input",
+            free,
+        )
         said = text.format(link=repr(drawn_.driven), driving=repr(drawn_.driving), count=free)
         raise InputError([Problem("file", said, "inconsistent")])
     around = np.abs(poses[-1, driven, :3, :3] - np.eye(3)).max()

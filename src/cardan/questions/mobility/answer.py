@@ -337,8 +337,8 @@ def _remedies(thing: Drive | Mechanism, result: Mobility, remedies: Sequence[Rep
         return
     if not remedies:
         text = _(
-            "No bearing or pin of another kind removes them and lets it turn all round: add a link, or mount a bearing "
-            "in rubber, which lowers the forces but does not take them away."
+            "No change that was tried removes them and lets it turn all round; a bearing in rubber lowers the forces "
+            "but does not take them away."
         )
         yield Remark(text=text)
     for k, repair in enumerate(remedies):
