@@ -27,7 +27,10 @@ def test_points_become_joint_centres_in_the_units_of_their_columns(cardan, tmp_p
 
 def test_slopes_become_shafts(cardan, tmp_path):
     (tmp_path / "s.csv").write_text("length_mm,side_slope_deg,plan_slope_deg\n300,0,0\n1200,-5,2\n300,0,0\n")
-    assert cardan("init", tmp_path / "a.toml", "--from-slopes", tmp_path / "s.csv").code == 0
+    told = cardan("init", tmp_path / "a.toml", "--from-slopes", tmp_path / "s.csv")
+    assert told.code == 0
+    assert "Add speed and torque, then" in told.out
+    assert "cardan keys duty" in (tmp_path / "a.toml").read_text("utf8").splitlines()[0]
     shaft = load(tmp_path / "a.toml").shafts[1]
     assert (shaft.length, shaft.side_slope, shaft.plan_slope) == pytest.approx((1.2, *map(math.radians, (-5, 2))))
 

@@ -253,6 +253,7 @@ COMMANDS = {
             "cardan init my.toml",
             "cardan init my.toml --for pto",
             "cardan init my.toml --from-points centres.csv",
+            "cardan init my.toml --from-slopes slopes.csv",
         ),
     ),
     "example": Entry(

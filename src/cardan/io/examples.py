@@ -304,6 +304,12 @@ STARTED = mark("""\
 """)
 
 
+LAYOUT = mark("""\
+# The layout alone: `cardan keys duty` tells the keys of speed, torque and running time, in any usual unit; then
+# `cardan select` finds sizes of joints. Shaft 1 is the input shaft; shaft k lies between joint k-1 and joint k.
+""")
+
+
 def from_points(path: Path, name: str) -> Drive:
     """Return a drive through the points of a CSV file with the columns x, y, z, each with its unit.
 

@@ -12,7 +12,7 @@ from cardan.cli.shared.source import STDIN, AsJson
 from cardan.cli.shared.tell import tell
 from cardan.errors import Problem, check, refuse
 from cardan.io import dumps, loads, starter
-from cardan.io.examples import TEMPLATES, from_points, from_slopes, template
+from cardan.io.examples import LAYOUT, TEMPLATES, from_points, from_slopes, template
 from cardan.reading.scalar import nearest_of
 from cardan.texts import _, plural
 
@@ -52,9 +52,9 @@ def init(
     if use is not None:
         text = template(use, name)
     elif points is not None:
-        text = dumps(from_points(points, name))
+        text = f"{_(LAYOUT)}\n{dumps(from_points(points, name))}"
     elif slopes is not None:
-        text = dumps(from_slopes(slopes, name))
+        text = f"{_(LAYOUT)}\n{dumps(from_slopes(slopes, name))}"
     else:
         text = starter()
     if file == STDIN:
@@ -62,6 +62,7 @@ def init(
         return 0
     write_text(file, text, "FILE")
     joints = len(loads(text).joints)
+    begun = _("Put your numbers in, then:") if points is None and slopes is None else _("Add speed and torque, then:")
     return tell(
         Answer(
             name="init",
@@ -71,7 +72,7 @@ def init(
             ).format(file=file, n=joints),
             tone="good",
             remarks=(
-                Remark(text=_("Put your numbers in, then:"), command=("cardan", "report", str(file)), tone="next"),
+                Remark(text=begun, command=("cardan", "report", str(file)), tone="next"),
                 Remark(text=_("Other starting points:"), command=("cardan", "example"), tone="next"),
             ),
             facts={"file": str(file)},
