@@ -15,7 +15,9 @@ GROOVES = "driving_offset_mm = 4\ndriven_offset_mm = 4\ngroove_radius_mm = 30"
 """Sizes of a Rzeppa joint of which loads are told; with its lever alone they are not."""
 
 NAMED = {
-    "hooke": "its journals in both yokes, with the needles of the most loaded one",
+    "hooke": "its journals in both yokes, with the needles of the most loaded one; `friction` and `cross` tell its "
+    "losses, `needles` or `size` its life",
+    "half_cardan": "its faces, of the one pair that carries or of all pairs that share the torque",
     "elastic_half_cardan": "couple and forces by its stiffness against joint angle and shifts, and its wind-up",
     "mechanism": "every pair of its file",
 }
