@@ -263,6 +263,11 @@ def test_balls_and_faces_repeat_what_the_first_of_them_holds():
     bell = HalfCardan(joint_angle=0.05)
     assert mobility(replace(two({"radial": True, "axial": True}), joints=(bell,))).redundant + bell.repeated == 1
     assert Rzeppa().repeated == 5
+    lever, frame = (DoubleCardan(joint_angle=0.3, device=one, centre_distance=0.08) for one in ("lever", "frame"))
+    held = [mobility(replace(two(FIRM), joints=(one,))).redundant + one.repeated for one in (lever, frame)]
+    assert held[1] == held[0] + 1
+    with pytest.raises(InputError, match="with centring_ratio a ball centres"):
+        replace(two(FIRM), joints=(DoubleCardan(joint_angle=0.3, device="frame", centring_ratio=0.5),))
 
 
 def test_a_tripod_needs_a_shaft_that_gives_way_to_its_spider():

@@ -49,6 +49,12 @@ class DoubleCardan(Joint):
     ball_on: str = plain(
         "driving", doc="shaft that carries the centring ball: driving or driven", choices=("driving", "driven")
     )
+    device: str = plain(
+        "lever",
+        doc="what halves the joint angle where no ball does: a lever through a slotted sphere, or a slotted frame with "
+        "a ball tip on either side, of which one repeats the other",
+        choices=("lever", "frame"),
+    )
     centre_distance: float | None = quantity("length", None, doc="distance of the centres of both crosses", above=0.0)
     journal_span: float | None = quantity(
         "length", None, doc="distance between the middles of opposite bearings of both crosses", above=0.0
@@ -60,8 +66,16 @@ class DoubleCardan(Joint):
     )
 
     def own_problems(self) -> Iterator[Problem]:
-        """Yield journals of which one size is missing."""
+        """Yield journals of which one size is missing, and a frame beside a ball."""
         yield from both_or_none(self, "journal_span", "journal_diameter")
+        if self.centring_ratio is not None and self.device != "lever":
+            text = _("of no use: with centring_ratio a ball centres the joint")
+            yield Problem("device", text, "inconsistent")
+
+    @property
+    def repeated(self) -> int:
+        """The second ball tip of a slotted frame."""
+        return int(self.device == "frame")
 
     def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the map of both joints together."""
