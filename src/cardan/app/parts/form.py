@@ -348,6 +348,7 @@ class KeyField:
         self.session = session
         self.entry = entry
         self._silent = False
+        self._spinning = False
         with ui.element("div").classes("key").props(f'data-mark="key-{entry.key()}"') as self.row:
             with ui.element("div").classes("line"):
                 name = ui.label(entry.name.replace("_", " ")).classes("name")
@@ -358,13 +359,16 @@ class KeyField:
                     out = ui.button(icon="close", on_click=self.remove).props("flat dense round size=xs")
                     out.props(f'aria-label="{_("take out")} {entry.name}"')
             ui.label(entry.doc).classes("hint")
-            self.row.on("spun", session.end_gesture, js_handler="() => emit()")
+            self.row.on("spun", self._let_go, js_handler="() => emit()")
             self.wrong = ui.label("").classes("wrong").props("role=alert")
         self.judge()
 
     def show(self, entry: Entry) -> None:
-        """Show what stands there now, without moving anything."""
+        """Show what stands there now, without moving anything; a number on the move is ahead of it."""
         self.entry = entry
+        if self._spinning:
+            self.judge()
+            return
         self._silent = True
         value = self._value()
         if isinstance(self.widget, ui.select) and value is not None and value not in self.widget.options:
@@ -428,10 +432,17 @@ class KeyField:
 
     def _spun(self, text: str) -> None:
         """Take a number that is on the move: all its steps are one of undo."""
+        self._spinning = True
         new = written(self.entry, text)
         if new != self.entry.value:
             key = self.entry.key()
             attempt(self.session, partial(amend, values={key: new}), gesture=f"spin {key}")
+
+    def _let_go(self) -> None:
+        """End the move: the field follows the file again."""
+        self.session.end_gesture()
+        self._spinning = False
+        self.show(self.entry)
 
     def _typed(self, value: Any) -> None:
         if self._silent:
