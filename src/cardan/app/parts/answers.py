@@ -47,7 +47,7 @@ class Answers:
         self._marked: dict[str, ui.tab] = {}
         with ui.element("div").classes("asked"):
             self._tabs = ui.tabs(on_change=lambda event: self.open(str(event.value))).props(
-                "dense no-caps align=left outside-arrows mobile-arrows"
+                "dense no-caps align=left breakpoint=0 outside-arrows mobile-arrows"
             )
             with self._tabs:
                 for title, names in tabs.items():

@@ -30,7 +30,11 @@ class Editor:
 
     def __init__(self, session: Session) -> None:
         self.session = session
-        with ui.tabs().props("dense no-caps inline-label align=left narrow-indicator").classes("ways") as tabs:
+        with (
+            ui.tabs()
+            .props("dense no-caps inline-label align=left breakpoint=0 narrow-indicator")
+            .classes("ways") as tabs
+        ):
             form = ui.tab("form", label=_("Form")).props('data-mark="way-form"')
             lies = ui.tab("geometry", label=_("Geometry")).props('data-mark="way-geometry"')
             text = ui.tab("file", label=_("File")).props('data-mark="way-file"')
