@@ -147,3 +147,8 @@ def test_a_key_of_another_form_that_stands_in_the_file_is_shown_and_common_ones_
     bare = tree_of("format = 1\n[[joints]]\njoint_angle_deg = 5\n[[shafts]]\nnumber = 2\n")
     assert bare is not None
     assert [one.name for one in section(bare, "shafts[1]").possible][:2] == ["yoke_angle", "outer"]
+
+
+def test_a_key_that_is_missing_is_offered_in_the_unit_in_which_a_data_sheet_has_it() -> None:
+    entries = section(tomllib.loads(example_text("front-halfshaft")), "duty").entries
+    assert {one.name: one.unit for one in entries if one.name in ("life", "torque")} == {"life": "h", "torque": "Nm"}

@@ -11,7 +11,7 @@ from typing import Any, Literal, TypeAlias, get_args, get_origin
 
 from cardan.catalogue import catalogue
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import KINDS, NAMED
+from cardan.drive.fields.keys import KINDS, NAMED, USUAL
 from cardan.drive.fields.paths import counted
 from cardan.errors import InputError, Problem
 from cardan.io.amend import kind_at, steps_of
@@ -288,7 +288,8 @@ def _holds_tables(one: Field) -> bool:
 
 
 def _entry(one: Field, table: Mapping[str, Any], path: str) -> Entry:
-    spelling = next((key for key in one.spellings if key in table), one.spelling)
+    usual = f"{one.name}_{USUAL[one.name]}" if one.name in USUAL else one.spelling
+    spelling = next((key for key in one.spellings if key in table), usual if usual in one.spellings else one.spelling)
     units = {one.unit(key): abs(factor) for key, factor in one.spellings.items() if key.startswith(one.name)}
     mirrored = bool(one.key.mirror) and spelling.startswith(one.key.mirror) and not spelling.startswith(one.name)
     name = one.key.mirror if mirrored else one.name
