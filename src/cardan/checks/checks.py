@@ -40,23 +40,25 @@ from .speeds import (
     whirl_amplitude,
 )
 from .strength import (
-    bearing_life,
-    contact_pressure,
     design_torque,
-    inner_pressure,
-    joint_torque,
-    journal_strength,
-    needle_static,
     ply_strength,
-    rated_torque,
     shaft_life,
-    small_oscillation,
     spline_pressure,
     spline_strength,
     tube_buckling,
     tube_fatigue,
     tube_strength,
     twist,
+)
+from .strength.joints import (
+    bearing_life,
+    contact_pressure,
+    inner_pressure,
+    joint_torque,
+    journal_strength,
+    needle_static,
+    rated_torque,
+    small_oscillation,
     yoke_strength,
 )
 from .supports import support_life, support_speed, support_static

@@ -17,7 +17,7 @@ from cardan.checks.angles import acceleration, joint_angle, output_error, speed_
 from cardan.checks.check import Check
 from cardan.checks.speeds import critical_speed
 from cardan.checks.speeds.whirl import whirls
-from cardan.checks.strength import bearing_life
+from cardan.checks.strength.joints import bearing_life
 from cardan.checks.strength.section import sections
 from cardan.checks.strength.shaft_life import STRENGTHS, fatigue, fatigue_life, lasting
 from cardan.checks.torsion.parametric_stability import CHECK as PARAMETRIC

@@ -13,9 +13,9 @@ from cardan.formulas.part_strength import PartStress, SplineStress
 from cardan.formulas.shaft_strength import Fatigue, ShaftStress, shaft_stress, torsion_modulus
 from cardan.maths.ties import foremost_of
 
-from . import contact_pressure, journal_strength, yoke_strength
-from .journal_strength import journal_load
-from .needle_static import static_capacity
+from .joints import contact_pressure, journal_strength, yoke_strength
+from .joints.journal_strength import journal_load
+from .joints.needle_static import static_capacity
 from .section import modulus, sections
 from .shaft_life import STRENGTHS, fatigue, fatigue_life, hardest_cycle, lasting, life_safety, measured
 from .spline_pressure import lacking, stresses

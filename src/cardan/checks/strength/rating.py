@@ -15,7 +15,7 @@ from cardan.formulas.joint_rating import POWER
 from cardan.maths.ties import foremost
 from cardan.questions.life.life import life
 
-from . import bearing_life
+from .joints import bearing_life
 
 LITTLE = 0.02
 """Share of a rating by which torsional vibration must move it for the rating to be sought."""

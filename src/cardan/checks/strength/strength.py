@@ -27,14 +27,7 @@ from cardan.questions.life.life import duty_parts
 from cardan.texts import _
 
 from . import (
-    bearing_life,
-    contact_pressure,
-    inner_pressure,
-    joint_torque,
-    journal_strength,
-    needle_static,
     ply_strength,
-    rated_torque,
     shaft_life,
     spline_pressure,
     spline_strength,
@@ -42,9 +35,18 @@ from . import (
     tube_fatigue,
     tube_strength,
     twist,
-    yoke_strength,
 )
 from .event_damage import EventDamage
+from .joints import (
+    bearing_life,
+    contact_pressure,
+    inner_pressure,
+    joint_torque,
+    journal_strength,
+    needle_static,
+    rated_torque,
+    yoke_strength,
+)
 from .omitted import Journal, LeftOut, Vibration, vibration
 from .part_strength import JointStrength, ShaftStrength, joint_strength, shaft_strength
 from .rating import lasting_as_long, rated, scaled

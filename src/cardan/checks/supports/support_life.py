@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from cardan.answers.quantity import Quantity, say
 from cardan.checks.check import Check
 from cardan.checks.design import Design
-from cardan.checks.strength.bearing_life import rated
+from cardan.checks.strength.joints.bearing_life import rated
 from cardan.checks.verdict import Verdict
 from cardan.questions.life.support_loads import rated_supports
 from cardan.texts import _, mark
