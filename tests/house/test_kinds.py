@@ -28,9 +28,6 @@ PAGE = Path(__file__).parents[2] / "docs" / "joint-types.md"
 ASKED = [name for name in QUESTIONS if name not in SLOW and name != "classical"]
 """Questions of the table: those that take long ask the same of a kind as one of them; one is of cross joints alone."""
 
-LEFT = {("torsion", "pin_coupling"), ("torsion", "clemens"), ("mathieu", "pin_coupling"), ("mathieu", "clemens")}
-"""Refused though they would mean something: torsional vibration with laws far from that of a cross; only shrinks."""
-
 
 def drive_with(kind: str) -> Drive:
     """Return a drive that every question answers, whose first joint is of a kind."""
@@ -74,13 +71,9 @@ def test_the_page_has_its_head():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", JOINTS)
-def test_every_cell_is_answered_or_says_why_not(kind):
-    why = {name: reason for name, reason in answered(kind).items() if reason}
-    assert {(name, kind) for name in why} == {one for one in LEFT if one[1] == kind}
-    page = PAGE.read_text(encoding="utf8")
-    assert row(kind) in page.splitlines()
-    for reason in why.values():
-        assert reason.rstrip(".") in " ".join(page.split()), reason
+def test_every_cell_is_answered(kind):
+    assert {name: reason for name, reason in answered(kind).items() if reason} == {}
+    assert row(kind) in PAGE.read_text(encoding="utf8").splitlines()
 
 
 if __name__ == "__main__":

@@ -101,14 +101,6 @@ def test_the_command_line_tells_of_mixed_chains(kind: str, tmp_path, capsys) -> 
     assert told["ratio_min"] == pytest.approx(ratio.min(), rel=1e-5)
 
 
-def test_what_is_not_answered_is_named_once(tmp_path, capsys) -> None:
-    file = tmp_path / "drive.toml"
-    file.write_text(file_of("clemens"), encoding="utf-8")
-    assert main(["torsion", "modes", str(file)]) == 2
-    said = capsys.readouterr().err
-    assert "joints[0].kind: torsional vibration: not answered for a joint of kind clemens" in " ".join(said.split())
-
-
 def test_keys_of_another_kind_are_named() -> None:
     from cardan.errors import InputError
 

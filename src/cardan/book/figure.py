@@ -19,7 +19,7 @@ from cardan.units import deg, rpm
 
 from .comparison import BookComparison
 from .mathieu_drive import MathieuReduction
-from .mathieu_modes import MathieuModes
+from .mathieu_modes import JOINTS, MathieuModes
 
 POINTS = 121
 """Places along q at which boundaries are drawn."""
@@ -103,6 +103,7 @@ def modes_chart_figure(found: MathieuModes) -> Figure:
             float(found.a[j]), float(found.q[j]), _("mode {number}").format(number=number), shaft(number)
         )
     )
+    label = "a = (ωₑ/ω₁)²" if found.order[k] == JOINTS else "a = (2ωₑ/(νω₁))²"
     top = 1.25 * max([2.0, *(float(q) for a, q in zip(found.a, found.q, strict=True) if a <= BROAD)])
     a, q, zone = float(found.a[k]), float(found.q[k]), found.zone[k][0]
     centre = float(zone * zone)
@@ -120,6 +121,7 @@ def modes_chart_figure(found: MathieuModes) -> Figure:
         damping=float(found.damping[k]),
         title=_("Parametric term q, about zone {number}").format(number=zone),
         named=True,
+        label=label,
     )
     return Figure(
         name="mathieu-modes",
@@ -129,7 +131,10 @@ def modes_chart_figure(found: MathieuModes) -> Figure:
             "Kozhevnikov & Perfil'ev (1978), eq. 196 with q put right, Figs. 77, 78; boundaries a_r(q), "
             "b_r(q) exact, dashed with damping"
         ),
-        rows=(Row(panels=(chart_panel((-2.0, BROAD), top, marks),), height=2.2), Row(panels=(close,), height=2.4)),
+        rows=(
+            Row(panels=(chart_panel((-2.0, BROAD), top, marks, label=label),), height=2.2),
+            Row(panels=(close,), height=2.4),
+        ),
     )
 
 
@@ -180,10 +185,12 @@ def chart_panel(
     damping: float = 0.0,
     title: str = "",
     named: bool = False,
+    label: str = "a = (ωₑ/ω₁)²",
 ) -> Panel:
     """Return the zones of Mathieu's equation in a window, and marks in it.
 
-    a: range of a; top: largest q; marks: drawn over the zones; damping: n; named: list the zones in the legend.
+    a: range of a; top: largest q; marks: drawn over the zones; damping: n; named: list the zones in the legend; label:
+    what a is.
     """
     top = min(top, LARGEST_Q)
     low, high = a
@@ -211,7 +218,7 @@ def chart_panel(
     ticks = steps(low, high, 7)
     return Panel(
         series=(*zones, *lines, *(_inside(mark, low, high, top) for mark in marks)),
-        x=Axis(label="a = (ωₑ/ω₁)²", low=low, high=high, ticks=ticks, texts=written(ticks)),
+        x=Axis(label=label, low=low, high=high, ticks=ticks, texts=written(ticks)),
         y=axis(_("Parametric term q"), "", [np.asarray([0.0, top])], margin=0.0, count=5),
         title=title,
     )

@@ -17,7 +17,7 @@ from cardan.questions.torsion.model.answer import lacking as lacking_of_torsion
 from cardan.texts import _, mark
 
 from .figure import modes_chart_figure
-from .mathieu_modes import MathieuModes
+from .mathieu_modes import JOINTS, MathieuModes
 from .mathieu_modes import mathieu_modes as _modes
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
@@ -56,7 +56,7 @@ def answer(drive: Drive, result: MathieuModes) -> Answer:
             mode=int(result.number[k]),
             a=Quantity(float(result.a[k]), digits=4),
             q=Quantity(float(result.q[k]), digits=3),
-            rate=Quantity(math.expm1(2.0 * math.pi * growth), "share", 2),
+            rate=Quantity(math.expm1(math.pi * float(result.order[k]) * growth), "share", 2),
             zone=zone,
             low=Quantity(low, "angular_speed", 5),
             high=Quantity(high, "angular_speed", 5),
@@ -76,12 +76,16 @@ def answer(drive: Drive, result: MathieuModes) -> Answer:
 
 def _tables(result: MathieuModes) -> Iterator[Table]:
     ends = np.asarray([pair for _zone, *pair in result.zone])
+    others = bool(np.any(result.order != JOINTS))
     yield Table(
         name="modes",
-        title=_("Parameters of y'' + 2n y' + (a - 2q cos 2z) y = 0, z the angle of the input"),
+        title=_("Parameters of y'' + 2n y' + (a - 2q cos 2z) y = 0, z half the phase of order ν")
+        if others
+        else _("Parameters of y'' + 2n y' + (a - 2q cos 2z) y = 0, z the angle of the input"),
         records=True,
         columns=(
             Column(key="mode", heading=_("mode"), values=result.number.tolist()),
+            *([Column(key="order", heading=_("order ν"), values=result.order, decimals=0)] if others else []),
             Column(key="a", heading="a", values=result.a, digits=4),
             Column(key="q", heading="q", values=result.q, digits=3),
             Column(key="damping", heading="n", values=result.damping, digits=2),
@@ -176,7 +180,7 @@ def _column_values(found: MathieuModes | None) -> tuple[float, float, float, flo
         return (math.nan,) * 4
     k = found.nearest
     growth = float(np.asarray(found.exponent.growth)[k])
-    return float(found.a[k]), float(found.q[k]), growth, _distance(found, k)
+    return float(found.a[k]), float(found.q[k]), 0.5 * float(found.order[k]) * growth, _distance(found, k)
 
 
 COLUMNS = (

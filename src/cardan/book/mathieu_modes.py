@@ -1,7 +1,8 @@
 """Where the torsional modes of a drive stand in the chart of Mathieu's equation, and the book's method for sizing.
 
-Every mode of a drive obeys y'' + 2n y' + (a - 2q cos 2z) y of the input angle z to first order in the joint angles; the
-book has it for two inertias, whose only mode it is.
+Every mode of a drive obeys y'' + 2n y' + (a - 2q cos 2z) y to first order in the joint angles, z half the phase of the
+order at which the joints modulate it most: with cross joints the input angle. The book has it for two inertias, whose
+only mode it is.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from .dynamic_book import EngineeringTorque, Validity, engineering_torque, valid
 from .mathieu_drive import zone_speeds
 
 JOINTS = 2.0
-"""Order in which Hooke joints shake."""
+"""Order in which cross joints shake."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -41,9 +42,10 @@ class MathieuModes:
     speed: float  # [rad/s]: ω_1 of the input
     modes: TorsionModes
     number: Array  # (m,) of int: of the modes that the equation can be told of, from 1
-    a: Array  # (m,): (ω/ω_1)²
+    order: Array  # (m,): ν of the modulation; z = νφ/2 of the input angle φ
+    a: Array  # (m,): (2ω/(νω_1))²
     q: Array  # (m,): parametric term, twice that of Book (196)
-    damping: Array  # (m,): n per radian of the input angle
+    damping: Array  # (m,): n per radian of z
     exponent: Exponents  # (m,)
     zone: tuple[tuple[int, float, float], ...]  # nearest zone of every mode, and the speeds between which it lies
     # of every mode: may the parametric term be neglected, by Book (237) and by solving
@@ -62,35 +64,40 @@ class MathieuModes:
 def mathieu_modes(drive: Drive) -> MathieuModes:
     """Return Mathieu's equation of every torsional mode of a drive at the speed of its duty.
 
-    a = (ω/ω_1)², n = ζ ω/ω_1 and q = a times the modulation of `torsion_modes`: the book's parameters with its
-    parametric term put right, for any number of inertias, of first order in tan²(α/2), the static twist neglected. The
-    sizing of Book (246) is of drives with one mode; the exact torque beside it is harmonic balance, see
-    `torsion_response`.
+    a = (2ω/(νω_1))², n = ζ √a and q = a times the modulation of `torsion_modes` at its order ν: with ν = 2 the book's
+    parameters with its parametric term put right, for any number of inertias, of first order in tan²(α/2), the static
+    twist neglected. The sizing of Book (246) is of drives with one mode; the exact torque beside it is harmonic
+    balance, see `torsion_response`.
     """
     modes = torsion_modes(drive)
     if not modes.speed:
         raise refuse("duty.speed", _("missing: the speed"), "missing")
     omega = modes.at([modes.speed])[0]
-    a = (omega / modes.speed) ** 2
+    centre = 2.0 * omega / modes.order
+    a = (centre / modes.speed) ** 2
     told = np.flatnonzero(np.isfinite(a) & (a < LARGEST_A))
     if not told.size:
         raise refuse("duty.speed", _("so slow that no mode is within what Mathieu's equation can be solved for"))
     a = a[told]
     q, n = a * modes.modulation[told], modes.damping_ratio[told] * np.sqrt(a)
     zone = np.maximum(1, np.rint(np.sqrt(a))).astype(int).tolist()
-    ends = [zone_speeds(float(omega[k]), float(modes.modulation[k]), z) for k, z in zip(told, zone, strict=True)]
+    ends = [zone_speeds(float(centre[k]), float(modes.modulation[k]), z) for k, z in zip(told, zone, strict=True)]
     orders = sorted({0.0, JOINTS, *(one.order for one in modes.crossings)})
     sizing, without = _sizing(drive, modes)
     return MathieuModes(
         speed=modes.speed,
         modes=modes,
         number=told + 1,
+        order=modes.order[told],
         a=a,
         q=q,
         damping=n,
         exponent=exponents(a, q, n),
         zone=tuple((z, *sorted(pair)) for z, pair in zip(zone, ends, strict=True)),
-        validity=tuple(_valid(float(one), float(two), orders) for one, two in zip(a, q, strict=True)),
+        validity=tuple(
+            _valid(float(one), float(two), [order * JOINTS / own for order in orders])
+            for one, two, own in zip(a, q, modes.order[told].tolist(), strict=True)
+        ),
         sizing=sizing,
         without=without,
     )
@@ -109,6 +116,8 @@ def _sizing(drive: Drive, modes: TorsionModes) -> tuple[Sizing | None, str]:
     if len(modes.omega) != 1:
         text = _("The book's method for sizing is of two inertias and one mode; this drive has {count} modes.")
         return None, text.format(count=len(modes.omega))
+    if model.sums is not None:
+        return None, _("The book's method for sizing is of cross joints, which swing by order 2 alone.")
     if duty.torque is None:
         return None, _("The book's method for sizing needs a torque, duty.torque.")
     behind = np.asarray(model.shaft) > 0

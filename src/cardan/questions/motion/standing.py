@@ -154,6 +154,12 @@ def standing_chain(drive: Drive, times: ArrayLike) -> tuple[Chain, Array]:
 
 def chain_at(drive: Drive, points: Array) -> tuple[Chain, Array]:
     """Return the kinematic half of a drive with its points elsewhere (t, n+2, 3) [m], see `standing_chain`."""
+    chain, possible = given_at(drive, points)
+    return turning(chain, drive.joints, near=True), possible
+
+
+def given_at(drive: Drive, points: Array) -> tuple[Chain, Array]:
+    """Return the same with its joints as they are, not as the Hooke joints that turn alike."""
     possible = np.all(_joint_angles(points) < LIMIT, axis=-1)
     straight = np.arange(points.shape[-2])[:, None] * np.asarray((1.0, 0.0, 0.0))
     place = geometry_from_points(np.where(possible[:, None, None], points, straight))
@@ -163,7 +169,7 @@ def chain_at(drive: Drive, points: Array) -> tuple[Chain, Array]:
         yoke_angle=np.asarray([shaft.yoke_angle for shaft in drive.shafts[1:-1]], dtype=float),
         start_phase=np.asarray(drive.input.start_phase),
     )
-    return turning(chain, drive.joints, near=True), possible
+    return chain, possible
 
 
 def worst_instants(drive: Drive, course: Callable[[Array], Array], *, rounds: int = ROUNDS) -> tuple[float, ...]:

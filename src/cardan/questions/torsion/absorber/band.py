@@ -18,6 +18,7 @@ from cardan.questions.torsion.model.inputs import base_period
 from cardan.questions.torsion.model.torsion import orders
 from cardan.questions.torsion.model.torsional_layouts import chosen
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
+from cardan.questions.torsion.model.torsional_modes import main_order
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained, in_time, stacked, torsional_train
 from cardan.questions.torsion.stability.stability_kernel import vibration_growth
 from cardan.questions.torsion.steady.alternating_torque import TorqueSwings, torque_swings
@@ -217,7 +218,7 @@ class Lines:
             model = replace(model, stiffness=stiffness)
         if not model.free:
             model = replace(model, input_speed=speed.reshape(-1))
-        return in_time(_closed(model), 2.0 * np.abs(speed.reshape(-1)))
+        return in_time(_closed(model), main_order(model) * np.abs(speed.reshape(-1)))
 
     def swings(self, speed: Array, progress: Progress | None = None) -> TorqueSwings:
         """Return how far torques swing at speeds (D, S) [rad/s]; axes (D·S,)."""

@@ -39,6 +39,9 @@ FAR = 3.0
 NEAR = 0.1
 """Speeds nearer than this share are too near."""
 
+SECOND = 2.0
+"""Order at which cross joints modulate the stiffness of modes."""
+
 ALARMS = 2
 """Crossings on the first page."""
 
@@ -231,6 +234,7 @@ def _mode_table(drive: Drive, found: TorsionModes, exact: Exact | None) -> Table
             Column(key="", heading=_("mode"), values=list(range(1, count + 1))),
             Column(key="", heading=_("frequency"), values=found.omega[:count], dimension="frequency"),
             Column(key="", heading=_("order 2"), values=found.order2_speed[:count], dimension="angular_speed"),
+            *_order_column(found, count),
             Column(key="", heading=_("parametric"), values=found.parametric_speed[:count], dimension="angular_speed"),
             Column(key="", heading=_("modulation"), values=found.modulation[:count], dimension="share", digits=3),
             Column(key="", heading="2ζ", values=2.0 * found.damping_ratio[:count], dimension="share", digits=3),
@@ -242,8 +246,19 @@ def _mode_table(drive: Drive, found: TorsionModes, exact: Exact | None) -> Table
         note=_(
             "Joints modulate the stiffness of a mode twice a turn. About Ω = ω a mode is unstable where the modulation "
             "exceeds the damping 2ζ (parametric resonance)."
+        )
+        if np.all(found.order == SECOND)
+        else _(
+            "Joints modulate the stiffness of a mode most at the order ν of the turn. About Ω = 2ω/ν a mode is "
+            "unstable where the modulation exceeds the damping 2ζ (parametric resonance)."
         ),
     )
+
+
+def _order_column(found: TorsionModes, count: int) -> Iterator[Column]:
+    """Yield the order at which joints modulate each mode most, where it is not that of cross joints."""
+    if np.any(found.order != SECOND):
+        yield Column(key="", heading=_("order ν"), values=found.order[:count], decimals=0)
 
 
 def _least_column(found: TorsionModes, used: tuple[float, float] | None, count: int) -> Iterator[Column]:
@@ -473,6 +488,7 @@ def _mode(found: TorsionModes, k: int, used: tuple[float, float] | None) -> dict
         "frequency": Quantity(float(found.omega[k]), "frequency"),
         "order_2": _speed(found.order2_speed[k]),
         "principal": _speed(found.parametric_speed[k]),
+        **({} if found.order[k] == SECOND else {"modulation_order": float(found.order[k])}),
         "shape": found.shape[k],
         "joint_weight": found.joint_weight[k],
         "modulation": float(found.modulation[k]),

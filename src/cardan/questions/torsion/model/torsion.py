@@ -10,7 +10,8 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.machine import HarmonicTorque
-from cardan.drive.models.kinematics_model import given_chain, turning
+from cardan.drive.models.kinematics_model import NEGLIGIBLE, given_chain, turning
+from cardan.drive.models.law_series import beside_maps
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import series_at
@@ -19,9 +20,9 @@ from cardan.texts import _
 
 from .inputs import Swinging
 from .side_bands import side_waves
-from .torsional_layouts import Turning, chosen
+from .torsional_layouts import Turning, chosen, period_of
 from .torsional_model import Torque
-from .torsional_modes import meeting_speeds, modulation, straight_modes
+from .torsional_modes import joint_orders, main_order, meeting_speeds, modulation, straight_modes
 from .torsional_train import TorsionalTrain, in_time, torsional_train
 
 STRAIGHT = 1e-9
@@ -30,6 +31,9 @@ STRAIGHT = 1e-9
 BESIDE, SIDES, LEAST = (-4.0, -2.0, 2.0, 4.0), 6, 0.05
 """Distances of the side bands from the order of a torque, harmonics of half a turn by which they are found, and the
 share of that torque from which one counts."""
+
+HIGHEST = 4
+"""Order of the joints up to which they are told."""
 
 MODES = 4
 """Modes that side bands are asked for."""
@@ -76,7 +80,9 @@ class TorsionModes:
     joint_weight : array (m, n)
         κ of every joint in every mode: 0 in a node, where a joint excites no parametric vibration.
     modulation : array (m,)
-        Share by which the joints together modulate the stiffness of the mode twice a turn.
+        Share by which the joints together modulate the stiffness of the mode.
+    order : array (m,)
+        Order of the turn at which they modulate it most, ν: 2 but with joints that turn by laws of their own.
     nodes : tuple of m tuples of Node
         Where each mode stands still.
     speed : float [rad/s]
@@ -95,6 +101,7 @@ class TorsionModes:
     damping_ratio: Array
     joint_weight: Array
     modulation: Array
+    order: Array
     nodes: tuple[tuple[Node, ...], ...]
     speed: float
     speed_range: tuple[float, float] | None
@@ -122,14 +129,14 @@ class TorsionModes:
 
     @property
     def parametric_speed(self) -> Array:
-        """Input speed of each principal zone of parametric resonance, ω: array (m,) [rad/s]."""
-        return self.omega
+        """Input speed of each principal zone of parametric resonance, 2ω/ν: array (m,) [rad/s]."""
+        return 2.0 * self.omega / self.order
 
     @property
     def zone(self) -> Array:
         """Input speeds between which each mode grows by parametric resonance, array (m, 2) [rad/s]; nan where none.
 
-        To first order in the modulation: Ω = ω (1 ± ½ √((q/a)² - 4ζ²)), Book (221) with the corrected q.
+        To first order in the modulation: Ω = 2ω/ν (1 ± ½ √((q/a)² - 4ζ²)), Book (221) with the corrected q.
         """
         return self._zone(0.0)
 
@@ -138,7 +145,7 @@ class TorsionModes:
         """What terms of second order surely leave of each zone, array (m, 2) [rad/s]; nan where it may be nothing.
 
         They move an edge by the square of the modulation at most: of Mathieu's equation a = 1 ± q - q²/8 - …, so that
-        Ω = ω (1 ± ½ m + ⅜ m² + …) without damping.
+        Ω = 2ω/ν (1 ± ½ m + ⅜ m² + …) without damping.
         """
         return self._zone(-1.0)
 
@@ -153,17 +160,18 @@ class TorsionModes:
         square = (self.modulation + second) ** 2 - 4.0 * self.damping_ratio**2
         half = 0.5 * np.sqrt(np.where(square > 0.0, square, np.nan)) + second
         half = np.where(half > 0.0, half, np.nan)
-        found: Array = self.omega[:, None] * (1.0 + half[:, None] * np.asarray([-1.0, 1.0]))
+        found: Array = self.parametric_speed[:, None] * (1.0 + half[:, None] * np.asarray([-1.0, 1.0]))
         return found
 
     def least_loss(self, used: tuple[float, float]) -> Array:
         """Return the loss factor 2ζ from which each mode is stable at all of some input speeds, array (m,).
 
-        To first order in the modulation, as `zone`: 2ζ = √((q/a)² - 4 (Ω/ω - 1)²) at the speed nearest to ω; 0 where it
-        is stable without any damping.
+        To first order in the modulation, as `zone`: 2ζ = √((q/a)² - 4 (Ω/Ω_p - 1)²) at the speed nearest to that of the
+        principal zone; 0 where it is stable without any damping.
         """
-        near = np.clip(self.omega, *used)
-        found: Array = np.sqrt(np.maximum(self.modulation**2 - 4.0 * (near / self.omega - 1.0) ** 2, 0.0))
+        centre = self.parametric_speed
+        near = np.clip(centre, *used)
+        found: Array = np.sqrt(np.maximum(self.modulation**2 - 4.0 * (near / centre - 1.0) ** 2, 0.0))
         return found
 
     @property
@@ -200,9 +208,9 @@ def torsion_modes(drive: Drive, duty: Duty | None = None, *, pieces: int = 1) ->
 
     Notes
     -----
-    (K - ω²M) u = 0 with all joints straight, whose mean ratio is 1. Joints excite order 2, 4, …; the order ν meets ω
-    at Ω = ω/ν. Beside that they modulate the stiffness twice a turn, which excites a mode at Ω = ω however small the
-    torque, unless damped: see `torsional_modes.modulation`.
+    (K - ω²M) u = 0 with all joints straight, whose mean ratio is 1. Joints excite order 2, 4, …, by laws of their own
+    1, 2, 3, …; the order ν meets ω at Ω = ω/ν. Beside that they modulate the stiffness, a cross twice a turn, which
+    excites a mode at Ω = 2ω/ν however small the torque, unless damped: see `torsional_modes.modulation`.
 
     Examples
     --------
@@ -225,13 +233,16 @@ def torsion_modes(drive: Drive, duty: Duty | None = None, *, pieces: int = 1) ->
         text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")
         raise refuse("shafts[0].stiffness", text)
     largest = np.max(np.abs(found.shape), axis=-1, keepdims=True)
+    swinging = np.asarray([2.0, *(order for order in joint_orders(train.model) if order != 2.0)])
+    modulations = np.abs([modulation(train.model, found.joint_weight, order) for order in swinging.tolist()])
     return TorsionModes(
         train=train,
         omega=found.omega,
         shape=found.shape / largest,
         damping_ratio=found.damping_ratio,
         joint_weight=found.joint_weight,
-        modulation=np.abs(modulation(train.model, found.joint_weight)),
+        modulation=np.max(modulations, axis=0),
+        order=swinging[np.argmax(modulations, axis=0)],
         nodes=tuple(tuple(_nodes(train, shape)) for shape in found.shape / largest),
         speed=abs(chosen.speed or 0.0),
         speed_range=chosen.speed_range,
@@ -258,8 +269,13 @@ def _nodes(train: TorsionalTrain, shape: Array) -> Iterator[Node]:
 def orders(drive: Drive, duty: Duty) -> list[tuple[float, str]]:
     """Return the orders of the input shaft that something excites, each with its cause, rising."""
     found: dict[float, str] = {}
-    if np.any(turning(given_chain(drive), drive.joints, near=True).joint_angle > STRAIGHT):
+    whole = given_chain(drive)
+    near = turning(whole, drive.joints, near=True)
+    if np.any(near.joint_angle > STRAIGHT):
         found |= {2.0: _("joints"), 4.0: _("joints")}
+    own = beside_maps(drive.joints, whole, near)
+    size = np.zeros(0) if own is None else np.max(np.abs(own[: HIGHEST + 1]), axis=-1)
+    found |= {float(one): _("joints") for one in np.flatnonzero(size > NEGLIGIBLE) if one}
     engine = duty.engine
     if engine is not None:
         given = [one.order for one in engine.harmonics]
@@ -327,19 +343,20 @@ def side_torques(train: TorsionalTrain, torque: Torque, beside: float, speed: Ar
     make without any torque; nan where there is none.
     """
     model = replace(train.model, backlash=np.zeros_like(train.model.backlash), torques=())
-    model = in_time(model if model.free else replace(model, input_speed=speed), 2.0 * speed)
-    own = np.arange(len(speed))
+    model = in_time(model if model.free else replace(model, input_speed=speed), main_order(model) * speed)
+    own, period = np.arange(len(speed)), period_of(model)
     drives = chosen(model, (len(speed),), own, moments=False)
     if train.pendulums:
         stiffness, at = drives.stiffness.copy(), list(train.pendulums)
         stiffness[:, at] *= (speed[:, None] / taken) ** 2
         drives = replace(drives, stiffness=stiffness)
-    turns = Turning(drives, (len(speed),), speed, np.pi)
-    how = HarmonicBalance(harmonics=SIDES, most=SIDES)
+    turns, sides = Turning(drives, (len(speed),), speed, period), SIDES * round(period / np.pi)
+    how = HarmonicBalance(harmonics=sides, most=sides)
     waves = harmonic_balance(turns, turns.frequency, turns.coordinates, free=model.free, method=how)
-    phase, rate = 2.0 * np.pi * np.arange(4 * SIDES + 4) / (4 * SIDES + 4), turns.frequency[:, None, None]
+    phase, rate = 2.0 * np.pi * np.arange(4 * sides + 4) / (4 * sides + 4), turns.frequency[:, None, None]
     x, v, a = series_at(waves.coefficient, phase)
     motion = turns.motion(own, phase, x, rate * v, rate**2 * a)
-    found = side_waves(turns.drives(own), motion, speed, np.pi, (torque,), SIDES)[0]
-    size = np.max(np.abs(np.fft.fft(found, axis=-1)[..., round(0.5 * beside)]), axis=-1) / len(phase)
+    found = side_waves(turns.drives(own), motion, speed, period, (torque,), sides)[0]
+    band = round(beside * period / (2.0 * np.pi))
+    size = np.max(np.abs(np.fft.fft(found, axis=-1)[..., band]), axis=-1) / len(phase)
     return np.where(waves.status == Status.NO_CONVERGENCE, np.nan, size)

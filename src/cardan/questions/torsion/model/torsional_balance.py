@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.maths.arrays import Array, namespace
+from cardan.maths.arrays import Array, namespace, unit_complex
 
 from .torsional_model import TorsionalModel
 
@@ -42,12 +42,13 @@ class Slopes:
     coupled: Array | None = None  # (..., R, R): inertia between coordinates, of pendulums with their own angle
 
 
-def joint_law(angle: Array, joint_angle: Array) -> tuple[Array, Array, Array, Array]:
+def joint_law(angle: Array, joint_angle: Array, sums: Array | None = None) -> tuple[Array, Array, Array, Array]:
     """Return T and its first three derivatives of a Hooke joint, its angle counted from the plane of its shafts.
 
     angle (...) [rad]: θ of the driving yoke; joint_angle (...) [rad]: α.
+    sums (..., K), complex [rad]: c_k of what a joint turns beside that by a law of its own, Re Σ c_k e^(ikθ).
     Returns tuple of arrays (...): T, T', T'', T''': T = θ + arg(1 - τ e^(-2iθ)) unwrapped, τ = tan²(α/2), T' = cos
-    α/(1 - sin²α cos²θ).
+    α/(1 - sin²α cos²θ); with what is beside it.
     """
     xp = namespace(angle, joint_angle)
     tau = xp.tan(0.5 * joint_angle) ** 2
@@ -58,7 +59,21 @@ def joint_law(angle: Array, joint_angle: Array) -> tuple[Array, Array, Array, Ar
     first = cosine * below
     second = -first * square * twice_sin * below
     third = 2.0 * first * square * below * (square * twice_sin**2 * below - twice_cos)
-    return whole, first, second, third
+    if sums is None:
+        return whole, first, second, third
+    more = _summed(angle, sums)
+    return whole + more[0], first + more[1], second + more[2], third + more[3]
+
+
+def _summed(angle: Array, sums: Array) -> list[Array]:
+    """Return Re Σ c_k e^(ikθ) and its first three derivatives, arrays (...), by Horner's scheme."""
+    xp = namespace(angle, sums)
+    turn = unit_complex(angle)
+    found = [0.0 * turn for _order in range(4)]
+    for k in reversed(range(sums.shape[-1])):
+        for order in range(4):
+            found[order] = found[order] * turn + (1j * k) ** order * sums[..., k]
+    return [xp.real(one) for one in found]
 
 
 def places(model: TorsionalModel, q: Array) -> Places:
@@ -72,14 +87,16 @@ def places(model: TorsionalModel, q: Array) -> Places:
     found: list[tuple[Array, Array, Array, Array]] = []
     one = xp.ones_like(q[..., 0])
     nothing = xp.zeros_like(one)
+    own = model.own_laws
     for k, source in enumerate(model.driven):
         if source is None:
             found.append((q[..., model.coordinate[k]], one, nothing, nothing))
             continue
         f, f1, f2, f3 = found[source[0]]
         joint_angle, phase = _wide(model.joint_angle[..., source[1]], one), _wide(model.phase[..., source[1]], one)
-        t, t1, t2, t3 = joint_law(f + phase, joint_angle)
-        start = joint_law(phase, joint_angle)[0]
+        sums = None if own is None else _each(own[..., source[1]], one)
+        t, t1, t2, t3 = joint_law(f + phase, joint_angle, sums)
+        start = joint_law(phase, joint_angle, sums)[0]
         found.append((t - start, t1 * f1, t2 * f1**2 + t1 * f2, t3 * f1**3 + 3.0 * t2 * f1 * f2 + t1 * f3))
     angle, first, second, third = (beside([each[i] for each in found]) for i in range(4))
     return Places(angle=angle, first=first, second=second, third=third)

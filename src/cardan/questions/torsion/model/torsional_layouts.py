@@ -28,8 +28,9 @@ from .inputs import (
     Uniform,
     base_period,
 )
-from .torsional_balance import linearised, places, spring_torque
+from .torsional_balance import joint_law, linearised, places, spring_torque
 from .torsional_model import Torque, TorsionalModel
+from .torsional_modes import joint_orders
 
 ARRAYS = (
     "inertia",
@@ -41,6 +42,7 @@ ARRAYS = (
     "ground_damping",
     "loss_factor",
     "rest",
+    "sums",
     "coupling",
     "friction",
     "creep",
@@ -123,7 +125,7 @@ def single(model: TorsionalModel, outer: tuple[int, ...], row: int) -> Torsional
 
 def period_of(model: TorsionalModel) -> float:
     """Return the shaft angle after which the drive and all its torques repeat: π, 2π or 4π."""
-    orders: list[float] = []
+    orders = list(joint_orders(model))
     problems: list[Problem] = []
     for k, torque in enumerate(model.torques):
         order = torque.law.order
@@ -191,7 +193,9 @@ class Turning:
         if self._taken is None or not np.array_equal(self._taken[0], rows):
             found = chosen(self.model, self.angle_error, rows)
             if self.share is not None:
-                found = replace(found, joint_angle=found.joint_angle * self.share[rows][:, None])
+                share = self.share[rows][:, None]
+                own = None if found.sums is None else found.sums * share
+                found = replace(found, joint_angle=found.joint_angle * share, sums=own)
             self._taken = (rows, found)
         return self._taken[1]
 
@@ -261,11 +265,16 @@ def forces_of(model: TorsionalModel) -> Callable[..., Forces]:
     own_mass = [float(model.inertia[k]) for k in owner]
     ground = [float(one) for one in model.ground_damping]
     turned_by: list[list[tuple[int, float, float, float, float, float]]] = [[] for _r in owner]
-    for k, (tau, c, s) in enumerate(laws(model)):
+    for k, (tau, c, s) in enumerate(laws(model) if model.sums is None else ()):
         if model.driven[k] is not None:
             ahead = float(composed_angle.angle_error(c, s, tau))
             turned_by[coordinate[k]].append((k, float(tau), float(c), float(s), ahead, float(model.inertia[k])))
     groups = [(r, group) for r, group in enumerate(turned_by) if group]
+    by_law = [
+        (k, source[0], coordinate[k], _law_of(model, source[1]), float(model.inertia[k]))
+        for k, source in enumerate(model.driven)
+        if source is not None and model.sums is not None
+    ]
     rest = np.zeros(len(model.elements)) if model.rest is None else model.rest
     elements = [
         (a, b, float(model.stiffness[e]), float(model.damping[e]), float(rest[e]))
@@ -308,6 +317,12 @@ def forces_of(model: TorsionalModel) -> Callable[..., Forces]:
                 if inertia:
                     mass[r] += inertia * f1 * f1
                     force[r] += inertia * f1 * f1 * 4.0 * y * below * v * v
+        for k, j, r, follow, inertia in by_law:
+            angle[k], t1, t2 = follow(angle[j])
+            first[k], second[k] = t1 * first[j], t2 * first[j] * first[j] + t1 * second[j]
+            speed[k] = first[k] * rate[r]
+            mass[r] += inertia * first[k] * first[k]
+            force[r] -= inertia * first[k] * second[k] * rate[r] * rate[r]
         power = 0.0
         acting = [0.0] * stations
         for k, b in enumerate(ground):
@@ -351,6 +366,29 @@ def forces_of(model: TorsionalModel) -> Callable[..., Forces]:
         return mass, force, power
 
     return forces
+
+
+def _law_of(model: TorsionalModel, joint: int) -> Callable[[float], tuple[float, float, float]]:
+    """Return the function that gives F, T' and T'' of a joint of one drive from the angle of its driving yoke."""
+    assert model.own_laws is not None
+    tau, phase = math.tan(0.5 * float(model.joint_angle[joint])) ** 2, float(model.phase[joint])
+    waves = list(enumerate(model.own_laws[:, joint].tolist()))[::-1]
+    start = float(joint_law(model.phase[joint], model.joint_angle[joint], model.own_laws[:, joint])[0])
+
+    def turned_by(angle: float) -> tuple[float, float, float]:
+        theta = angle + phase
+        turn = complex(math.cos(theta), math.sin(theta))
+        twice = turn * turn
+        x, y = 1.0 - tau * twice.real, tau * twice.imag
+        below = 1.0 / (x * x + y * y)
+        t1 = (1.0 - tau * tau) * below
+        value = first = second = 0j
+        for k, wave in waves:
+            value, first, second = value * turn + wave, first * turn + k * wave, second * turn + k * k * wave
+        turned = theta + math.atan2(y, x) + value.real - start
+        return turned, t1 - first.imag, -4.0 * t1 * y * below - second.real
+
+    return turned_by
 
 
 def laws(model: TorsionalModel) -> list[tuple[Array, Array, Array]]:
@@ -411,6 +449,10 @@ def line_of(model: TorsionalModel, drives: int, start: float = 0.0) -> lines.Lin
 
 def _problems(model: TorsionalModel, inertia: Array) -> list[Problem]:
     problems = []
+    if model.sums is not None:
+        problems.append(
+            Problem("joints", _("joints that turn by a law of their own have no fixed steps; use Adaptive"))
+        )
     if model.special:
         problems.append(
             Problem("elements", _("springs with tables and dry friction have no fixed steps; use Adaptive"))

@@ -54,6 +54,9 @@ class TorsionalModel:
     # motion that is forced on the first station instead, where its speed changes
     input_motion: InputMotion | None = None
     rest: Array | None = None  # (..., E) [rad]: twist of every element at which it carries nothing; 0 where not given
+    # (..., 2Kn) [rad]: what joints turn beside T by laws of their own, T(θ) + Re Σ c_k e^(ikθ): Re and Im of c_0 …
+    # c_(K-1) of each, see `flat_sums`; None where all turn by T
+    sums: Array | None = None
     # pendulums with their own angle, in time: station of the pivot, station of the pendulum; the inertia of the first
     # holds its mass at the pivot, m R², that of the second is m l²
     hinges: tuple[tuple[int, int], ...] = ()
@@ -81,9 +84,23 @@ class TorsionalModel:
         return tuple(k for k, source in enumerate(self.driven) if source is None)
 
     @property
+    def own_laws(self) -> Array | None:
+        """Sums c_k of every joint, complex (..., K, n) [rad], see `sums`; None where all turn by T."""
+        if self.sums is None:
+            return None
+        joints = self.joint_angle.shape[-1]
+        parts = self.sums.reshape(*self.sums.shape[:-1], self.sums.shape[-1] // (2 * joints), 2, joints)
+        return np.asarray(parts[..., 0, :] + 1j * parts[..., 1, :])
+
+    @property
     def special(self) -> bool:
         """Whether elements have tables or dry friction."""
         return bool(self.tables) or self.friction is not None
+
+    @property
+    def steppable(self) -> bool:
+        """Whether steps of one length may follow it: no tables, friction, pendulums, nor laws of joints' own."""
+        return not (self.special or self.hinges or self.sums is not None)
 
     @property
     def coordinates(self) -> int:
@@ -94,6 +111,11 @@ class TorsionalModel:
     def free(self) -> bool:
         """Whether torques turn the drive and no speed is forced on it."""
         return self.input_speed is None and self.input_motion is None
+
+
+def flat_sums(sums: Array | None) -> Array | None:
+    """Return sums (..., K, n), complex, as a model has them: (..., 2Kn), more of them behind."""
+    return None if sums is None else np.stack([sums.real, sums.imag], axis=-2).reshape(*sums.shape[:-2], -1)
 
 
 def torsional_line(

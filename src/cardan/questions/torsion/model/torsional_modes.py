@@ -139,18 +139,66 @@ def _residual(model: TorsionalModel, omega: Array, shape: Array) -> Array:
     return np.max(np.abs(whole[:, forced:]), axis=-1, initial=0.0) / np.where(largest > 0.0, largest, 1.0)
 
 
-def modulation(model: TorsionalModel, weight: Array) -> Array:
-    """Return by which share joints modulate the stiffness of every mode twice a turn, complex array (m,).
+def modulation(model: TorsionalModel, weight: Array, order: float = 2.0) -> Array:
+    """Return by which share joints modulate the stiffness of every mode at an order of the turn, complex array (m,).
 
-    weight (m, n): κ of the joints, `StraightModes.joint_weight`.
-    q/a of Mathieu's equation y'' + (a - 2q cos 2φ) y: 2 Σ τ_k κ_k e^(2iψ̄_k), τ = tan²(α/2), ψ̄_k the phase of joint k
-    less the mean lead Σ τ_j sin 2ψ_j of the joints before it. Twice what the book gives, whose joints turn evenly.
+    weight (m, n): κ of the joints, `StraightModes.joint_weight`; order: ν, 2 of cross joints.
+    q/a of Mathieu's equation y'' + (a - 2q cos νφ) y, y'' by νφ/2: ν Σ a_k κ_k e^(iνψ̄_k) with the wave a of each joint,
+    see `joint_waves`; τ = tan²(α/2) of a cross at order 2, twice what the book gives, whose joints turn evenly.
     A mode is excited in its principal zone where its modulus exceeds 2ζ.
     """
+    if not model.joint_angle.shape[-1]:
+        return np.zeros(len(weight), dtype=complex)
+    found: Array = order * (weight * joint_waves(model, order)) @ np.exp(1j * order * mean_phases(model))
+    return found
+
+
+def joint_waves(model: TorsionalModel, order: float) -> Array:
+    """Return the wave of one order by which each joint of one drive leads, a of Im a e^(iνθ): array (n,) [rad].
+
+    Complex where a joint turns by a law of its own. A cross has τ^p/p at ν = 2p, τ = tan²(α/2).
+    """
     tau = np.tan(0.5 * model.joint_angle) ** 2
-    angle_error = np.cumsum(tau * np.sin(2.0 * model.phase))
-    phase = model.phase - np.append(0.0, angle_error[:-1])
-    return 2.0 * (weight * tau) @ np.exp(2j * phase) if len(tau) else np.zeros(len(weight), dtype=complex)
+    half = round(0.5 * order)
+    found: Array = tau**half / half if half and order == 2.0 * half else np.zeros_like(tau)
+    own, place = model.own_laws, round(order)
+    return found if own is None or place >= len(own) else found + 1j * own[place]
+
+
+def mean_phases(model: TorsionalModel) -> Array:
+    """Return ψ̄ of every joint of one drive, its phase less the lead at the start of those before it, (n,) [rad]."""
+    lead = np.tan(0.5 * model.joint_angle) ** 2 * np.sin(2.0 * model.phase)
+    if model.own_laws is not None:
+        order = np.arange(1, len(model.own_laws))[:, None]
+        lead = lead + np.sum((model.own_laws[1:] * np.exp(1j * order * model.phase)).real, axis=0)
+    found: Array = model.phase - np.append(0.0, np.cumsum(lead)[:-1])
+    return found
+
+
+def joint_orders(model: TorsionalModel) -> tuple[float, ...]:
+    """Return the orders of the turn at which joints swing by laws of their own; none where all swing by 2, 4, …."""
+    own = model.own_laws
+    if own is None:
+        return ()
+    there = np.any(own != 0.0, axis=(*range(own.ndim - 2), own.ndim - 1))
+    return tuple(float(order) for order in np.flatnonzero(there) if order)
+
+
+def base_order(model: TorsionalModel) -> float:
+    """Return the order of which all those of the joints are multiples: 2, or 1 with laws of their own."""
+    return 1.0 if any(order % 2.0 for order in joint_orders(model)) else 2.0
+
+
+def main_order(model: TorsionalModel) -> float:
+    """Return the order at which the joints change the speed most, all of them together: 2 but for laws of their own."""
+    own = model.own_laws
+    if own is None:
+        return 2.0
+    each = np.zeros(max(own.shape[-2], 3))
+    each[: own.shape[-2]] = np.max(np.sum(np.abs(own), axis=-1).reshape(-1, own.shape[-2]), axis=0)
+    each[2] += np.max(np.sum(np.tan(0.5 * model.joint_angle) ** 2, axis=-1))
+    pushing = np.arange(len(each)) * each
+    return float(np.argmax(pushing)) if np.any(pushing) else 2.0
 
 
 def meeting_speeds(model: TorsionalModel, order: float, pendulums: tuple[int, ...], speed: float) -> Array:

@@ -19,17 +19,17 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Joint
 from cardan.drive.models.geometry import geometry
-from cardan.drive.models.kinematics_model import Chain, nearly_turning_chain
+from cardan.drive.models.kinematics_model import given_chain
 from cardan.drive.station import Pendulum, ToNext
 from cardan.drive.yokes import with_yokes
 from cardan.errors import Problem, check, refuse
 from cardan.formulas.damping import LOSS
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.questions.motion.motion import initial_phases
 from cardan.texts import _
 
 from .excitation import machine_torques, turns_freely
 from .inputs import Law
+from .joint_bends import Bends, bends
 from .shaft_line import ShaftLine, cut_name, shaft_line
 from .torsional_balance import gathered
 from .torsional_layouts import ARRAYS, SHARED, chosen, leading
@@ -162,10 +162,10 @@ def torsional_train(
     if pieces < 1:
         raise refuse("pieces", _("{given} given; at least 1").format(given=pieces))
     problems: list[Problem] = []
-    joint_angles = nearly_turning_chain(drive, _("torsional vibration"))
+    turns = bends(drive.joints, given_chain(drive))
     lines = [shaft_line(drive, shaft, pieces, problems) for shaft in drive.shafts]
     lines = [lines[0], *(_softened(line, joint) for line, joint in zip(lines[1:], drive.joints, strict=True))]
-    base = _joined(drive, lines, joint_angles)
+    base = _joined(drive, lines, turns)
     base = _usually_damped(drive, base)
     base = _with_branches(drive, base, lines, turning, problems)
     problems += _empty_problems(base.model)
@@ -231,7 +231,7 @@ def _starts(lines: Sequence[ShaftLine]) -> Iterator[tuple[ShaftLine, int]]:
         start += len(line.inertia)
 
 
-def _joined(drive: Drive, lines: Sequence[ShaftLine], joint_angles: Chain) -> TorsionalTrain:
+def _joined(drive: Drive, lines: Sequence[ShaftLine], turns: Bends) -> TorsionalTrain:
     """Return the shafts as one model, without what hangs on it."""
     starts = [start for _line, start in _starts(lines)]
     driven: list[tuple[int, int] | None] = []
@@ -252,12 +252,11 @@ def _joined(drive: Drive, lines: Sequence[ShaftLine], joint_angles: Chain) -> To
         stiffness=_row([line.stiffness for line in lines]),
         damping=_row([line.damping for line in lines]),
         backlash=_row(play),
-        joint_angle=np.asarray(joint_angles.joint_angle, dtype=float),
-        phase=np.asarray(initial_phases(replace(joint_angles, laws=None)), dtype=float),
         ground_damping=_row([line.ground_damping for line in lines]),
         loss_factor=_row([line.loss_factor for line in lines]),
         shaft=tuple(i for i, line in enumerate(lines) for _k in line.inertia),
         names=tuple(name for line in lines for name in line.names),
+        **turns,
     )
     place = geometry(drive)
     length = np.asarray(place.length, dtype=float)
@@ -451,6 +450,9 @@ def _merged(models: Sequence[TorsionalModel], join: Callable[[list[Array]], Arra
     ]
     if any(one != built[0] for one in built):
         raise refuse("models", _("are not built alike: their stations, elements or torques differ"))
+    wide = max(0 if one.sums is None else one.sums.shape[-1] for one in models)
+    models = [replace(one, sums=_widened(one, wide)) for one in models] if wide else models
+    first = models[0]
     given = [name for name in ARRAYS if getattr(first, name) is not None]
     parts: dict[str, Any] = {name: join([getattr(one, name) for one in models]) for name in given}
     parts["torques"] = tuple(
@@ -459,6 +461,12 @@ def _merged(models: Sequence[TorsionalModel], join: Callable[[list[Array]], Arra
     )
     speed = None if first.input_speed is None else join([np.asarray(one.input_speed) for one in models])
     return replace(first, input_speed=speed, **parts)
+
+
+def _widened(model: TorsionalModel, width: int) -> Array:
+    """Return the sums of a model with zeros for what it has less."""
+    sums = np.zeros((*model.joint_angle.shape[:-1], 0)) if model.sums is None else model.sums
+    return np.concatenate([sums, np.zeros((*sums.shape[:-1], width - sums.shape[-1]))], axis=-1)
 
 
 def _shared(law: Law) -> list[object]:

@@ -252,6 +252,10 @@ def _rule_reasons(rule: NodeRule) -> Iterator[Text]:
         speed=speed(0.5 * rule.omega, 4),
         zone=speed(rule.omega, 4),
     )
+    if rule.others:
+        yield _(
+            "Joints that turn by laws of their own excite it at other orders too; what follows is of order 2 alone."
+        )
     bent = np.flatnonzero(rule.joint_angle_share > BENT)
     if not bent.size:
         yield _("All joints are straight: nothing excites it twice a turn.")

@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torsional_layouts import Turning
-from cardan.questions.torsion.model.torsional_modes import straight_modes
+from cardan.questions.torsion.model.torsional_modes import joint_orders, joint_waves, mean_phases, straight_modes
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
 from cardan.questions.torsion.steady.orbit import at_rest
 
@@ -24,7 +24,7 @@ class NodeRule:
     # (n,): position of each joint relative to the node of the mode, 0 in it: its angle in the mode times Σ J u behind
     # it
     kappa: Array
-    joint_angle_share: Array  # (n,): τ = tan²(α/2) of each joint
+    joint_angle_share: Array  # (n,): τ = tan²(α/2) of each joint, or by its law what it leads by twice a turn [rad]
     # (n,), complex: share by which each joint modulates the stiffness twice a turn, with its phase: 2 τ κ e^(2iψ̄)
     parametric: Array
     # (n,) [√(kg m²)], complex: how each joint pushes the mode twice a turn where order 2 meets it, with its phase, over
@@ -33,6 +33,7 @@ class NodeRule:
     torque_of_mode: float  # [N·m/√(kg m²)]: largest torque of an element of the mode at unit amplitude
     position: Array  # (n,) [m]: of the joints along the line of the shafts
     nodes: tuple[float, ...]  # [m]: where the mode stands still; the input is one where its speed is forced
+    others: bool = False  # whether joints that turn by laws of their own excite it at other orders too
 
     @property
     def modulation(self) -> float:
@@ -105,9 +106,8 @@ def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, 
     """
     model = train.model
     modes = straight_modes(model, speed=speed)
-    tau = np.tan(0.5 * model.joint_angle) ** 2
-    angle_errors = np.cumsum(tau * np.sin(2.0 * model.phase))
-    turn = np.exp(2j * (model.phase - np.append(0.0, angle_errors[:-1]))) if len(tau) else np.zeros(0, dtype=complex)
+    wave = joint_waves(model, 2.0)
+    turn = np.exp(2j * mean_phases(model))
     shaft = np.asarray(model.shaft)
     lag, carried = _under_load(train, speed)
     driving = [one for one, _driven in train.joints]
@@ -123,12 +123,13 @@ def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, 
                 omega=float(omega),
                 damping_ratio=float(modes.damping_ratio[k]),
                 kappa=modes.joint_weight[k],
-                joint_angle_share=tau,
-                parametric=2.0 * tau * modes.joint_weight[k] * turn,
-                forced=tau * push * turn,
+                joint_angle_share=np.abs(wave),
+                parametric=2.0 * wave * modes.joint_weight[k] * turn,
+                forced=wave * push * turn,
                 torque_of_mode=float(np.max(np.abs(model.stiffness * np.asarray(twist)), initial=0.0)),
                 position=train.position[driving],
                 nodes=tuple(_nodes(train, shape)),
+                others=bool(joint_orders(model)),
             )
         )
     return tuple(rules)

@@ -20,8 +20,10 @@ from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import tops
 from cardan.maths.kernel import frames
 from cardan.questions.motion.moving_points import moving_points
+from cardan.questions.torsion.model.joint_bends import Bends
 from cardan.questions.torsion.model.torsional_balance import accelerations, element_torques, gathered
 from cardan.questions.torsion.model.torsional_layouts import period_of
+from cardan.questions.torsion.model.torsional_model import flat_sums
 from cardan.questions.torsion.steady.steady import periodic_response
 from cardan.texts import _
 from cardan.units import thousands
@@ -83,14 +85,13 @@ def follow(standing: Standing, times: Array, before: float, *, progress: Progres
     nodes = np.concatenate([begin - step * np.arange(math.ceil(before / step), 0, -1), times])
     course = _Course(standing, nodes)
     start = float(nodes[0])
-    angle, phase = course.at(np.asarray([start]))
-    steady = periodic_response(replace(model, joint_angle=angle[0], phase=phase[0]), speed=speed)
+    held = replace(model, **course.one(start))
+    steady = periodic_response(held, speed=speed)
     q, rate = (one[0, 0] for one in steady.orbit.of(np.asarray([0]), [speed * start])[:2])
-    held = replace(model, joint_angle=np.array(angle[0]), phase=np.array(phase[0]))
     free = len(q) - 1
 
     def slopes(time: float, state: Array) -> Array:
-        held.joint_angle[...], held.phase[...] = (one[0] for one in course.at(np.asarray([time])))
+        held = replace(model, **course.one(time))
         whole = np.concatenate([[speed * time], state[:free]])
         rates = np.concatenate([[speed], state[free:]])
         return np.concatenate([state[free:], accelerations(held, whole, rates, time)[1:]])
@@ -114,8 +115,7 @@ def follow(standing: Standing, times: Array, before: float, *, progress: Progres
             break
     states = np.concatenate(parts, axis=-1)
     states = np.pad(states, ((0, 0), (0, len(at) - states.shape[-1])), constant_values=np.nan).T
-    angle, phase = course.at(at)
-    moved = replace(model, joint_angle=angle, phase=phase)
+    moved = replace(model, **course.at(at))
     turned = np.concatenate([(speed * at)[:, None], states[:, :free]], axis=-1)
     rates = np.concatenate([np.full((len(at), 1), speed), states[:, free:]], axis=-1)
     torque = element_torques(moved, turned, rates, at).T
@@ -124,7 +124,7 @@ def follow(standing: Standing, times: Array, before: float, *, progress: Progres
     return Places(
         share=np.full(periods, 1.0 / periods),
         points=moving_points(standing.base, drive.movements, middle)[0],
-        joint_angle=course.at(middle)[0],
+        joint_angle=course.at(middle)["joint_angle"],
         low=-np.max(tops(-windows), axis=-1),
         high=np.max(tops(windows), axis=-1),
         mean=np.mean(windows[..., :-1], axis=-1),
@@ -134,20 +134,46 @@ def follow(standing: Standing, times: Array, before: float, *, progress: Progres
 
 
 class _Course:
-    """Joint angles and phases over the time, by splines through tan²(α/2) e^(2iψ): smooth where a joint is straight."""
+    """How joints turn over the time, by splines through tan²(α/2) e^(2iψ): smooth where a joint is straight.
+
+    And through c_k e^(ikψ) of what they turn beside.
+    """
 
     def __init__(self, standing: Standing, times: Array) -> None:
         points = moving_points(standing.base, standing.drive.movements, times)[0]
-        joint_angle, phase, _possible = standing.turned(points, -_plane(points))
-        value = np.tan(0.5 * joint_angle) ** 2 * np.exp(2j * phase)
-        self.spline = interpolate().CubicSpline(times, np.concatenate([value.real, value.imag], axis=-1))
-        self.joints = joint_angle.shape[-1]
+        turns, _possible = standing.turned(points, -_plane(points))
+        phase = turns["phase"]
+        value = (np.tan(0.5 * turns["joint_angle"]) ** 2 * np.exp(2j * phase))[:, None]
+        own = replace(standing.model, **turns).own_laws
+        if own is not None:
+            value = np.concatenate([value, own * _turn(own, phase)], axis=-2)
+        self.spline = interpolate().CubicSpline(times, np.stack([value.real, value.imag], axis=-1))
 
-    def at(self, times: Array) -> tuple[Array, Array]:
-        """Return joint angles and phases at instants (t,), arrays (t, n) [rad]."""
+    def at(self, times: Array) -> Bends:
+        """Return how the joints turn at instants (t,)."""
         found = self.spline(times)
-        value = found[:, : self.joints] + 1j * found[:, self.joints :]
-        return 2.0 * np.arctan(np.sqrt(np.abs(value))), 0.5 * np.angle(value)
+        whole = found[..., 0] + 1j * found[..., 1]
+        value, own = whole[:, 0], whole[:, 1:]
+        phase = 0.5 * np.angle(value)
+        return Bends(
+            joint_angle=2.0 * np.arctan(np.sqrt(np.abs(value))),
+            phase=phase,
+            sums=flat_sums(own * _turn(own, -phase)) if own.shape[1] else None,
+        )
+
+    def one(self, time: float) -> Bends:
+        """Return how they turn at one instant, without axis of time."""
+        found = self.at(np.asarray([time]))
+        sums = found["sums"]
+        return Bends(
+            joint_angle=found["joint_angle"][0], phase=found["phase"][0], sums=None if sums is None else sums[0]
+        )
+
+
+def _turn(own: Array, phase: Array) -> Array:
+    """Return e^(ikψ) beside the sums (t, K, n) of joints at phases (t, n), array (t, K, n)."""
+    found: Array = np.exp(1j * np.arange(own.shape[-2])[:, None] * phase[:, None])
+    return found
 
 
 def _plane(points: Array) -> Array:

@@ -11,8 +11,8 @@ from cardan.drive.drive import Drive
 from cardan.drive.models.geometry import geometry
 from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import peak
-from cardan.questions.motion.motion import initial_phases
-from cardan.questions.motion.standing import chain_at
+from cardan.questions.motion.standing import given_at
+from cardan.questions.torsion.model.joint_bends import Bends, bends
 from cardan.questions.torsion.model.side_bands import side_waves
 from cardan.questions.torsion.model.torsional_balance import element_torques
 from cardan.questions.torsion.model.torsional_layouts import period_of
@@ -92,25 +92,23 @@ class Standing:
         self.drive, self.model, self.slow, self.loose, self.speed = drive, model, slow, loose, speed
         self.base = np.asarray(geometry(drive).points)
 
-    def turned(self, points: Array, start: Array | float = 0.0) -> tuple[Array, Array, Array]:
-        """Return joint angles and phases of the joints at places of the points (t, n+2, 3), arrays (t, n) [rad].
+    def turned(self, points: Array, start: Array | float = 0.0) -> tuple[Bends, Array]:
+        """Return how the joints turn at places of the points (t, n+2, 3), and where (t,) all can bend so.
 
-        start (t,) [rad]: by how much the first yoke is ahead of where it starts as drawn. The third array (t,) tells
-        where all joints turn.
+        start (t,) [rad]: by how much the first yoke is ahead of where it starts as drawn.
         """
-        chain, possible = chain_at(self.drive, points)
-        chain = replace(chain, start_phase=chain.start_phase + start, laws=None)
-        return np.asarray(chain.joint_angle), np.asarray(initial_phases(chain)), possible
+        chain, possible = given_at(self.drive, points)
+        return bends(self.drive.joints, replace(chain, start_phase=chain.start_phase + start)), possible
 
     def at(self, points: Array) -> Places:
         """Return the vibration at places of the points (t, n+2, 3) [m], all of the same share."""
-        joint_angle, phase, possible = self.turned(points)
+        turns, possible = self.turned(points)
         count = len(points)
         speeds = np.full(count, self.speed)
-        found = floquet_map(replace(self.model, joint_angle=joint_angle, phase=phase), speed=speeds)
+        found = floquet_map(replace(self.model, **turns), speed=speeds)
         verdict = found.floquet
         if self.slow is not None:
-            verdict = floquet_map(replace(self.slow, joint_angle=joint_angle, phase=phase), speed=speeds).floquet
+            verdict = floquet_map(replace(self.slow, **turns), speed=speeds).floquet
         known = possible & (found.floquet.verdict != Verdict.UNKNOWN)
         parts = [self._read(found.orbit, rows) for rows in _chunks(count)]
         mean, low, high, reversals, amplitude = (np.concatenate(each) for each in zip(*parts, strict=True))
@@ -121,7 +119,7 @@ class Standing:
         return Places(
             share=np.full(count, 1.0 / count),
             points=points,
-            joint_angle=joint_angle,
+            joint_angle=turns["joint_angle"],
             low=held(low),
             high=held(high),
             mean=held(mean),

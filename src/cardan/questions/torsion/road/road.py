@@ -8,7 +8,7 @@ time, see `in_time`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -27,6 +27,7 @@ from cardan.questions.motion.moving_points import default_times, moving_points, 
 from cardan.questions.motion.random_motion import SURE
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
+from cardan.questions.torsion.model.torsional_modes import joint_orders
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
 from cardan.questions.torsion.steady.several import stable_motions, widened
 from cardan.questions.torsion.steady.steady import steady_orbits
@@ -276,7 +277,8 @@ def road_torsion(drive: Drive, *, progress: Progress | None = None) -> RoadTorsi
         places = standing.at(moving_points(standing.base, drive.movements, times)[0])
         places = replace(places, times=times, share=_shares(times))
         span, periodic = float(times[-1] - times[0]), all(isinstance(one, Oscillation) for one in drive.movements)
-    orders = (2.0, 4.0) if np.nanmax(places.joint_angle) > STEEP else (2.0,)
+    orders = {2.0, 4.0} if np.nanmax(places.joint_angle) > STEEP else {2.0}
+    orders |= {order for order in joint_orders(modes.train.model) if order <= max(orders)}
     lag = _lag(modes, speed, max(map(_rate, drive.movements)), orders)
     found = RoadTorsion(
         train=train,
@@ -342,9 +344,9 @@ def _with_play(found: RoadTorsion, standing: Standing, loose: TorsionalModel) ->
         return found
     rows = rows[np.argsort(-np.max(places.largest[rows][:, line], axis=-1), kind="stable")]
     rows = rows[np.unique(np.linspace(0, len(rows) - 1, OPENED).round().astype(int))]
-    joint_angle, phase, _turns = standing.turned(places.points[rows])
+    turns, _possible = standing.turned(places.points[rows])
     speeds = np.full(len(rows), found.speed)
-    motions = steady_orbits(replace(loose, joint_angle=joint_angle, phase=phase), speed=speeds)
+    motions = steady_orbits(replace(loose, **turns), speed=speeds)
     orbit, _status, beside = stable_motions(*motions)
     torque = read_off(orbit, 1)
     low, high = widened(torque.lowest, torque.highest, beside)
@@ -373,7 +375,7 @@ def _at_random(standing: Standing, random: Sequence[Random]) -> tuple[Places, Ch
     def torques(places: Array) -> Array:
         points = standing.base + np.tensordot(places, shifts, axes=1)
         inside = frames.norm(places) <= SURE
-        if not np.all(standing.turned(points)[2] | ~inside):
+        if not np.all(standing.turned(points)[1] | ~inside):
             text = _("a joint bends 90° or more within {count} standard deviations of the random movements")
             raise refuse("movements", text.format(count=f"{SURE:.0f}"))
         found = standing.at(points)
@@ -405,10 +407,10 @@ def _rate(movement: Movement) -> float:
     return float(movement.frequency) if isinstance(movement, Oscillation) else 0.0
 
 
-def _lag(modes: TorsionModes, speed: float, rate: float, orders: Sequence[float]) -> Lag:
+def _lag(modes: TorsionModes, speed: float, rate: float, orders: Iterable[float]) -> Lag:
     """Return the mode that stays behind most; orders: of the joints."""
     decay = modes.damping_ratio * modes.omega
-    apart = np.min(np.abs(np.asarray(orders)[:, None] * abs(speed) - modes.omega), axis=0)
+    apart = np.min([np.abs(order * abs(speed) - modes.omega) for order in orders], axis=0)
     rest = np.hypot(decay, apart)
     k = int(np.argmin(rest))
     return Lag(mode=k + 1, rate=rate, rest=float(rest[k]), decay=float(decay[k]))

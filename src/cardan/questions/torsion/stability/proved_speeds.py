@@ -19,6 +19,7 @@ from cardan.maths.periodic.switching_orbit import Shooting
 from cardan.questions.torsion.model.torsional_layouts import Turning, leading, period_of
 from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
+from cardan.questions.torsion.model.torsional_modes import base_order
 from cardan.questions.torsion.steady.orbit import straight_frequencies, straight_stiffness
 from cardan.questions.torsion.steady.run_stability import (
     Floquet,
@@ -224,7 +225,7 @@ def _described(drive: _Drive, proof: Proof, looked: tuple[float, float], sense: 
         worst=worst,
         growth_rate=np.take_along_axis(growth, best, axis=-1)[:, 0],
         kind=kinds,
-        zone=nearest_zone(np.repeat(drive.frequencies, len(worst), axis=0), worst, kinds),
+        zone=nearest_zone(np.repeat(drive.frequencies, len(worst), axis=0), worst, kinds, drive.base),
         unproved=proof.unproved,
         open=proof.unsampled,
         unsettled=proof.unfinished,
@@ -255,7 +256,7 @@ class _Drive:
         model = self.model(here)
         one = some_of(replace(model, input_speed=None if model.free else here), (1,), np.zeros(1, dtype=int))
         self.free, self.period = model.free, period_of(model)
-        self.harmonics = harmonics_for(model, self.period)
+        self.harmonics, self.base = harmonics_for(model, self.period), base_order(model)
         self.rough = False  # whether all motions seen last take more harmonics
         self.heavy = heavy_of(one)
         how = chosen_method(method, np, large=True)

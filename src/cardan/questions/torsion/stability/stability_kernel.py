@@ -55,7 +55,7 @@ class Mapped:
 
 
 def fits(model: TorsionalModel, speed: Array) -> bool:
-    """Tell whether the kernel can take drives: all one way, without backlash, alike in what has no inertia."""
+    """Tell whether the kernel can take drives: all one way, no backlash, cross joints, alike in what has no inertia."""
     heavy = _inertia(model) > 0.0
     alike = np.all(heavy == heavy.reshape(-1, heavy.shape[-1])[:1])
     return (
@@ -63,6 +63,7 @@ def fits(model: TorsionalModel, speed: Array) -> bool:
         and bool(alike)
         and bool(np.all(speed > 0.0) or np.all(speed < 0.0))
         and not np.any(model.backlash > 0.0)
+        and model.sums is None
         and all(type(torque.law) in KINDS for torque in model.torques)
     )
 
@@ -279,6 +280,10 @@ def harmonics_for(model: TorsionalModel, period: float) -> int:
     """Return how many harmonics of the period the motion of drives needs, from their bends."""
     tau = float(np.tan(0.5 * np.max(model.joint_angle, initial=0.0)) ** 2)
     wanted = math.ceil(math.log(TAIL) / math.log(max(tau, 1e-9)))
+    own = model.own_laws
+    if own is not None:
+        orders = np.arange(own.shape[-2])[:, None]
+        wanted = max(wanted, math.ceil(0.5 * float(np.max(orders * (np.abs(own) > TAIL)))))
     return min(max(wanted, 5), 10) * round(period / np.pi)
 
 

@@ -12,10 +12,10 @@ from cardan.drive.conditions import held_speeds, used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.paths import place, read, with_values
-from cardan.drive.models.kinematics_model import given_chain, turning
+from cardan.drive.models.kinematics_model import given_chain
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.questions.motion.motion import initial_phases
+from cardan.questions.torsion.model.joint_bends import bends
 from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained, torsional_train
@@ -343,10 +343,8 @@ def _joint_angle_problems(drive: Drive, values: Array) -> Iterator[Problem]:
 def _bent(drive: Drive, model: TorsionalModel, largest: float) -> TorsionalModel:
     """Return a model whose most bent joint bends so much [rad], the others in proportion, its yokes as they are."""
     whole = given_chain(drive)
-    joint_angles = turning(
-        replace(whole, joint_angle=whole.joint_angle * (largest / np.max(whole.joint_angle))), drive.joints, near=True
-    )
-    return replace(model, joint_angle=joint_angles.joint_angle, phase=initial_phases(replace(joint_angles, laws=None)))
+    bent = replace(whole, joint_angle=whole.joint_angle * (largest / np.max(whole.joint_angle)))
+    return replace(model, **bends(drive.joints, bent))
 
 
 class _Variants:

@@ -21,6 +21,7 @@ from cardan.questions.motion.turning import each_shaft
 from cardan.questions.torsion.model.answer import assumptions, left_out, ranges
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.excitation import engine_torque
+from cardan.questions.torsion.model.torsional_modes import main_order
 from cardan.texts import _, mark, plural
 
 from .figure import response_figures
@@ -299,7 +300,8 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
         text = _("Beside the torques of the duty the input needs {torque} to keep its speed.")
         yield Remark(text=say(text, torque=_torque(float(steady.drive_torque.mean[0]), 4)))
     if np.any(found.train.model.loss_factor):
-        yield Remark(text=_("Structural damping counts as viscous, equal at order 2 of the speed."))
+        text = _("Structural damping counts as viscous, equal at order {order} of the speed.")
+        yield Remark(text=say(text, order=_order(main_order(found.train.model))))
     yield from assumptions(found.train)
     yield from left_out(drive)
     yield from yokes_estimated(drive)

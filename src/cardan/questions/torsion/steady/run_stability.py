@@ -15,6 +15,7 @@ from cardan.maths.periodic.switching_orbit import periodic_pieces
 from cardan.questions.torsion.model.torsional_balance import slopes
 from cardan.questions.torsion.model.torsional_layouts import Turning
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
+from cardan.questions.torsion.model.torsional_modes import base_order
 from cardan.texts import _
 
 from .orbit import Backlashed, Orbit, straight_frequencies, straight_stiffness
@@ -24,7 +25,10 @@ NEUTRAL = 1e-7
 """A multiplier this close to modulus 1 neither grows nor dies out."""
 
 ZONES = 4
-"""Zones that are named: m = 1 … 4."""
+"""Zones that are named: m = 1 … 4, twice as many where joints swing once a turn."""
+
+SECOND = 4.0
+"""Highest order of the joints whose zones count where nothing grows."""
 
 
 class Verdict(IntEnum):
@@ -61,7 +65,7 @@ class Zone:
     modes: Array
     sign: Array  # (...) of int: 1 for the sum of their frequencies, -1 for the difference
     multiple: Array  # (...) of int: m: number of the zone, the principal one is 1
-    speed: Array  # (...) [rad/s]: (ω_i ± ω_j)/(2m)
+    speed: Array  # (...) [rad/s]: (ω_i ± ω_j)/(2m), or (ω_i ± ω_j)/m where joints swing once a turn
 
     def name(self, index: tuple[int, ...] = ()) -> str:
         """Return the name of one of the zones."""
@@ -168,7 +172,17 @@ def floquet(response: SteadyResponse | Orbit) -> Floquet:
         multipliers[rows], removed[rows], residual[rows] = values, gone, missed
     frequencies = frequencies[:, 1:] if orbit.model.free else frequencies
     return shaped(
-        judged(multipliers, removed, residual, frequencies, orbit.speed.reshape(-1), orbit.period, there), angle_error
+        judged(
+            multipliers,
+            removed,
+            residual,
+            frequencies,
+            orbit.speed.reshape(-1),
+            orbit.period,
+            there,
+            base=base_order(orbit.model),
+        ),
+        angle_error,
     )
 
 
@@ -181,8 +195,12 @@ def judged(
     period: float,
     there: Array,
     neutral: float = NEUTRAL,
+    base: float = 2.0,
 ) -> Floquet:
-    """Return what multipliers (b, m) of drives say, known to ``neutral``, where a motion is there; see `Floquet`."""
+    """Return what multipliers (b, m) of drives say, known to ``neutral``, where a motion is there; see `Floquet`.
+
+    base: order of which those of the joints are multiples.
+    """
     first = multipliers[:, 0] if multipliers.shape[-1] else np.zeros(len(multipliers), dtype=complex)
     first = np.where(there, np.where(np.isfinite(first), first, 0.0), np.nan)
     radius, omega = np.abs(first), np.abs(speed)
@@ -201,7 +219,7 @@ def judged(
         verdict=verdict,
         kind=kind,
         order=np.abs(np.angle(first)) / period,
-        zone=nearest_zone(frequencies, omega, wanted),
+        zone=nearest_zone(frequencies, omega, wanted, base),
         determinant_residual=residual,
     )
 
@@ -217,27 +235,28 @@ def shaped(found: Floquet, outer: tuple[int, ...]) -> Floquet:
     return Floquet(zone=zone, period=found.period, **{name: whole(values) for name, values in rest.items()})
 
 
-def nearest_zone(frequencies: Array, speed: Array, kind: Array) -> Zone:
+def nearest_zone(frequencies: Array, speed: Array, kind: Array, base: float = 2.0) -> Zone:
     """Return the zone of parametric resonance nearest to each speed.
 
     frequencies (b, n) [rad/s]: natural ones of the straight drives; speed (b,) [rad/s].
     kind (b,) of int: `Kind` of the disturbance that grows: zones of one mode or combinations of two; -1 where none
-    does, for zones of one mode and sums of two, none higher than the second.
-    Joints swing twice a turn: Ω = (ω_i ± ω_j)/(2m), i = j with the sum alone.
+    does, for zones of one mode and sums of two, none higher than that at which order `SECOND` stirs them.
+    base: order ν of which those of the joints are multiples, 2 of cross joints: Ω = (ω_i ± ω_j)/(mν), i = j with the
+    sum alone.
     """
     count, rows = frequencies.shape[-1], np.arange(len(speed))
     pairs = [(i, j, 1) for i in range(count) for j in range(i, count)]
     pairs += [(i, j, -1) for i in range(count) for j in range(i + 1, count)]
-    choices = [(i, j, sign, m) for i, j, sign in pairs for m in range(1, ZONES + 1)]
+    choices = [(i, j, sign, m) for i, j, sign in pairs for m in range(1, round(2.0 * ZONES / base) + 1)]
     if not choices:
         nothing = np.zeros(len(speed), dtype=int)
         modes = np.zeros((len(speed), 2), dtype=int)
         return Zone(modes=modes, sign=nothing, multiple=nothing, speed=np.full(len(speed), np.nan))
     table = np.asarray(choices)
     i, j, sign, m = table.T
-    where = np.abs(frequencies[:, i] + sign * frequencies[:, j]) / (2.0 * m)
+    where = np.abs(frequencies[:, i] + sign * frequencies[:, j]) / (base * m)
     grows = (kind == Kind.COMBINATION)[:, None] == (i != j)
-    fitting = np.where((kind < 0)[:, None], (sign > 0) & (m <= 2), grows)
+    fitting = np.where((kind < 0)[:, None], (sign > 0) & (base * m <= SECOND), grows)
     far = np.where(fitting, np.abs(where - speed[:, None]), np.inf)
     best = np.argmin(far, axis=-1)
     none = ~np.isfinite(far[rows, best])

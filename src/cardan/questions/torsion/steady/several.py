@@ -61,8 +61,8 @@ def stable_motions(orbit: Orbit, status: Array) -> tuple[Orbit, Array, tuple[Bes
     Of several stable motions one counts, by one rule for all: of those that a slow run-up or run-down leads to
     (`cardan.questions.torsion.steady.settling`) the one with the largest swing of the torque. It is the motion that is
     told where it repeats with every period; else it runs beside one of one period, see `widened`. Others take a blow or
-    an abrupt start: they stand beside it. Where neither leads to one that was found, or springs have tables, which
-    fixed steps do not follow, the largest of one period counts.
+    an abrupt start: they stand beside it. Where neither leads to one that was found, or fixed steps do not follow the
+    drive (`TorsionalModel.steppable`), the largest of one period counts.
     """
     rows = np.flatnonzero(_several(orbit, status))
     coefficient = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])
@@ -91,7 +91,7 @@ def _counted(
 ) -> tuple[Orbit | None, list[Beside]]:
     """Return the motion of one period that is told, and what else is stable beside it, with what runs."""
     part = orbit.turning.part(np.asarray([row]))
-    if len(motions) > 1 and not (part.model.special or any(one.reached for one in runs)):
+    if len(motions) > 1 and part.model.steppable and not any(one.reached for one in runs):
         runs = [*ramped(part), *runs]
     waves = [one.wave for one in runs if one.reached and one.periods == 1]
     once = []
@@ -175,7 +175,7 @@ def _searched(orbit: Orbit, rows: Array) -> Iterator[tuple[int, list[Run]]]:
     """Yield rows with where searches led that began with other swings."""
     turning = orbit.turning
     loose = np.any(np.broadcast_to(orbit.model.backlash, (*orbit.angle_error, len(orbit.model.elements))) > 0.0, -1)
-    open_ = [int(row) for row in rows if loose.reshape(-1)[row] and not orbit.model.special]
+    open_ = [int(row) for row in rows if loose.reshape(-1)[row] and orbit.model.steppable]
     for row in open_:
         part = turning.part(np.asarray([row]))
         runs = settled(part, _starts(orbit, row))

@@ -17,11 +17,11 @@ from cardan.maths.periodic.harmonics import HarmonicBalance
 from cardan.maths.periodic.switching_orbit import Shooting
 from cardan.questions.torsion.model.inputs import Swinging, base_period
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
-from cardan.questions.torsion.model.torsional_modes import straight_modes, straight_waves
+from cardan.questions.torsion.model.torsional_modes import base_order, main_order, straight_modes, straight_waves
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_time, torsional_train
 from cardan.texts import _
 
-from .run_stability import Floquet, floquet, nearest_zone
+from .run_stability import SECOND, Floquet, floquet, nearest_zone
 from .several import Beside, stable_motions, widened
 from .steady import described, steady_orbits
 from .steady_result import SteadyResponse
@@ -243,8 +243,8 @@ def loaded_model(
 ) -> tuple[TorsionalTrain, TorsionalModel]:
     """Return the model of a drive under its duty at input speeds, one or (s,), and the train of the first of them.
 
-    Structural damping counts as viscous, equal at order 2; for disturbances at that of the zone of parametric resonance
-    nearest to the speed, at which they vibrate.
+    Structural damping counts as viscous, equal at the order at which the joints swing most, 2 of cross joints; for
+    disturbances at that of the zone of parametric resonance nearest to the speed, at which they vibrate.
     """
     check(_timed(duty))
     flat = speeds.reshape(-1)
@@ -263,15 +263,17 @@ def loaded_model(
         raise refuse("shafts[0].stiffness", text)
     if not model.free:
         model = replace(model, input_speed=speeds)
-    return train, in_time(model, (zone_order(train.model, speeds) if disturbed else 2.0) * np.abs(speeds))
+    order = zone_order(train.model, speeds) if disturbed else main_order(model)
+    return train, in_time(model, order * np.abs(speeds))
 
 
 def zone_order(model: TorsionalModel, speeds: Array) -> Array:
     """Return the order at which disturbances vibrate in the nearest zone of one mode or a sum of two, as the speeds."""
     flat = np.abs(speeds.reshape(-1))
     omega = straight_modes(replace(model, torques=())).omega
-    zone = nearest_zone(np.broadcast_to(omega, (len(flat), len(omega))), flat, np.full(len(flat), -1))
-    return np.where(np.isfinite(zone.speed), zone.multiple, 2.0).reshape(speeds.shape)
+    base = base_order(model)
+    zone = nearest_zone(np.broadcast_to(omega, (len(flat), len(omega))), flat, np.full(len(flat), -1), base)
+    return np.where(np.isfinite(zone.speed), 0.5 * base * zone.multiple, 2.0).reshape(speeds.shape)
 
 
 def order_jumps(model: TorsionalModel) -> Array:
@@ -280,8 +282,9 @@ def order_jumps(model: TorsionalModel) -> Array:
         return np.zeros(0)
     omega = straight_modes(replace(model, torques=())).omega
     i, j = np.triu_indices(len(omega))
-    multiple = np.repeat([1.0, 2.0], len(i))
-    where = np.tile(omega[i] + omega[j], 2) / (2.0 * multiple)
+    orders = base_order(model) * np.arange(1.0, SECOND / base_order(model) + 1.0)
+    multiple = np.repeat(orders, len(i))
+    where = np.tile(omega[i] + omega[j], len(orders)) / multiple
     order = np.argsort(where)
     where, multiple = where[order], multiple[order]
     found: Array = 0.5 * (where[1:] + where[:-1])[multiple[1:] != multiple[:-1]]

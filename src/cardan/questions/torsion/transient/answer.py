@@ -15,6 +15,7 @@ from cardan.drive.yokes import yokes_estimated
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.torsion.model.answer import assumptions, left_out
+from cardan.questions.torsion.model.torsional_modes import main_order
 from cardan.texts import _
 
 from .figure import transient_figures
@@ -162,7 +163,8 @@ def remarks(found: Transient) -> Iterator[Remark]:
         yield Remark(text=text)
     yield from _pendulums(found)
     if np.any(found.train.model.loss_factor):
-        yield Remark(text=_("Structural damping counts as viscous, equal at order 2 of the highest speed."))
+        text = _("Structural damping counts as viscous, equal at order {order} of the highest speed.")
+        yield Remark(text=say(text, order=Quantity(main_order(found.train.model), trim=True)))
     yield from assumptions(found.train, wide=True)
     yield _checked(found)
 

@@ -62,7 +62,7 @@ def follow(drive: Drive, course: RunUp, *, progress: Callable[[float], object] |
     top = max(abs(course.start), abs(course.end))
     fastest = max(float(np.max(modes.omega, initial=0.0)), ORDER * top)
     steps = (1.0 + AFTER) * course.duration * fastest / (2.0 * math.pi) * each
-    free = bool(modes.train.pendulums or modes.train.springs)
+    free = bool(modes.train.pendulums or modes.train.springs or modes.train.model.sums is not None)
     if steps > (MOST_FREE if free else MOST):
         return FollowedRunUp(course=course, modes=modes, steps=steps, motion=None)
     samples = int(min(max(ACROSS * 2.0 * top / (2.0 * math.pi) * course.duration, SAMPLES[0]), SAMPLES[1]))

@@ -358,7 +358,7 @@ ORDERS = 4.0
 """Order of the shaft up to which joints excite a drive noticeably."""
 
 PLACES = 8
-"""Positions of half a turn at which a drive is looked at."""
+"""Positions of half a turn at which a drive is looked at; of a turn where joints have laws of their own."""
 
 
 def own_rates(
@@ -389,7 +389,9 @@ def own_rates(
 
 def _turns(model: TorsionalModel, q: Array, rate: Array, time: float) -> Slopes:
     """Return drives linearised over half a turn, all elements in contact."""
-    places = q[..., None, :] + np.linspace(0.0, math.pi, PLACES, endpoint=False)[:, None]
+    half_turns = 1 if model.sums is None else 2
+    turn = np.linspace(0.0, half_turns * math.pi, half_turns * PLACES, endpoint=False)
+    places = q[..., None, :] + turn[:, None]
     rates = np.broadcast_to(rate[..., None, :], places.shape)
     touching = replace(held(model, np.ones(len(model.elements))), rest=None)
     return linearised(touching, places, rates, np.zeros_like(places), np.full(places.shape[:-1], time))[1]

@@ -16,7 +16,7 @@ from cardan.maths.arrays import Array, ArrayLike
 from cardan.questions.torsion.model.inputs import Constant, History, Law, SpeedCourse, SpeedTable, Swinging
 from cardan.questions.torsion.model.torsional_balance import gathered, places
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
-from cardan.questions.torsion.model.torsional_modes import straight_modes
+from cardan.questions.torsion.model.torsional_modes import main_order, straight_modes
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_full, in_time, torsional_train
 from cardan.questions.torsion.steady.steady import periodic_response
 from cardan.questions.torsion.steady.torsion_response import parted
@@ -144,8 +144,8 @@ def transient(
     Notes
     -----
     Exact equations of motion, see `transient.simulate`, pendulums with an angle of their own and their stops;
-    structural damping counts as viscous, equal at order 2 of the highest speed. Where nothing drives a free input, a
-    constant torque does that equals what resists at the start.
+    structural damping counts as viscous, equal at the order of the highest speed at which the joints swing most, 2 of
+    cross joints. Where nothing drives a free input, a constant torque does that equals what resists at the start.
 
     Examples
     --------
@@ -163,7 +163,7 @@ def transient(
     if not train.model.elements:
         text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")
         raise refuse("shafts[0].stiffness", text)
-    model = in_time(in_full(train, fastest), 2.0 * abs(fastest or 1.0))
+    model = in_time(in_full(train, fastest), main_order(train.model) * abs(fastest or 1.0))
     if not model.free and chosen.run_up is not None:
         course = SpeedCourse(times=(0.0, chosen.run_up.duration), speeds=(chosen.run_up.start, chosen.run_up.end))
         model = replace(model, input_speed=None, input_motion=course)
@@ -173,7 +173,8 @@ def transient(
     rate: Array = np.asarray(first)
     if start == "settled":
         check(_unsettled(chosen, model))
-        small = model if not train.pendulums else in_time(train.model, 2.0 * abs(fastest or 1.0))
+        swing = main_order(train.model) * abs(fastest or 1.0)
+        small = model if not train.pendulums else in_time(train.model, swing)
         steady = periodic_response(small, speed=first)
         if not bool(steady.found):
             raise refuse("start", _("no steady motion was found to start from; start uniform"))
@@ -256,7 +257,7 @@ def event_torque(drive: Drive, event: Event) -> tuple[Array, tuple[int, ...]]:
         found = transient(closed, span=span, times=count, start="settled", step=law).motion
         return found.torque, tuple(train.model.shaft[a] for a, _b in train.model.elements)
     train = torsional_train(closed, replace(duty, input="uniform", engine=None, motor=None), speed=speed)
-    model = in_time(in_full(train, speed), 2.0 * abs(speed))
+    model = in_time(in_full(train, speed), main_order(train.model) * abs(speed))
     band, sense = SLIP * abs(speed), np.sign(speed)
     torques, resisting = [], 0.0
     for one in model.torques:
@@ -407,7 +408,7 @@ def _steps(model: TorsionalModel) -> Method:
     """Return steps of one length, compiled, where a drive without play bears them."""
     free = np.arange(model.coordinates)[0 if model.free else 1 :]
     light = np.any(gathered(model, model.inertia)[free] == 0.0)
-    return Adaptive() if model.hinges or model.special or light else FixedStep(per_period=PEAKS)
+    return Adaptive() if light or not model.steppable else FixedStep(per_period=PEAKS)
 
 
 def _span(duty: Duty, model: TorsionalModel, fastest: float) -> float:
