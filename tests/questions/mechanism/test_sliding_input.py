@@ -135,7 +135,7 @@ def test_answers_tell_what_slides_in_its_own_units():
 def test_loops_are_followed_over_the_stroke_and_an_end_is_told():
     over = mobility_over_turn(BOOM)
     assert over.turns
-    assert (over.angle[0], over.angle[-1]) == pytest.approx((0.0, 0.3))
+    assert (over.position[0], over.position[-1]) == pytest.approx((0.0, 0.3))
     assert set(over.mobility) == {1}
     assert set(over.redundant) == {0}
     r, rod = 0.05, np.hypot(0.17, 0.04)
@@ -143,7 +143,7 @@ def test_loops_are_followed_over_the_stroke_and_an_end_is_told():
     found = turned(made)
     assert found.end == pytest.approx(rod - r - 0.2, abs=1e-6)
     assert not found.positions.turns
-    assert found.positions.angle[found.positions.reached].min() == pytest.approx(found.end, abs=5e-3)
+    assert found.positions.position[found.positions.reached].min() == pytest.approx(found.end, abs=5e-3)
     said = answer(made, mobility(made), found)
     assert "reaches an end" in str(said.remarks)
     assert len(said.figures()) == 3

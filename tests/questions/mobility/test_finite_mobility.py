@@ -95,7 +95,7 @@ def test_the_mechanism_moves_along():
 def test_it_can_be_stopped():
     found = finite_mobility(hooke(), driven_joint="A", angle=1.0, steps=10, progress=lambda share: "stop")
     assert found.cancelled
-    assert len(found.angle) == len(found.residual) == 2
+    assert len(found.position) == len(found.residual) == 2
 
 
 @pytest.mark.parametrize(

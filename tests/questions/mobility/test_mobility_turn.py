@@ -36,4 +36,4 @@ def test_it_can_be_stopped_in_both_halves():
     )
     assert early.cancelled
     assert late.cancelled
-    assert len(early.angle) < len(late.angle) < 6
+    assert len(early.position) < len(late.position) < 6

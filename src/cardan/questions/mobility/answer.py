@@ -87,7 +87,7 @@ def turned(thing: Drive | Mechanism, progress: Callable[[float], object] | None 
         return Turned(positions=positions)
     if positions.whole:
         return Turned(positions=positions, closure=finite_mobility(thing, progress=half(0.5)))
-    first = float(positions.angle[~positions.reached][np.argmin(np.abs(positions.angle[~positions.reached]))])
+    first = float(positions.position[~positions.reached][np.argmin(np.abs(positions.position[~positions.reached]))])
     low, high = travel(thing)
     asked = high if first > 0.0 else low
     closure = finite_mobility(thing, angle=asked, progress=half(0.5))
@@ -303,7 +303,7 @@ def _turned(around: Turned | None) -> Iterator[Remark]:
             text,
             end=_place(over, around.end or 0.0),
             **_range(over),
-            angle=_place(over, closure.angle[worst]),
+            angle=_place(over, closure.position[worst]),
             gap=Quantity(gap, "length", 3),
             turn=Quantity(turn, "angle", 3),
         )
@@ -328,7 +328,7 @@ def _turned(around: Turned | None) -> Iterator[Remark]:
 
 
 def _range(over: MobilityTurn) -> dict[str, Any]:
-    low, high = (_place(over, one) for one in (over.angle[0], over.angle[-1]))
+    low, high = (_place(over, one) for one in (over.position[0], over.position[-1]))
     return {} if over.whole else {"low": low, "high": high}
 
 
@@ -449,7 +449,7 @@ def _facts(
             "turns_through": over.turns,
             "redundant_everywhere": over.structural,
             "special": Quantity(np.asarray(over.special), "length" if over.slides else "angle"),
-            "path" if over.slides else "angle": Quantity(over.angle, "length" if over.slides else "angle"),
+            "path" if over.slides else "angle": Quantity(over.position, "length" if over.slides else "angle"),
             "mobility": over.mobility,
             "redundant": over.redundant,
             "residual": over.residual,

@@ -269,7 +269,7 @@ def _double(middle: Array, way: Array, label: str, role: str, dash: str) -> Iter
 def turn_figures(found: MobilityTurn) -> tuple[Figure, ...]:
     """Return the figure of mobility and redundant constraints over a turn."""
     size = mm if found.slides else deg
-    angle = np.asarray(found.angle) / size
+    angle = np.asarray(found.position) / size
     top = int(max(np.max(found.redundant), np.max(found.mobility), 1))
     ticks = steps(0.0, float(top), min(top, 6))
     upright = Axis(
@@ -311,7 +311,7 @@ def _turn_sentence(found: MobilityTurn) -> Say | str:
 def closure_figures(found: FiniteMobility) -> tuple[Figure, ...]:
     """Return the figure of what keeps the loops from closing."""
     slides = found.slides
-    angle = np.asarray(found.angle) / (mm if slides else deg)
+    angle = np.asarray(found.position) / (mm if slides else deg)
     gap, turn = np.asarray(found.gap) / mm, np.asarray(found.turn) / deg
     named = (_("input path"), "mm", "length") if slides else (_("input angle"), "deg", "angle")
     across = axis(*named[:2], [angle], dimension=named[2], count=8, margin=0.0)

@@ -50,7 +50,7 @@ class FiniteMobility:
     ----------
     mechanism : Mechanism
         What was looked at.
-    angle : array (p,) [rad]
+    position : array (p,) [rad]
         How far the joint is driven, the start included; [m] where it slides.
     residual : array (p,)
         What keeps the loops from closing: root of the sum of squares of gaps [m] and turns [rad] at all cut joints.
@@ -69,7 +69,7 @@ class FiniteMobility:
     """
 
     mechanism: Mechanism
-    angle: Array
+    position: Array
     residual: Array
     gap: Array
     turn: Array
@@ -177,7 +177,7 @@ def finite_mobility(
     residual, gap, turn, displacement = (np.asarray(column) for column in zip(*rows, strict=True))
     return FiniteMobility(
         mechanism=mechanism,
-        angle=along[: len(rows)],
+        position=along[: len(rows)],
         residual=residual,
         gap=gap,
         turn=turn,
@@ -196,7 +196,7 @@ def _rolled(mechanism: Mechanism, driven: int, along: Array, tolerance: float) -
     gap, turn = np.max(found.misfit, axis=1).T
     return FiniteMobility(
         mechanism=mechanism,
-        angle=along,
+        position=along,
         residual=np.hypot(gap, turn),
         gap=gap,
         turn=turn,
@@ -473,7 +473,7 @@ class MobilityTurn:
 
     Attributes
     ----------
-    angle : array (p,) [rad]
+    position : array (p,) [rad]
         How far the input is turned; [m] where it slides.
     mobility, redundant : arrays of int (p,)
         W and q there.
@@ -487,7 +487,7 @@ class MobilityTurn:
         Whether the input slides; whether it is asked all round.
     """
 
-    angle: Array
+    position: Array
     mobility: Array
     redundant: Array
     certain: Array
@@ -513,8 +513,8 @@ class MobilityTurn:
 
     @property
     def special(self) -> Array:
-        """Angles of positions with more of them, or next to one with more, array [rad]."""
-        return self.angle[self.reached & ((self.redundant > self.structural) | ~self.certain)]
+        """Positions with more of them, or next to one with more, array [rad, m where it slides]."""
+        return self.position[self.reached & ((self.redundant > self.structural) | ~self.certain)]
 
 
 def mobility_over_turn(
@@ -539,7 +539,7 @@ def mobility_over_turn(
     Returns
     -------
     MobilityTurn
-        angle, mobility, redundant : arrays (p,)
+        position, mobility, redundant : arrays (p,)
 
     Raises
     ------
@@ -590,7 +590,7 @@ def _over_range(
         per = math.ceil(_count(end, None, _step(mechanism, driven)) / (places - 1))
         name = mechanism.joints[driven].id
         moved = finite_mobility(mechanism, driven_joint=name, angle=end, steps=per * (places - 1), progress=progress)
-        found = _counted(moved.angle[::per], partial(_moved, moved, per), moved.residual[::per], None)
+        found = _counted(moved.position[::per], partial(_moved, moved, per), moved.residual[::per], None)
         told.append(replace(found, cancelled=moved.cancelled, slides=mechanism.slides, whole=False))
         if moved.cancelled:
             break
@@ -609,7 +609,7 @@ def _joined(down: MobilityTurn, up: MobilityTurn) -> MobilityTurn:
 
     return replace(
         up,
-        angle=both(down.angle, up.angle),
+        position=both(down.position, up.position),
         mobility=both(down.mobility, up.mobility),
         redundant=both(down.redundant, up.redundant),
         certain=both(down.certain, up.certain),
@@ -631,7 +631,7 @@ def _counted(
             break
     mobility, redundant, certain = (np.asarray(column) for column in zip(*rows, strict=True))
     return MobilityTurn(
-        angle=along[: len(rows)],
+        position=along[: len(rows)],
         mobility=mobility,
         redundant=redundant,
         certain=certain,
