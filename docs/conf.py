@@ -16,7 +16,7 @@ copyright = author
 version = release = cardan.__version__
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "mathtext", "site_pages"]
-exclude_patterns = ["_build", "extensions", "paper", "pictures", "reference/generated"]
+exclude_patterns = ["_build", "extensions", "paper", "pictures", "reference/generated/*.md"]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 nitpicky = False
 language = "en"

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import inspect
 import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import joint_pages
+import name_pages
 
 import cardan
 from cardan.units import DIMENSIONS
@@ -23,7 +23,7 @@ def write(folder: Path) -> None:
         "mechanisms.md": mechanisms(),
         "units.md": units(),
         "commands.md": commands(),
-        "names.md": names(),
+        "formulas.md": formulas(),
         "checks.md": checks(),
         "questions.md": questions(),
         "examples.md": examples(),
@@ -33,10 +33,36 @@ def write(folder: Path) -> None:
         "performance.md": performance(),
         **joint_pages.pages(),
     }
+    listed, each = name_pages.pages()
+    pages |= {"names.md": listed} | each
+    (folder / "names").mkdir(exist_ok=True)
+    for old in {*(folder / "names").glob("*.md")} - {folder / name for name in each}:
+        old.unlink()
     for name, text in pages.items():
         file = folder / name
         if not file.exists() or file.read_text(encoding="utf-8") != text:
             file.write_text(text, encoding="utf-8")
+
+
+def formulas() -> str:
+    """Return the formulas of ``cardan calc``, one table a subject."""
+    from cardan.calc.calculations import GROUPS
+
+    parts = []
+    for group in GROUPS:
+        parts += [
+            f"## {group.subject.rstrip('.')}",
+            "",
+            "| formula | what it answers | takes | gives | source |",
+            "|---|---|---|---|---|",
+        ]
+        for one in group.calculations:
+            keys = [", ".join(f"`{key.key}`" for key in some) for some in (one.takes, one.returns)]
+            parts.append(
+                "| " + " | ".join(_plain(text) for text in (f"`{one.name}`", one.doc, *keys, one.source)) + " |"
+            )
+        parts.append("")
+    return "\n".join(parts)
 
 
 def units() -> str:
@@ -268,41 +294,3 @@ def _given(parameter: Any) -> str:
     if value in (None, False, ()) or callable(value) or value == [] or "Sentinel" in type(value).__name__:
         return "**needed**" if parameter.required else "–"
     return f"`{value}`"
-
-
-GROUPS = {
-    "The drive": ("drive", "io"),
-    "Questions": ("questions",),
-    "Verdicts": ("checks",),
-    "Choices": ("choices", "questions.phases"),
-    "Results on paper": ("scene", "report", "calc", "book"),
-    "Errors": ("errors",),
-}
-"""What stands in `cardan` itself, by the folder that it is from; the narrowest folder counts."""
-
-
-def names() -> str:
-    """Return the public names, each with its docstring: those of `cardan` in the order of the work, then the others."""
-    homes = {name: home for name, home in cardan._HOMES.items() if home}
-    rooms = {room: title for title, some in GROUPS.items() for room in some}
-    titled: dict[str, list[str]] = {title: [] for title in GROUPS}
-    for name, home in homes.items():
-        room = max((one for one in rooms if f"{home}.".startswith(f"{one}.")), key=len)
-        titled[rooms[room]].append(name)
-    parts = [_listed(title, cardan, some) for title, some in titled.items()]
-    for module in sorted(set(cardan._HOMES) - set(homes)):
-        there = getattr(cardan, module)
-        text = (inspect.getdoc(there) or "").strip()
-        parts.append(_listed(f"`cardan.{module}`\n\n{text}", there, [n for n in vars(there) if not n.startswith("_")]))
-    return "\n".join(parts)
-
-
-def _listed(title: str, module: Any, some: list[str]) -> str:
-    parts = [f"## {title}\n\n```{{eval-rst}}"]
-    for name in some:
-        thing = getattr(module, name)
-        kind = "autoclass" if inspect.isclass(thing) else "autofunction" if callable(thing) else "autodata"
-        if inspect.isclass(thing) and issubclass(thing, Exception):
-            kind = "autoexception"
-        parts.append(f".. {kind}:: {module.__name__}.{name}")
-    return "\n".join([*parts, "```\n"])

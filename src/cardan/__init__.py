@@ -1,8 +1,8 @@
 """cardan: universal-joint (cardan, Hooke) shaft drives, analysed and designed from one description.
 
 Python is SI and radians throughout; write ``20 * deg``. Each public name is imported on first use. What a newcomer
-needs stands here; the rest in `cardan.sweeps`, `cardan.recordings`, `cardan.joints`, `cardan.mechanisms`,
-`cardan.backends` and `cardan.methods`.
+needs stands here; the rest in `cardan.sweeps`, `cardan.recordings`, `cardan.parts`, `cardan.joints`,
+`cardan.mechanisms`, `cardan.backends` and `cardan.methods`.
 """
 
 from __future__ import annotations

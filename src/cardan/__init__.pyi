@@ -4,10 +4,9 @@ from . import backends as backends
 from . import joints as joints
 from . import mechanisms as mechanisms
 from . import methods as methods
+from . import parts as parts
 from . import recordings as recordings
 from . import sweeps as sweeps
-from .book.comparison import BookComparison as BookComparison
-from .book.comparison import book_comparison as book_comparison
 from .calc.calculations import calc as calc
 from .checks.checks import CHECKS as CHECKS
 from .checks.checks import check as check

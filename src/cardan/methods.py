@@ -1,5 +1,7 @@
-"""How something is found: periodic motions, steps in time, tolerances, searches, goals of phasing."""
+"""How it is found: periodic motions, steps in time, tolerances, searches, goals of phasing, the books' series."""
 
+from .book.comparison import BookComparison as BookComparison
+from .book.comparison import book_comparison as book_comparison
 from .maths.curves.search import Evolution as Evolution
 from .maths.periodic.harmonics import HarmonicBalance as HarmonicBalance
 from .maths.periodic.switching_orbit import Shooting as Shooting

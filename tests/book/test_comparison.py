@@ -7,11 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cardan import Drive, InputError, book_comparison, equivalent_joint, motion
+from cardan import Drive, InputError, equivalent_joint, motion
 from cardan.book.comparison import (
     arrangement_phase,
     blokh,
     blokh_coefficients,
+    book_comparison,
     book_series,
     collinear_joint_angle,
     double_joint,

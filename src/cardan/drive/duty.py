@@ -56,14 +56,24 @@ class Case:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class History:
-    """Measured torque over time from a CSV file, straight between its rows."""
+    """Measured torque over time from a CSV file, straight between its rows.
+
+    Attributes
+    ----------
+    times : tuple of float
+        Times of the rows [s], read when the drive is loaded.
+    torques : tuple of float
+        Torque in each row [N·m].
+    speeds : tuple of float
+        Speed of the input in each row [rad/s]; empty where the file has none.
+    """
 
     file: str = plain(
         doc="CSV file beside the drive file with the columns time_s and torque_Nm, and speed_rpm where it was measured"
     )
     times: tuple[float, ...] = ()
     torques: tuple[float, ...] = ()
-    speeds: tuple[float, ...] = ()  # of the input; empty where the file has none
+    speeds: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -70,14 +70,24 @@ class SpeedTorque(MachineTorque):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class TorqueHistory(MachineTorque):
-    """Measured or computed torque over time from a CSV file, straight between its rows and held beyond its ends."""
+    """Measured or computed torque over time from a CSV file, straight between its rows and held beyond its ends.
+
+    Attributes
+    ----------
+    times : tuple of float
+        Times of the rows [s], read when the drive is loaded.
+    torques : tuple of float
+        Torque in each row [N·m].
+    speeds : tuple of float
+        Speed measured beside it [rad/s]; no torque follows from it.
+    """
 
     kind: ClassVar[str] = "time_history"
 
     file: str = plain(doc="CSV file beside the drive file with the columns time_s and torque_Nm")
     times: tuple[float, ...] = ()
     torques: tuple[float, ...] = ()
-    speeds: tuple[float, ...] = ()  # measured beside it; no torque follows from them
+    speeds: tuple[float, ...] = ()
 
     def problems(self) -> Iterator[Problem]:
         """Yield what is wrong with the rows of the file, once they are read."""
