@@ -1,6 +1,8 @@
 """The docstring is a contract: every public thing says what it takes, in which shape and unit, and shows it."""
 
 import ast
+import builtins
+import doctest
 import inspect
 import re
 from dataclasses import fields, is_dataclass
@@ -57,6 +59,29 @@ def test_functions_say_what_they_return_and_show_it(name):
         assert "\nReturns\n---" in doc
     assert "\nExamples\n---" in doc
     assert ">>> " in doc
+
+
+def unknown(code):
+    """Return the names that code uses and neither imports nor makes."""
+    used, known = set(), set(dir(builtins))
+    for node in ast.walk(ast.parse(code)):
+        if isinstance(node, ast.Name):
+            (used if isinstance(node.ctx, ast.Load) else known).add(node.id)
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            known |= {(one.asname or one.name).partition(".")[0] for one in node.names}
+        elif isinstance(node, ast.arg):
+            known.add(node.arg)
+        elif isinstance(node, ast.FunctionDef):
+            known.add(node.name)
+    return used - known
+
+
+@pytest.mark.parametrize("name", [name for name, thing in PUBLIC.items() if callable(thing)])
+def test_examples_can_be_copied(name):
+    """They import all they use, public names from where they are public."""
+    doc = inspect.getdoc(PUBLIC[name]).partition("\nExamples\n---")[2]
+    code = "".join(one.source for one in doctest.DocTestParser().get_examples(doc))
+    assert unknown(code) == set()
 
 
 @pytest.mark.parametrize("name", RECORDS)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Iterator
 from dataclasses import MISSING, Field, fields, is_dataclass
 from typing import Any
@@ -29,6 +30,9 @@ SUBJECTS = {
     "Errors": ("errors",),
 }
 """What stands in `cardan` itself, by the folder that it is from; the narrowest folder counts."""
+
+
+BOOK = "Kozhevnikov & Perfil'ev, *Cardan transmissions* (1978), see the [bibliography](../../../bibliography.md)."
 
 
 def pages() -> tuple[str, dict[str, str]]:
@@ -77,7 +81,15 @@ def _page(name: str, thing: Any) -> str:
     if inspect.isclass(thing) and issubclass(thing, Exception):
         kind = "exception"
     parts = [f"# `{name.rpartition('.')[2]}`", "", "```{eval-rst}", f".. auto{kind}:: {name}", "```", ""]
+    if callable(thing) and re.search(r"\bBook (\(|p\.)", "".join(_docstrings(thing))):
+        parts += [f"*Book* is {BOOK}", ""]
     return "\n".join([*parts, *_fields(thing)])
+
+
+def _docstrings(thing: Any) -> Iterator[str]:
+    """Yield what a page shows of a thing and of what it has."""
+    for one in [thing, *(vars(thing).values() if inspect.isclass(thing) else ())]:
+        yield inspect.getdoc(one) or ""
 
 
 def _fields(thing: Any) -> Iterator[str]:

@@ -55,6 +55,8 @@ class InputError(CardanError):
 
     Examples
     --------
+    >>> from cardan import InputError
+    >>> from cardan.errors import Problem
     >>> print(InputError([Problem("joints[0].joint_angle", "94° is not below 90°")]))
     joints[0].joint_angle: 94° is not below 90°
     """
@@ -83,7 +85,7 @@ def _rebuilt(kind: type[InputError], problems: Iterable[Problem], where: Any) ->
 
 
 class JointAngleLimitError(InputError):
-    """A joint bends 90 degrees or more: no universal joint turns there."""
+    """A joint angle is 90 degrees or more: no universal joint turns there."""
 
 
 class MissingExtraError(CardanError):

@@ -102,6 +102,8 @@ def sweep(
 
     Examples
     --------
+    >>> from cardan import Drive
+    >>> from cardan.sweeps import sweep
     >>> pair = Drive.from_angles([0.3, 0.3])
     >>> angles = {"joints[1].joint_angle_deg": [10.0, 17.2, 95.0]}
     >>> found = sweep(pair, angles, ["speed_fluctuation"], reduce=["min speed_fluctuation_percent"])

@@ -272,6 +272,8 @@ def book_comparison(drive: Drive | Drives | Chain, angle: ArrayLike | None = Non
 
     Examples
     --------
+    >>> from cardan import Drive
+    >>> from cardan.methods import book_comparison
     >>> from cardan.units import deg
     >>> drive = Drive.from_angles([20 * deg, 15 * deg, 10 * deg])
     >>> seen = book_comparison(drive)

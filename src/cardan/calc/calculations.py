@@ -96,6 +96,7 @@ def calc(capability: str, inputs: Mapping[str, Any]) -> dict[str, Any]:
 
     Examples
     --------
+    >>> from cardan import calc
     >>> calc("single_joint_extremes", {"alpha_deg": 20})["delta"]
     0.12448515
     """

@@ -31,7 +31,7 @@ def completed(drive: Drive, known: Catalogue | None = None) -> Drive:
     known: the shipped one when not given.
     Raises InputError: grades, sizes and types that the catalogue does not have, all at once, each with the nearest.
 
-    >>> from cardan.drive.shaft import Shaft
+    >>> from cardan.parts import Shaft
     >>> tube = Shaft(number=2, outer=0.06, wall=0.002, length=1.0, material=Material(grade="C22"))
     >>> completed(replace(Drive.from_angles([0.1, 0.1]), shafts=(tube,))).shafts[1].material.yield_strength
     245000000.0

@@ -166,7 +166,8 @@ def check(
     Examples
     --------
     >>> from dataclasses import replace
-    >>> from cardan.drive.duty import Limits
+    >>> from cardan import Drive, check
+    >>> from cardan.parts import Limits
     >>> drive = replace(Drive.from_angles([0.1, 0.5]), limits=Limits(joint_angle=0.4))
     >>> [verdict.state for verdict in check(drive, only=["joint_angle"])]
     ['passed', 'failed']

@@ -216,10 +216,10 @@ def turning(speed: float) -> Quantity:
 def at_top_speed(design: Design) -> Text:
     """Return at which speed one drive is judged where that is not the speed of its duty; else nothing.
 
+    >>> from cardan import Drive
     >>> from cardan.answers.quantity import told
     >>> from cardan.answers.reader import USUAL
-    >>> from cardan.drive.drive import Drive
-    >>> from cardan.drive.duty import Duty
+    >>> from cardan.parts import Duty
     >>> from cardan.units import rpm
     >>> duty = Duty(speed=1500 * rpm, speed_range=(500 * rpm, 1800 * rpm))
     >>> told(at_top_speed(Design(drive=Drive.from_angles([0.1]), duty=duty)), USUAL)

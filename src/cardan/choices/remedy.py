@@ -55,7 +55,8 @@ def remedies(
     Examples
     --------
     >>> from dataclasses import replace
-    >>> from cardan.drive.duty import Limits
+    >>> from cardan import Drive, remedies
+    >>> from cardan.parts import Limits
     >>> drive = replace(Drive.from_angles([0.1, 0.5]), limits=Limits(joint_angle=0.4))
     >>> [(remedy.path, remedy.value) for remedy in remedies(drive)]
     [('joints[1].joint_angle_deg', 22.9)]
@@ -96,7 +97,8 @@ def most_helpful(found: Sequence[Remedy], count: int = 3) -> tuple[Remedy, ...]:
     Examples
     --------
     >>> from dataclasses import replace
-    >>> from cardan.drive.duty import Limits
+    >>> from cardan import Drive, most_helpful, remedies
+    >>> from cardan.parts import Limits
     >>> drive = replace(Drive.from_angles([0.6, 0.5]), limits=Limits(joint_angle=0.4))
     >>> [(remedy.path, remedy.value) for remedy in most_helpful(remedies(drive))]
     [('joints[1].joint_angle_deg', 22.9), ('joints[0].joint_angle_deg', 22.9)]
@@ -257,6 +259,7 @@ def apply_remedy(drive: Drive, remedy: Remedy, *, known: Catalogue | None = None
 
     Examples
     --------
+    >>> from cardan import Drive, Remedy, apply_remedy
     >>> path = "joints[0].joint_angle_deg"
     >>> straighter = Remedy(check="joint_angle", subject="", title="", path=path, now=20.0, value=10.0)
     >>> round(apply_remedy(Drive.from_angles([0.35]), straighter).joints[0].joint_angle, 4)

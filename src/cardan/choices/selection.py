@@ -140,6 +140,8 @@ def select_joint(
 
     Examples
     --------
+    >>> import math
+    >>> from cardan.joints import JointDuty, select_joint
     >>> found = select_joint(JointDuty(torque=2.5e6, joint_angle=math.radians(9.0), speed=6.28))
     >>> sorted(one.row.id for one in found if one.state == "ok")
     ['mill_slipper', 'super_heavy']
@@ -221,7 +223,7 @@ class SizeFit:
 def joint_duty(
     drive: Drive, duty: Duty | None = None, *, joint: int | None = None, known: Catalogue | None = None
 ) -> JointDuty:
-    """Return what the joints of a drive must do: the largest torque, bend and speed of one joint or of all of them.
+    """Return what the joints of a drive must do: the largest torque, joint angle and speed of one joint or of all.
 
     Parameters
     ----------
@@ -249,6 +251,9 @@ def joint_duty(
 
     Examples
     --------
+    >>> from cardan import Drive
+    >>> from cardan.joints import joint_duty
+    >>> from cardan.parts import Duty
     >>> found = joint_duty(Drive.from_angles([0.1, 0.3]), Duty(torque=100.0, speed=50.0, shock_factor=1.5))
     >>> print(f"{found.torque:.3f} {found.joint_angle} {found.service_factor}")
     104.675 0.3 1.5
@@ -310,7 +315,7 @@ def reasons(candidate: Candidate, need: JointDuty) -> tuple[Reason, ...]:
     candidate: of `select_joint` for this need.
 
     >>> from cardan.answers.reader import USUAL
-    >>> from cardan.choices.selection import select_joint
+    >>> from cardan.joints import select_joint
     >>> from cardan.units import deg
     >>> need = JointDuty(torque=50.0, joint_angle=20 * deg, speed=10.0)
     >>> said = next(reasons(one, need)[0].message for one in select_joint(need) if one.row.id == "light")

@@ -70,8 +70,9 @@ def size(
 
     Examples
     --------
-    >>> from cardan.drive.material import Material
-    >>> from cardan.drive.shaft import Shaft
+    >>> from dataclasses import replace
+    >>> from cardan import Drive, size
+    >>> from cardan.parts import Duty, Material, Shaft
     >>> tube = Shaft(number=2, outer=0.09, wall=0.003, length=1.0, material=Material(grade="C45"))
     >>> found = size(replace(Drive.from_angles([0.2, 0.2]), shafts=(tube,)), Duty(torque=800.0), "tube", hold="wall")
     >>> print(f"{found.exact['shafts[1].outer_mm']:.3f}", found.values, found.governing.check)

@@ -113,9 +113,10 @@ def optimise_torsion(
 
     Examples
     --------
-    >>> from cardan.drive.shaft import Shaft
-    >>> from cardan.drive.station import Station
+    >>> from dataclasses import replace
+    >>> from cardan import Drive, optimise_torsion
     >>> from cardan.methods import Grid
+    >>> from cardan.parts import Duty, Shaft, Station
     >>> tube = Shaft(number=2, stiffness=5000.0, damping=2.0, inertia=0.01, yoke_angle=0.6)
     >>> drive = replace(Drive.from_angles([0.25, 0.25]), shafts=(tube,),
     ...     stations=(Station(shaft=3, inertia=0.8),), duty=Duty(torque=60.0, speed_range=(20.0, 60.0)))

@@ -120,7 +120,10 @@ def trade_off(
 
     Examples
     --------
-    >>> from cardan.drive.shaft import Shaft
+    >>> from dataclasses import replace
+    >>> from cardan import Drive
+    >>> from cardan.parts import Duty, Material, Shaft
+    >>> from cardan.sweeps import trade_off
     >>> tube = Shaft(number=2, outer=0.09, wall=0.003, length=1.0, material=Material(grade="C45"))
     >>> drive = replace(Drive.from_angles([0.2, 0.2]), shafts=(tube,))
     >>> found = trade_off(drive, Duty(torque=800.0, speed=300.0), 2)

@@ -26,6 +26,7 @@ class Drive(Described):
 
     Examples
     --------
+    >>> from cardan import Drive
     >>> from cardan.units import deg
     >>> Drive.from_angles([20 * deg]).form
     'angles'
@@ -78,7 +79,7 @@ class Drive(Described):
         start_phase: float = 0.0,
         name: str = "",
     ) -> Drive:
-        """Return a drive of Hooke joints with given bends.
+        """Return a drive of Hooke joints with given joint angles.
 
         Parameters
         ----------

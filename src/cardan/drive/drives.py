@@ -49,7 +49,7 @@ class Drives:
         yoke_angle: ArrayLike | None = None,
         start_phase: ArrayLike = 0.0,
     ) -> Drives:
-        """Return drives with given bends.
+        """Return drives with given joint angles.
 
         Parameters
         ----------
@@ -190,6 +190,8 @@ def stack(drives: Sequence[Drive], *, xp: Any = None) -> Drives:
 
     Examples
     --------
+    >>> from cardan import Drive
+    >>> from cardan.sweeps import stack
     >>> stack([Drive.from_angles([0.1]), Drive.from_angles([0.1, 0.2])]).joints
     array([1, 2])
     """

@@ -50,7 +50,7 @@ def for_result(result: Any) -> tuple[Figure, ...]:
 
     Examples
     --------
-    >>> from cardan.drive.drive import Drive
+    >>> from cardan import Drive
     >>> [figure.name for figure in for_result(Drive.from_angles([0.2, 0.2]))]
     ['views', 'space', 'yokes']
     """

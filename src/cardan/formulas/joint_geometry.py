@@ -190,7 +190,7 @@ def best_centring(joint_angle_max: float, joint_angle_min: float = 0.0) -> Centr
     Parameters
     ----------
     joint_angle_max, joint_angle_min : float [rad]
-        Largest and smallest whole bend, 0 ≤ joint_angle_min < joint_angle_max < π/2.
+        Largest and smallest joint angle of the whole, 0 ≤ joint_angle_min < joint_angle_max < π/2.
 
     Returns
     -------
@@ -213,6 +213,8 @@ def best_centring(joint_angle_max: float, joint_angle_min: float = 0.0) -> Centr
 
     Examples
     --------
+    >>> from cardan.joints import best_centring
+    >>> from cardan.units import deg
     >>> found = best_centring(30 * deg)
     >>> print(f"{found.share:.5f} {found.speed_fluctuation:.3e} {found.middle_speed_fluctuation:.3e}")
     0.51459 1.691e-03 9.774e-03
@@ -270,7 +272,7 @@ MARGIN = 3.0 * deg
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class PinGeometry:
-    """Pins alike, of one slant or of many, that fill a given room at the largest bend.
+    """Pins alike, of one slant or of many, that fill a given room at the largest joint angle.
 
     Attributes
     ----------
@@ -279,9 +281,9 @@ class PinGeometry:
     distance : float or array (k,) [m]
         Distance a of their start from the crossing of the axes.
     slant_range : tuple of float [rad]
-        Between which slants they turn all the way round at the largest bend.
+        Between which slants they turn all the way round at the largest joint angle.
     stroke : float or array (k,) [m]
-        How far the contact runs along a pin at the largest bend.
+        How far the contact runs along a pin at the largest joint angle.
     length : float or array (k,) [m]
         How long a pin has to be from its start on the axis.
     force : float or array (k,) [1/m]
@@ -307,7 +309,7 @@ def pin_choices(joint_angle_max: float, radius: float, slants: ArrayLike) -> Pin
     joint_angle_max : float [rad]
         Largest joint angle, in (0, π/2).
     radius : float [m]
-        Largest distance of the contact from the axes, at the largest bend.
+        Largest distance of the contact from the axes, at the largest joint angle.
     slants : array (k,) [rad]
         Slants θ within their range.
 
@@ -332,6 +334,8 @@ def pin_choices(joint_angle_max: float, radius: float, slants: ArrayLike) -> Pin
 
     Examples
     --------
+    >>> from cardan.joints import pin_choices
+    >>> from cardan.units import deg
     >>> found = pin_choices(30 * deg, 0.06, [30 * deg, 45 * deg])
     >>> print(1e3 * found.distance, 1e3 * found.stroke)
     [87.84609691 43.92304845] [32.15390309 35.86301889]
@@ -366,7 +370,7 @@ def best_pins(joint_angle_max: float, radius: float, *, margin: float = MARGIN) 
     joint_angle_max : float [rad]
         Largest joint angle, in (0, π/2).
     radius : float [m]
-        Largest distance of the contact from the axes, at the largest bend.
+        Largest distance of the contact from the axes, at the largest joint angle.
     margin : float [rad]
         How far the slant stays from both ends of its range.
 
@@ -392,6 +396,8 @@ def best_pins(joint_angle_max: float, radius: float, *, margin: float = MARGIN) 
 
     Examples
     --------
+    >>> from cardan.joints import best_pins
+    >>> from cardan.units import deg
     >>> found = best_pins(30 * deg, 0.06)
     >>> print(f"{found.slant / deg:.2f}° {1e3 * found.distance:.2f} mm, {0.06 * found.force:.4f} times T/R")
     30.50° 85.80 mm, 1.5073 times T/R

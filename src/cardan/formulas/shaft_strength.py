@@ -316,7 +316,7 @@ def composite_tube(layup: Layup, mean_diameter: float) -> CompositeTube:
 
     Examples
     --------
-    >>> from cardan.drive.shaft import Ply
+    >>> from cardan.parts import Ply
     >>> ply = Ply(along=135e9, across=10e9, shear=5e9, poisson=0.3)
     >>> layup = Layup(angles=(0.0, math.pi / 4, -math.pi / 4, math.pi / 2), ply_thickness=0.0005, ply=ply)
     >>> round(composite_tube(layup, 0.09).buckling_torque, 1)

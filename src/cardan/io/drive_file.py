@@ -215,7 +215,7 @@ def loads_mechanism(text: str, *, form: str = "toml", name: str = "file") -> Mec
     Raises InputError: every problem of the text at once.
 
     >>> from cardan.io import dumps
-    >>> from cardan.mechanism.mechanism import Pair
+    >>> from cardan.mechanisms import Pair
     >>> hinge = Pair(id="hinge", type="R", links=("wall", "door"), point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0))
     >>> text = dumps(Mechanism(frame="wall", joints=(hinge,)))
     >>> loads_mechanism(text).links

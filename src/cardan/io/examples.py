@@ -87,6 +87,7 @@ def example(name: str) -> Drive:
 
     Examples
     --------
+    >>> from cardan import example
     >>> example("single-20deg").name
     'single joint at 20 degrees'
     """
@@ -116,6 +117,7 @@ def example_mechanism(name: str) -> Mechanism:
 
     Examples
     --------
+    >>> from cardan.mechanisms import example_mechanism
     >>> example_mechanism("hooke-stiff-bearings").links
     ('shaft 1', 'cross', 'shaft 2')
     """

@@ -41,8 +41,9 @@ def save(thing: Any, path: str | Path) -> None:
 
     Examples
     --------
+    >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
-    >>> from cardan.io.drive_file import load
+    >>> from cardan import Drive, load, save
     >>> with TemporaryDirectory() as folder:
     ...     save(Drive.from_angles([0.1]), Path(folder) / "drive.toml")
     ...     load(Path(folder) / "drive.toml").form

@@ -36,6 +36,7 @@ class Mechanism:
     --------
     A door on its hinge:
 
+    >>> from cardan.mechanisms import Mechanism, Pair
     >>> hinge = Pair(id="hinge", type="R", links=("wall", "door"), point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0))
     >>> Mechanism(frame="wall", joints=(hinge,)).links
     ('door',)

@@ -83,6 +83,7 @@ def report(
     Examples
     --------
     >>> from tempfile import mkdtemp
+    >>> from cardan import Drive, report
     >>> from cardan.units import deg
     >>> report(Drive.from_angles([20 * deg, 20 * deg]), None, mkdtemp() + "/even.html").name
     'even.html'

@@ -86,11 +86,12 @@ def scene(
 
     Notes
     -----
-    Every place is exact: shafts and crosses stand by their arm directions (spec: model and sign conventions), other
+    Every place is exact: shafts and crosses stand by their arm directions (page *Conventions*), other
     kinds by their own law. Rigid parts keep their lengths in a pose; slip splines take up the difference.
 
     Examples
     --------
+    >>> from cardan import Drive, scene
     >>> shown = scene(Drive.from_angles([0.2, 0.2]), frames=24)
     >>> len(shown.bodies), shown.angle.size, [group.name for group in shown.groups][:3]
     (15, 24, ['names', 'axes', 'planes'])

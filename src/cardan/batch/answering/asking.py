@@ -283,6 +283,9 @@ def evaluator(
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from cardan import Drive
+    >>> from cardan.sweeps import evaluator
     >>> asked = evaluator(Drive.from_angles([0.3, 0.3]), ["joints[1].joint_angle_deg"], ["alpha_eq"])
     >>> rows = asked(np.asarray([[10.0], [95.0]]))
     >>> rows["alpha_eq_deg"], rows["status"]

@@ -71,6 +71,7 @@ class InProcess:
 
     Examples
     --------
+    >>> from cardan.backends import InProcess
     >>> from cardan.batch.work import Chunks
     >>> [done.value for done in InProcess().run(lambda chunk: chunk.size, Chunks("a sweep", size=5, rows=2))]
     [2, 2, 1]

@@ -75,6 +75,8 @@ class GridAxis:
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from cardan.sweeps import GridAxis
     >>> GridAxis(field="duty.speed_rpm", start=1000, stop=2000, count=3).values(np.arange(3))
     {'duty.speed_rpm': array([1000., 1500., 2000.])}
     """
@@ -147,6 +149,8 @@ class TableAxis:
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from cardan.sweeps import TableAxis
     >>> two = TableAxis(fields=("shafts[1].outer_mm", "shafts[1].wall_mm"), rows=((60.0, 2.0), (70.0, 1.5)))
     >>> two.size, two.values(np.asarray([1]))["shafts[1].wall_mm"]
     (2, array([1.5]))
@@ -217,7 +221,8 @@ class SampledAxis:
 
     Examples
     --------
-    >>> from cardan.batch.points.distributions import Uniform
+    >>> import numpy as np
+    >>> from cardan.sweeps import SampledAxis, Uniform
     >>> drawn = SampledAxis(distributions={"joints[0].joint_angle_deg": Uniform(low=0, high=20)}, count=8, method="lhs")
     >>> sorted((drawn.values(np.arange(8))["joints[0].joint_angle_deg"] // 2.5).tolist())
     [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]

@@ -62,6 +62,8 @@ class Uniform:
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from cardan.sweeps import Uniform
     >>> Uniform(low=-1.0, high=1.0).at(np.asarray([0.25]))
     array([-0.5])
     """
@@ -93,6 +95,8 @@ class Normal:
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from cardan.sweeps import Normal
     >>> Normal(mean=10.0, std=2.0).at(np.asarray([0.5]))
     array([10.])
     """
@@ -127,6 +131,8 @@ class Truncated:
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from cardan.sweeps import Truncated
     >>> Truncated(mean=0.0, std=1.0, low=-1.0, high=1.0).at(np.asarray([0.0, 0.5, 1.0])) + 0.0
     array([-1.,  0.,  1.])
     """
@@ -164,6 +170,8 @@ class Triangular:
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from cardan.sweeps import Triangular
     >>> Triangular(low=0.0, mode=0.0, high=1.0).at(np.asarray([0.75]))
     array([0.5])
     """

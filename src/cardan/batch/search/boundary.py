@@ -111,7 +111,9 @@ def boundary(
 
     Examples
     --------
+    >>> import numpy as np
     >>> from cardan.batch.answering.asking import Formula
+    >>> from cardan.sweeps import Limit, boundary
     >>> ask = Formula.of(["x", "y"], {"r": lambda x, y: (x * x + y * y) ** 0.5})
     >>> found = boundary(ask, [(-2.0, 2.0), (-2.0, 2.0)], [Limit(name="r", high=1.0)])
     >>> radius = np.hypot(*found.lines[0].T)

@@ -239,6 +239,7 @@ def optimise(
     Examples
     --------
     >>> from cardan.batch.answering.asking import Formula
+    >>> from cardan.sweeps import Goal, optimise
     >>> ask = Formula.of(["x", "y"], {"z": lambda x, y: (x - 1.0) ** 2 + (y + 2.0) ** 2})
     >>> found = optimise(ask, [(-5.0, 5.0), (-5.0, 5.0)], Goal(name="z"))
     >>> print(found.status, found.point.round(4))

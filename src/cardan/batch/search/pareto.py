@@ -126,6 +126,7 @@ def pareto_search(
     Examples
     --------
     >>> from cardan.batch.answering.asking import Formula
+    >>> from cardan.sweeps import Goal, pareto_search
     >>> ask = Formula.of(["x"], {"one": lambda x: x**2, "two": lambda x: (x - 2.0) ** 2})
     >>> found = pareto_search(ask, [(-5.0, 5.0)], [Goal(name="one"), Goal(name="two")], generations=20)
     >>> found.status, bool(found.points.min() > -0.05), bool(found.points.max() < 2.05)

@@ -120,8 +120,8 @@ def sensitivity(
 
     Examples
     --------
-    >>> from cardan.batch.points.distributions import Uniform
     >>> from cardan.batch.answering.asking import Formula
+    >>> from cardan.sweeps import Uniform, sensitivity
     >>> ask = Formula.of(["x", "y"], {"z": lambda x, y: 3.0 * x + y})
     >>> found = sensitivity(ask, [Uniform(low=0.0, high=1.0)] * 2, samples=512)
     >>> print(found.first.round(2), found.total.round(2))
@@ -300,6 +300,7 @@ def one_at_a_time(ask: Evaluator, here: Sequence[float], low: Sequence[float], h
     Examples
     --------
     >>> from cardan.batch.answering.asking import Formula
+    >>> from cardan.sweeps import one_at_a_time
     >>> ask = Formula.of(["x", "y"], {"z": lambda x, y: 3.0 * x + y})
     >>> found = one_at_a_time(ask, [0.0, 0.0], [-1.0, -1.0], [1.0, 1.0])
     >>> print(found.at_low, found.at_high)

@@ -314,6 +314,7 @@ def results(source: Sweep | str | Path) -> Results:
 
     Examples
     --------
+    >>> from cardan.sweeps import results
     >>> results("no such folder")
     Traceback (most recent call last):
     cardan.errors.InputError: no such folder: holds no sweep

@@ -130,7 +130,7 @@ def read_sweep(folder: str | Path) -> Sweep:
     --------
     >>> from tempfile import TemporaryDirectory
     >>> from cardan import Drive
-    >>> from cardan.sweeps import sweep
+    >>> from cardan.sweeps import read_sweep, sweep
     >>> pair = Drive.from_angles([0.3, 0.3])
     >>> with TemporaryDirectory() as folder:
     ...     told = sweep(pair, {"joints[1].joint_angle_deg": [10, 20]}, ["speed_fluctuation"], into=folder)

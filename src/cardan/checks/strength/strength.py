@@ -224,8 +224,9 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
 
     Examples
     --------
-    >>> from cardan.drive.material import Material
-    >>> from cardan.drive.shaft import Shaft
+    >>> from dataclasses import replace
+    >>> from cardan import Drive, strength
+    >>> from cardan.parts import Duty, Material, Shaft
     >>> tube = Shaft(number=2, outer=0.06, wall=0.003, length=1.0, material=Material(grade="C45"))
     >>> drive = replace(Drive.from_angles([0.2, 0.2]), shafts=(tube,))
     >>> found = strength(drive, Duty(torque=800.0))

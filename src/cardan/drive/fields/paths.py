@@ -100,7 +100,7 @@ def with_values(drive: D, values: Mapping[str, Any]) -> D:
     Returns: checked as a whole, after all changes.
     Raises InputError: every path that leads nowhere and every value that does not fit.
 
-    >>> from cardan.drive.drive import Drive
+    >>> from cardan import Drive
     >>> drive = Drive.from_angles([0.1, 0.2])
     >>> with_values(drive, {"shafts[1].yoke_angle_deg": 90}).shafts[1].yoke_angle
     1.5707963267948966

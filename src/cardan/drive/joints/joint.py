@@ -157,7 +157,7 @@ class Joint:
     """Whether it lets its shafts slide along each other."""
 
     steepest: ClassVar[float] = math.pi / 4
-    """Bend [rad] above which no real joint of this kind works."""
+    """Joint angle [rad] above which no real joint of this kind works."""
 
     refusals: ClassVar[Mapping[str, str]] = REFUSALS
     """Question -> why this kind does not answer it, marked for translation."""
@@ -243,7 +243,7 @@ class Joint:
 
     @property
     def has_map(self) -> bool:
-        """Whether it turns by tan θ' = κ tan θ, as a Hooke joint of some bend does."""
+        """Whether it turns by tan θ' = κ tan θ, as a Hooke joint at some joint angle does."""
         return self.pair(np.asarray(0.1)) is not None
 
     @property

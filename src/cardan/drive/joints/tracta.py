@@ -110,7 +110,7 @@ class Tracta(Joint):
         return carried(stance, loose=True)
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
-        """Yield how far its tongue misses the plane that halves the bend."""
+        """Yield how far its tongue misses the bisecting plane."""
         if self.driving_distance is not None and self.driven_distance is not None:
             yield missed(float(tilt(joint_angle, self.driving_distance, self.driven_distance)))
 

@@ -82,7 +82,10 @@ def load_recording(
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
+    >>> from cardan.recordings import load_recording
     >>> rows = ["time_s,tacho,acceleration_front_z_m_s2"]
     >>> rows += [f"{k / 1000},{int(k % 50 < 10)},{np.sin(k / 8):.4f}" for k in range(500)]
     >>> with TemporaryDirectory() as folder:

@@ -187,13 +187,15 @@ def transmission_error(
 
     Notes
     -----
-    Each joint is the closed loop of `cardan.maths.kernel.loops` with α = (90°, 90°, 90°, bend) and no lengths, plus its
+    Each joint is the closed loop of `cardan.maths.kernel.loops` with α = (90°, 90°, 90°, α) and no lengths, plus its
     errors. The phase turns its driving yoke on; θ' = π/2 - φ_4. A shaft that floats passes the shift on,
     u_j = -s_4 with s_1 = u_{j-1} + its own. To first order Book (171), (180), chained. Joints of other kinds count as
     made true: they pass on angle and shift as they pass on the turn, one that slides no shift.
 
     Examples
     --------
+    >>> from cardan import Drive, transmission_error
+    >>> from cardan.parts import Error
     >>> from cardan.units import deg
     >>> skew = Error(alpha1=0.1 * deg)
     >>> found = transmission_error(Drive.from_angles([30 * deg]), [90 * deg], errors=skew)

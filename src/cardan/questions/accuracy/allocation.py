@@ -165,6 +165,7 @@ def allocate(
 
     Examples
     --------
+    >>> from cardan import Drive, allocate
     >>> from cardan.units import deg
     >>> found = allocate(Drive.from_angles([30 * deg]), 0.1 * deg)
     >>> [f"{one.field.split('.')[-1]} {one.tolerance / deg:.3f}°" for one in found.rows]

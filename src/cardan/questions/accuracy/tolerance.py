@@ -156,6 +156,7 @@ def tolerance(
 
     Examples
     --------
+    >>> from cardan import Drive, Tolerance, tolerance
     >>> from cardan.units import deg
     >>> drive = Drive.from_angles([30 * deg])
     >>> band = tolerance(drive, Tolerance(alpha1=0.1 * deg, alpha2=0.05 * deg))

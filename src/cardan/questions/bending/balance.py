@@ -174,6 +174,9 @@ def balance(
 
     Examples
     --------
+    >>> from dataclasses import replace
+    >>> from cardan import Drive, balance
+    >>> from cardan.parts import Duty, Shaft
     >>> from cardan.units import rpm
     >>> tube = Shaft(number=2, mass=10.0, length=1.2)
     >>> drive = replace(Drive.from_angles([0.1, 0.1]), shafts=(tube,))

@@ -235,7 +235,7 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
 
     Examples
     --------
-    >>> from cardan.io import example
+    >>> from cardan import bending_speeds, example
     >>> from cardan.units import rpm
     >>> found = bending_speeds(example("truck-supports"))
     >>> (found.speed / rpm).round(), found.part[0], round(found.margin.ratio, 2)
@@ -514,7 +514,8 @@ def critical_speed_map(
 
     Examples
     --------
-    >>> from cardan.io import example
+    >>> from cardan import example
+    >>> from cardan.sweeps import critical_speed_map
     >>> from cardan.units import rpm
     >>> found = critical_speed_map(example("truck-supports"), [0.9, 1.2, 1.5], shaft=3, modes=1)
     >>> (found.speed / rpm).round(-1).tolist()

@@ -317,8 +317,8 @@ def rotor_response(
     Examples
     --------
     >>> from dataclasses import replace
-    >>> from cardan.drive.crack import ShaftCrack
-    >>> from cardan.io import example
+    >>> from cardan import example, rotor_response
+    >>> from cardan.parts import ShaftCrack
     >>> drive = example("car-propshaft")
     >>> bad = replace(drive.shafts[1], crack=ShaftCrack(losses=(0.1, 0.02)))
     >>> found = rotor_response(replace(drive, shafts=(drive.shafts[0], bad, drive.shafts[2])))

@@ -52,7 +52,7 @@ def whirl_line(drive: Drive) -> WhirlLine:
     their squares. A joint is a hinge with the mass of its cross, half of whose inertia goes with each shaft. An end
     shaft is part of the line if it has a body and a support; else the machine holds its joint.
 
-    >>> from cardan.io import example
+    >>> from cardan import example
     >>> found = whirl_line(example("truck-supports"))
     >>> found.held, sorted(found.joint_node), found.shaft.tolist()
     ((1, 3), [1, 2, 3], [2, 2, 3])

@@ -134,8 +134,8 @@ def examine(
 
     Examples
     --------
-    >>> from cardan.questions.diagnosis.simulate import simulate_fault
-    >>> from cardan.io import example
+    >>> from cardan import example
+    >>> from cardan.recordings import examine, simulate_fault
     >>> drive = example("truck-supports")
     >>> found = examine(simulate_fault(drive, "worn_spline", seed=5), drive)
     >>> found.findings[0].cause, found.channel.name, round(found.spectrum.peaks()[0][0], 2)

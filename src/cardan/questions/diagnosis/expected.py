@@ -111,7 +111,8 @@ def expected_orders(
 
     Examples
     --------
-    >>> from cardan.io import example
+    >>> from cardan import example
+    >>> from cardan.recordings import expected_orders
     >>> found = expected_orders(example("truck-supports"), "joint_angles")
     >>> sorted({line.order for line in found.orders if line.direction == "radial"})
     [1.0, 2.0, 4.0]

@@ -99,6 +99,8 @@ def field_balance(readings: ArrayLike, trials: ArrayLike) -> FieldBalance:
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from cardan.recordings import field_balance
     >>> truth = np.array([[2.0, 0.5j], [0.3, 1.0 + 1.0j]])
     >>> unbalance, trials = np.array([3.0, 1.0j]), np.diag([1.0, 2.0j])
     >>> found = field_balance(np.vstack([truth @ unbalance, (unbalance + trials) @ truth.T]), trials)

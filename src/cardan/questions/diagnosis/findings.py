@@ -116,10 +116,10 @@ def diagnose(
 
     Examples
     --------
+    >>> from cardan import example
     >>> from cardan.answers.quantity import told
     >>> from cardan.answers.reader import USUAL
-    >>> from cardan.questions.diagnosis.simulate import simulate_fault
-    >>> from cardan.io import example
+    >>> from cardan.recordings import diagnose, simulate_fault
     >>> drive = example("truck-supports")
     >>> first = diagnose(simulate_fault(drive, "worn_spline", seed=5), drive)[0]
     >>> first.cause, told(first.evidence[0], USUAL)

@@ -115,7 +115,8 @@ def simulate_fault(
 
     Examples
     --------
-    >>> from cardan.io import example
+    >>> from cardan import example
+    >>> from cardan.recordings import simulate_fault
     >>> found = simulate_fault(example("car-propshaft"), "unbalance", seed=1)
     >>> [one.name for one in found.channels]
     ['tacho', 'input radial', 'output radial', 'input axial', 'output axial', 'output speed', 'torque']

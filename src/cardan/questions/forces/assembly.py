@@ -152,7 +152,8 @@ def assembly(
     Three bearings in a row, each as stiff as 10 kN/mm, the middle one 0.1 mm too low; the outer two share its force:
 
     >>> from dataclasses import replace
-    >>> from cardan.drive.support import Support
+    >>> from cardan import Drive, assembly
+    >>> from cardan.parts import Support
     >>> far = Support(shaft=1, position=-0.4, axial=True, stiffness=1e7)
     >>> middle = Support(shaft=1, position=-0.2, stiffness=1e7, offset=(0.0, 0.0, -1e-4))
     >>> near = Support(shaft=1, position=0.0, stiffness=1e7)

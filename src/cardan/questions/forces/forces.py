@@ -99,6 +99,8 @@ def forces(
 
     Examples
     --------
+    >>> from cardan import Drive, forces
+    >>> from cardan.parts import Duty
     >>> from cardan.units import deg
     >>> found = forces(Drive.from_angles([20 * deg]), Duty(torque=100.0), [0.0, 90 * deg])
     >>> found.input_torque

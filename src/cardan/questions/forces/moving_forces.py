@@ -183,7 +183,9 @@ def moving_forces(
 
     Examples
     --------
+    >>> from cardan import Drive, moving_forces
     >>> from cardan.drive.movement import Harmonic
+    >>> from cardan.parts import Duty
     >>> from cardan.units import deg, rpm
     >>> bounce = Harmonic(moves=("output",), amplitude=(0.0, 0.0, 0.05), frequency=20.0)
     >>> drive = Drive.from_angles([10 * deg])

@@ -91,8 +91,8 @@ def turn_loads(
 
     Examples
     --------
+    >>> from cardan import Drive
     >>> from cardan.drive.models.kinematics_model import chain
-    >>> from cardan.drive.drive import Drive
     >>> found = turn_loads(chain(Drive.from_angles([0.35])), 100.0)
     >>> print(found.high.round(3), found.bending.round(3))
     [106.454 100.   ] [34.29  36.503]

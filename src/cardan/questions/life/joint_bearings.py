@@ -49,9 +49,8 @@ def joint_bearings(drive: Drive) -> tuple[JointBearings, tuple[Missing, ...]]:
 
     A capacity that is not given follows from the needles by ISO 281 and ISO 76, a full row of one length.
 
-    >>> from cardan.drive.cross import Cross
-    >>> from cardan.drive.joint_parts import Needles
-    >>> from cardan.drive.joints import Hooke
+    >>> from cardan.joints import Hooke
+    >>> from cardan.parts import Cross, Needles
     >>> needles = Needles(count=22, diameter=2.5e-3, length=14e-3)
     >>> joint = Hooke(joint_angle=0.1, cross=Cross(span=0.08, journal=0.016), needles=needles)
     >>> bearings, missing = joint_bearings(Drive(joints=(joint,)))

@@ -69,9 +69,9 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
 
     Examples
     --------
-    >>> from cardan.drive.cross import Cross
-    >>> from cardan.drive.joint_parts import Needles
-    >>> from cardan.drive.joints import Hooke
+    >>> from cardan import Drive, life
+    >>> from cardan.joints import Hooke
+    >>> from cardan.parts import Cross, Duty, Needles
     >>> from cardan.units import deg, mm, rpm
     >>> joint = Hooke(joint_angle=12 * deg, cross=Cross(span=80 * mm), needles=Needles(capacity=20e3))
     >>> found = life(Drive(joints=(joint,)), Duty(speed=1000 * rpm, torque=800.0))

@@ -44,7 +44,7 @@ class Life:
     share : array (b,)
         Their shares of the time.
     joint_angle : array (b, n) [rad]
-        Bend of each joint in each part, the mean over a movement.
+        Joint angle of each joint in each part, the mean over a movement.
     torque : array (b, n) [N·m]
         Mean torque that enters each joint, without the factor for shocks; over a movement what damages as much.
     journal_force : array (b, n) [N]

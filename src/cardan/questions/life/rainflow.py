@@ -138,6 +138,7 @@ def rainflow(values: ArrayLike) -> Cycles:
 
     Examples
     --------
+    >>> from cardan.recordings import rainflow
     >>> found = rainflow([-2, 1, -3, 5, -1, 3, -4, 4, -2])
     >>> for size in sorted(set(found.range)):
     ...     print(f"{size:.0f}: {found.count[found.range == size].sum()}")
@@ -207,6 +208,7 @@ def time_at_level(times: ArrayLike, values: ArrayLike, *, edges: ArrayLike | int
 
     Examples
     --------
+    >>> from cardan.recordings import time_at_level
     >>> found = time_at_level([0.0, 1.0, 3.0], [0.0, 10.0, 10.0], edges=[0.0, 5.0, 10.0])
     >>> print(found.share.round(4), f"{found.mean:.4f}")
     [0.1667 0.8333] 8.3333

@@ -67,7 +67,7 @@ class Losses:
     first_order : float
         Product of the joints' own efficiencies, Book (136), (139): friction not acting on itself, journals alone.
     small_angle : float
-        The same by Book (137), for small bends.
+        The same by Book (137), for small joint angles.
     angle : array (p,) [rad]
         Input angles of the curves: one turn.
     joint_power : array (n, p) [W]
@@ -207,9 +207,9 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
 
     Examples
     --------
-    >>> from cardan.drive.duty import Duty
-    >>> from cardan.drive.joints import Hooke
-    >>> from cardan.drive.cross import Cross
+    >>> from cardan import Drive, losses
+    >>> from cardan.joints import Hooke
+    >>> from cardan.parts import Cross, Duty
     >>> from cardan.units import deg, mm, rpm
     >>> joint = Hooke(joint_angle=20 * deg, friction=0.05, cross=Cross(span=80 * mm, journal=20 * mm))
     >>> found = losses(Drive(joints=(joint,)), Duty(speed=3000 * rpm, torque=100.0))
@@ -385,9 +385,10 @@ def loss_map(
 
     Examples
     --------
-    >>> from cardan.drive.duty import Duty
-    >>> from cardan.drive.joints import Hooke
-    >>> from cardan.drive.cross import Cross
+    >>> from cardan import Drive
+    >>> from cardan.joints import Hooke
+    >>> from cardan.parts import Cross, Duty
+    >>> from cardan.sweeps import loss_map
     >>> from cardan.units import deg, mm
     >>> joint = Hooke(joint_angle=20 * deg, friction=0.05, cross=Cross(span=80 * mm, journal=20 * mm))
     >>> found = loss_map(Drive(joints=(joint,)), [100.0, 200.0], [50.0, -50.0])

@@ -115,6 +115,7 @@ def mechanism_forces(mechanism: Mechanism, position: Array | None = None) -> Mec
     Examples
     --------
     >>> from dataclasses import replace
+    >>> from cardan.mechanisms import mechanism_forces
     >>> import numpy as np
     >>> from cardan.mechanisms import example_mechanism
     >>> cones = replace(example_mechanism("friction-cones"), input_range=(0.0, 0.1))

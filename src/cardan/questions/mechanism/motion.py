@@ -165,6 +165,7 @@ def mechanism_motion(mechanism: Mechanism, position: Array | None = None) -> Mec
     --------
     A crank of 50 mm turns once, and a piston goes to and fro over twice its length:
 
+    >>> from cardan.mechanisms import mechanism_motion
     >>> import numpy as np
     >>> from cardan.mechanisms import example_mechanism
     >>> found = mechanism_motion(example_mechanism("crank-slider"), np.radians(np.arange(0.0, 361.0, 4.0)))

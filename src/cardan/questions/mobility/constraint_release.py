@@ -134,6 +134,7 @@ def repairs(thing: Drive | Mechanism, *, most: int = MOST, links: bool = True) -
 
     Examples
     --------
+    >>> from cardan.mechanisms import Mechanism, Pair, repairs
     >>> hooke = [
     ...     Pair(id="A", type="R", links=("0", "1"), point=(-0.3, 0.0, 0.0), axis=(1.0, 0.0, 0.0)),
     ...     Pair(id="B", type="R", links=("1", "2"), point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)),
@@ -449,7 +450,7 @@ def release(mechanism: Mechanism, joint: str, way: Way, axis: ArrayLike) -> Rele
 
     Examples
     --------
-    >>> from cardan.mechanism.mechanism import Pair
+    >>> from cardan.mechanisms import Mechanism, Pair, release
     >>> hinge = Pair(id="upper", type="R", links=("wall", "door"), point=(0.0, 0.0, 2.0), axis=(0.0, 0.0, 1.0))
     >>> lower = Pair(id="lower", type="R", links=("wall", "door"), point=(0.0, 0.0, 0.2), axis=(0.0, 0.0, 1.0))
     >>> release(Mechanism(frame="wall", joints=(hinge, lower)), "upper", "trans", [0.0, 0.0, 1.0]).verdict

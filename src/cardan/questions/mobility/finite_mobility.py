@@ -142,7 +142,7 @@ def finite_mobility(
 
     Examples
     --------
-    >>> from cardan.mechanism.mechanism import Pair
+    >>> from cardan.mechanisms import Mechanism, Pair, finite_mobility
     >>> def hinge(name, links, x, y):
     ...     return Pair(id=name, type="R", links=links, point=(x, y, 0.0), axis=(0.0, 0.0, 1.0))
     >>> rhombus = Mechanism(
@@ -552,8 +552,10 @@ def mobility_over_turn(
 
     Examples
     --------
-    >>> from cardan.drive.support import Support
     >>> from dataclasses import replace
+    >>> from cardan import Drive
+    >>> from cardan.mechanisms import mobility_over_turn
+    >>> from cardan.parts import Support
     >>> stiff = dict(radial=True, axial=True, tilt=True)
     >>> held = (Support(shaft=1, position=-0.3, **stiff), Support(shaft=2, position=0.3, **stiff))
     >>> found = mobility_over_turn(replace(Drive.from_angles([0.3]), supports=held), positions=8)

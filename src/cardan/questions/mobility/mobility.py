@@ -159,6 +159,8 @@ def mobility(thing: Drive | Mechanism) -> Mobility:
     --------
     A Hooke joint between two shafts in stiff bearings is held three times too often:
 
+    >>> from cardan import mobility
+    >>> from cardan.mechanisms import Mechanism, Pair
     >>> def hinge(name, links, point, axis):
     ...     return Pair(id=name, type="R", links=links, point=point, axis=axis)
     >>> origin = (0.0, 0.0, 0.0)

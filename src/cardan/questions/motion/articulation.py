@@ -121,7 +121,7 @@ class Articulation:
 
     @property
     def envelope(self) -> dict[str, tuple[Array, Array]]:
-        """Least and greatest over the instants: bend (n,), plane_twist (n-1,), length (n+1,), speed fluctuation ()."""
+        """Least and greatest over the instants: joint_angle (n,), plane_twist (n-1,), length (n+1,), δ ()."""
         tables = {name: getattr(self, name) for name in ("joint_angle", "plane_twist", "length", "speed_fluctuation")}
         good = self.status < Position.IMPOSSIBLE
         return {
@@ -164,7 +164,7 @@ def articulation(
     InputError
         No movement, one that does not fit the drive, or instants outside a table.
     JointAngleLimitError
-        A joint bends 90 degrees or more at every instant.
+        A joint angle is 90 degrees or more at every instant.
 
     See Also
     --------
@@ -182,7 +182,8 @@ def articulation(
     --------
     A hitch half way between the joints keeps the drive synchronous at any angle.
 
-    >>> from cardan.drive.movement import Hitch
+    >>> from cardan import Drive, articulation
+    >>> from cardan.parts import Hitch
     >>> from cardan.units import deg
     >>> drive = Drive.from_points([[-1, 0, 0], [-0.4, 0, 0], [0.4, 0, 0], [1, 0, 0]])
     >>> turn = Hitch(moves=("joints[1]", "output"), pivot=(0, 0, 0), yaw=40 * deg, frequency=1.0)

@@ -108,7 +108,7 @@ def equivalent_joint(drive: Drive | Drives | Chain) -> EquivalentJoint:
     Returns
     -------
     EquivalentJoint
-        bend, phase, speed fluctuation, ratio_max … : arrays (...).
+        joint_angle, phase, speed_fluctuation, ratio_max … : arrays (...).
 
     See Also
     --------
@@ -121,6 +121,7 @@ def equivalent_joint(drive: Drive | Drives | Chain) -> EquivalentJoint:
 
     Examples
     --------
+    >>> from cardan import Drive, equivalent_joint
     >>> from cardan.units import deg
     >>> round(float(equivalent_joint(Drive.from_angles([12 * deg, 20 * deg])).joint_angle / deg), 4)
     16.1193

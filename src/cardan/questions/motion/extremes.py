@@ -126,6 +126,8 @@ def extremes(drives: Drives | Drive | Chain, *, out: Extremes | None = None, met
 
     Examples
     --------
+    >>> from cardan import extremes
+    >>> from cardan.sweeps import Drives
     >>> extremes(Drives.from_angles([[0.0, 0.2], [0.2, 0.3]])).speed_fluctuation
     array([0.04027227, 0.05111933])
     """

@@ -27,7 +27,7 @@ EVEN = 1e-12
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JointTurn:
-    """One joint over a turn at one bend.
+    """One joint over a turn at one joint angle.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class JointTurn:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JointAngles:
-    """One joint over its bends.
+    """One joint over its joint angles.
 
     Attributes
     ----------
@@ -102,14 +102,14 @@ class JointAngles:
 
 
 def joint_turn(joint: Joint, joint_angle: float, angle: ArrayLike | None = None) -> JointTurn:
-    """Return how one joint of any kind turns at a bend.
+    """Return how one joint of any kind turns at a joint angle.
 
     Parameters
     ----------
     joint : Joint
         A joint of any kind.
     joint_angle : float [rad]
-        α in [0, π/2), whatever bend the joint itself says.
+        α in [0, π/2), whatever the joint itself says.
     angle : array (p,) [rad], optional
         Angles of the driving side from the plane of the shafts; a turn by default.
 
@@ -128,7 +128,8 @@ def joint_turn(joint: Joint, joint_angle: float, angle: ArrayLike | None = None)
 
     Examples
     --------
-    >>> from cardan.drive.joints import DoubleCardan, Hooke
+    >>> from cardan.joints import DoubleCardan, Hooke, joint_turn
+    >>> from cardan.units import deg
     >>> for joint in (Hooke(), DoubleCardan(centring_ratio=0.5)):
     ...     found = joint_turn(joint, 30 * deg)
     ...     print(f"{found.error / deg:.4f}° {found.speed_fluctuation:.5f}, order {found.order}")
@@ -146,14 +147,14 @@ def joint_turn(joint: Joint, joint_angle: float, angle: ArrayLike | None = None)
 
 
 def joint_over_angles(joint: Joint, joint_angles: ArrayLike | None = None) -> JointAngles:
-    """Return how uneven one joint of any kind is over its bends.
+    """Return how uneven one joint of any kind is over its joint angles.
 
     Parameters
     ----------
     joint : Joint
         A joint of any kind.
     joint_angles : array (m,) [rad], optional
-        Bends α in [0, π/2); by default from 0 to the steepest its kind works at.
+        Joint angles α in [0, π/2); by default from 0 to the steepest its kind works at.
 
     Returns
     -------
@@ -166,7 +167,8 @@ def joint_over_angles(joint: Joint, joint_angles: ArrayLike | None = None) -> Jo
 
     Examples
     --------
-    >>> from cardan.drive.joints import DoubleCardan
+    >>> from cardan.joints import DoubleCardan, joint_over_angles
+    >>> from cardan.units import deg
     >>> joint_over_angles(DoubleCardan(centring_ratio=0.5), [10 * deg, 30 * deg, 50 * deg]).speed_fluctuation
     array([0.00011651, 0.00977419, 0.08078532])
     """

@@ -104,6 +104,7 @@ def traces(
 
     Examples
     --------
+    >>> from cardan.sweeps import Drives, traces
     >>> batch = Drives.from_angles([[0.2, 0.2], [0.3, 0.2]], yoke_angle=[[0.0], [0.0]])
     >>> traces(batch, [0.0, 1.0]).ratio
     array([[1.        , 1.        ],

@@ -161,9 +161,9 @@ def motion(
     Raises
     ------
     JointAngleLimitError
-        A joint bends 90 degrees or more.
+        A joint angle is 90 degrees or more.
     InputError
-        A joint with its sizes does not turn at its bend.
+        A joint with its sizes does not turn at its joint angle.
 
     See Also
     --------
@@ -179,6 +179,7 @@ def motion(
 
     Examples
     --------
+    >>> from cardan import Drive, motion
     >>> from cardan.units import deg
     >>> single = Drive.from_angles([20 * deg])
     >>> motion(single, [0.0]).ratio

@@ -85,6 +85,7 @@ def synchronous_yokes(
 
     Examples
     --------
+    >>> from cardan.sweeps import Drives, synchronous_yokes
     >>> drives = Drives.from_angles([[0.2, 0.3, 0.25], [0.1, 0.1, 0.4]])
     >>> synchronous_yokes(drives).feasible
     array([ True, False])

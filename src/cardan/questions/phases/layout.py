@@ -45,7 +45,7 @@ class Layout:
     points : array (n+2, 3) [m]
         Input point, joint centres, output point.
     joint_angle_before, joint_angle : array (n,) [rad]
-        Bends as described and in the new layout.
+        Joint angles as described and in the new layout.
     length_before, length : array (n+1,) [m]
         Shaft lengths as described and in the new layout.
     moved : array (n,) [m]
@@ -104,7 +104,7 @@ def layout(
     over: Over = "worst",
     progress: Callable[[float], object] | None = None,
 ) -> Layout:
-    """Return the joint centres within ``move_within`` that allow a synchronous drive with the smallest bends.
+    """Return the joint centres within ``move_within`` that allow a synchronous drive with the smallest joint angles.
 
     Of a drive with poses, movements or spline teeth they are those with the least speed fluctuation in all of these.
 
@@ -149,7 +149,9 @@ def layout(
 
     Examples
     --------
-    >>> from cardan.drive.joints import Hooke
+    >>> from dataclasses import replace
+    >>> from cardan import Drive, layout
+    >>> from cardan.joints import Hooke
     >>> start = Drive.from_points([(-1, 0, 0), (0, 0, 0), (1, 0, 0.1), (2, 0, 0.4)])
     >>> free = Hooke(centre=(1.0, 0.0, 0.1), move_within=((1.0, 1.0), (0.0, 0.0), (0.0, 0.4)))
     >>> found = layout(replace(start, joints=(start.joints[0], free)))

@@ -81,6 +81,7 @@ def phases(
 
     Examples
     --------
+    >>> from cardan import Drive, phases
     >>> from cardan.units import deg
     >>> found = phases(Drive.from_angles([10 * deg, 15 * deg, 17 * deg]))
     >>> found.feasible, [s.speed_fluctuation < 1e-14 for s in found.settings]

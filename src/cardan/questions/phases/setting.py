@@ -71,7 +71,7 @@ def values_of(setting: YokeSetting, drive: Drive) -> dict[str, float]:
 
     drive: as it stands in the file.
 
-    >>> from cardan.questions.phases.phases import phases
+    >>> from cardan import phases
     >>> drive = Drive.from_angles([0.2, 0.2], yoke_angles=[0.3])
     >>> values_of(phases(drive).settings[0], drive)
     {'shafts[1].yoke_angle_deg': 0.0}
@@ -150,8 +150,8 @@ def sensitivity(chain: Chain) -> Array:
     δ = 4 |a| |b|, exactly differentiated. At closure the slope is 4 |a| |db/dγ|, for small joint angles
     8 |Σ_{k≥j} τ_k e^{2iΨ_k}|.
 
+    >>> from cardan import Drive
     >>> from cardan.drive.models.kinematics_model import chain
-    >>> from cardan.drive.drive import Drive
     >>> sensitivity(chain(Drive.from_angles([20 * deg, 20 * deg]))) * deg
     array([0.00434...])
     """
@@ -170,8 +170,8 @@ def growth(chain: Chain, yoke_angle: Array, error: float = deg) -> Array:
     yoke_angle (..., n-1) [rad]: settings of its yokes; error [rad]: how far each yoke stands off, one at a time.
     max δ(γ ± error) - δ(γ), exact. At a smooth minimum the slope, see `sensitivity`, is 0 and this is not.
 
+    >>> from cardan import Drive
     >>> from cardan.drive.models.kinematics_model import chain
-    >>> from cardan.drive.drive import Drive
     >>> drive = chain(Drive.from_angles([20 * deg, 20.01 * deg]))
     >>> growth(drive, drive.yoke_angle), bool(abs(sensitivity(drive)) < 1e-12)
     (array([0.00422...]), True)

@@ -142,6 +142,8 @@ def orbit(
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from cardan.recordings import Channel, Rotation, orbit
     >>> time = np.arange(8000) / 2000
     >>> rows = np.cos(40 * time), 0.5 * np.sin(40 * time)
     >>> x, y = (Channel(name="xy"[k], quantity="displacement", values=rows[k], rate=2000.0) for k in range(2))

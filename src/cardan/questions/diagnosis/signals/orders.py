@@ -297,9 +297,9 @@ def order_spectrum(
 
     Examples
     --------
+    >>> from cardan.recordings import Channel, order_spectrum
     >>> import numpy as np
-    >>> from cardan.questions.diagnosis.signals.signal import Signal
-    >>> from cardan.questions.diagnosis.signals.turning import estimate_rotation
+    >>> from cardan.recordings import Signal, estimate_rotation
     >>> time = np.arange(20000) / 4000
     >>> angle = 2 * np.pi * (8 * time + 3 * time**2)
     >>> tacho = Channel(name="tacho", quantity="pulses", rate=4000.0, values=np.sin(angle))
@@ -376,8 +376,9 @@ def order_map(
 
     Examples
     --------
+    >>> from cardan.recordings import Channel, order_map
     >>> import numpy as np
-    >>> from cardan.questions.diagnosis.signals.rotation import Rotation
+    >>> from cardan.recordings import Rotation
     >>> time = np.arange(20000) / 4000
     >>> angle = 2 * np.pi * (8 * time + 3 * time**2)
     >>> shaking = Channel(name="front", rate=4000.0, values=np.cos(2 * angle) + np.cos(300 * time))
@@ -505,8 +506,9 @@ def tracked_orders(
 
     Examples
     --------
+    >>> from cardan.recordings import Channel, tracked_orders
     >>> import numpy as np
-    >>> from cardan.questions.diagnosis.signals.rotation import Rotation
+    >>> from cardan.recordings import Rotation
     >>> time = np.arange(20000) / 4000
     >>> angle = 2 * np.pi * (8 * time + 3 * time**2)
     >>> shaking = Channel(name="front", rate=4000.0, values=np.cos(angle) + 0.2 * np.sin(1.35 * angle))

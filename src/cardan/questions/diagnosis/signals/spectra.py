@@ -84,6 +84,8 @@ def integrate(channel: Channel, *, low: float) -> Channel:
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from cardan.recordings import Channel, integrate
     >>> time = np.arange(4000) / 1000
     >>> shaking = Channel(name="front", values=np.cos(2 * np.pi * 20 * time), rate=1000.0)
     >>> moving = integrate(integrate(shaking, low=5.0), low=5.0)
@@ -142,6 +144,8 @@ def cepstrum(channel: Channel, rotation: Rotation | None = None, *, highest: flo
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from cardan.recordings import Channel, cepstrum
     >>> time = np.arange(20000) / 4000
     >>> knocking = Channel(name="front", rate=4000.0, values=np.exp(-((time * 10) % 1.0) * 60) * np.cos(3000 * time))
     >>> lag, height = cepstrum(knocking).peak(0.03, 0.15)

@@ -94,7 +94,7 @@ def torsional_vibration(
         Highest whole order that belongs to the shaft, 8 when not given. What repeats turn after turn above it is put
         down to uneven teeth and left out; what does below it, a joint's even orders above all, stays.
     tooth_error : array (teeth,) [rad], optional
-        How far each tooth stands ahead of its place, where it is known, as from a run without torque and bend; from
+        How far each tooth stands ahead of its place, where it is known, as from a run without torque at 0°; from
         any tooth on. That is left out instead.
 
     Returns
@@ -120,6 +120,8 @@ def torsional_vibration(
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from cardan.recordings import Channel, torsional_vibration
     >>> time = np.arange(60000) / 20000
     >>> angle = 100 * time + 0.01 * np.sin(2 * 100 * time)
     >>> found = torsional_vibration(Channel(name="wheel", quantity="pulses", rate=2e4, values=np.sin(40 * angle)), 40)

@@ -64,6 +64,7 @@ def estimate_rotation(
 
     Examples
     --------
+    >>> from cardan.recordings import Channel, Signal, estimate_rotation
     >>> import numpy as np
     >>> time = np.arange(8000) / 2000
     >>> pulses = np.cos(2 * np.pi * (10 * time + 2 * time**2))

@@ -299,7 +299,9 @@ def absorber(
 
     Examples
     --------
-    >>> from cardan.drive.shaft import Shaft
+    >>> from dataclasses import replace
+    >>> from cardan import Drive, absorber
+    >>> from cardan.parts import Duty, Shaft, Station
     >>> tube = Shaft(number=1, stiffness=4000.0, damping=1.0)
     >>> drive = replace(Drive.from_angles([0.35]), shafts=(tube,),
     ...     stations=(Station(shaft=2, name="pump", inertia=0.4),), duty=Duty(torque=60.0, speed_range=(35.0, 70.0)))

@@ -206,7 +206,7 @@ def law_of(machine: MachineTorque, *, resists: bool = False) -> Law:
 def turns_freely(drive: Drive, duty: Duty) -> bool:
     """Tell whether torques turn the input of a drive, rather than a speed that is forced on it.
 
-    >>> from cardan.drive.machine import Engine
+    >>> from cardan.parts import Engine
     >>> drive = Drive.from_angles([0.1])
     >>> turns_freely(drive, Duty()), turns_freely(drive, Duty(engine=Engine(cylinders=4)))
     (False, True)

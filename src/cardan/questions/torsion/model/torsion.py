@@ -215,8 +215,8 @@ def torsion_modes(drive: Drive, duty: Duty | None = None, *, pieces: int = 1) ->
     Examples
     --------
     >>> from dataclasses import replace
-    >>> from cardan.drive.shaft import Shaft
-    >>> from cardan.drive.station import Station
+    >>> from cardan import Drive, torsion_modes
+    >>> from cardan.parts import Duty, Shaft, Station
     >>> two = (Station(shaft=1, inertia=2.0), Station(shaft=2, inertia=0.6))
     >>> drive = replace(Drive.from_angles([0.2]), shafts=(Shaft(number=1, stiffness=900.0),), stations=two)
     >>> found = torsion_modes(drive, Duty(input="free"))

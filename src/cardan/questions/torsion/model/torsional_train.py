@@ -143,8 +143,7 @@ def torsional_train(
 
     Examples
     --------
-    >>> from cardan.drive.shaft import Shaft
-    >>> from cardan.drive.station import Station
+    >>> from cardan.parts import Shaft, Station
     >>> drive = Drive.from_angles([0.2, 0.2])
     >>> tube = Shaft(number=2, length=1.0, outer=0.07, inner=0.066)
     >>> found = torsional_train(

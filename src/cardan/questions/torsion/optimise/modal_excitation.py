@@ -92,10 +92,8 @@ def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, 
     A joint amid a symmetric drive stands in the node:
 
     >>> from dataclasses import replace
-    >>> from cardan.drive.drive import Drive
-    >>> from cardan.drive.duty import Duty
-    >>> from cardan.drive.shaft import Shaft
-    >>> from cardan.drive.station import Station
+    >>> from cardan import Drive
+    >>> from cardan.parts import Duty, Shaft, Station
     >>> from cardan.questions.torsion.model.torsional_train import torsional_train
     >>> ends = (Station(shaft=1, end="start", inertia=0.6), Station(shaft=2, end="end", inertia=0.6))
     >>> drive = replace(Drive.from_angles([0.2]), stations=ends, duty=Duty(input="free", speed=50.0),

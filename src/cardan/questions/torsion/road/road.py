@@ -250,10 +250,8 @@ def road_torsion(drive: Drive, *, progress: Progress | None = None) -> RoadTorsi
     crossed by S. O. Rice, Bell System Technical Journal 24 (1945). Otherwise the movement is followed, random ones
     along their sample path.
 
-    >>> from cardan.drive.duty import Duty
     >>> from cardan.drive.movement import Harmonic
-    >>> from cardan.drive.shaft import Shaft
-    >>> from cardan.drive.station import Station
+    >>> from cardan.parts import Duty, Shaft, Station
     >>> swing = Harmonic(moves=("output",), amplitude=(0, 0, 0.2), frequency=1.0)
     >>> drive = replace(Drive.from_points([(-0.3, 0, 0), (0, 0, 0), (1, 0, 0.1)]), movements=(swing,),
     ...     shafts=(Shaft(number=2, stiffness=4000.0, damping=4.0),), stations=(Station(shaft=2, inertia=0.4),),

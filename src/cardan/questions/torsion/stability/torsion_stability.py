@@ -167,8 +167,9 @@ def stability(
 
     Examples
     --------
-    >>> from cardan.drive.shaft import Shaft
-    >>> from cardan.drive.station import Station
+    >>> from dataclasses import replace
+    >>> from cardan import Drive, stability
+    >>> from cardan.parts import Duty, Shaft, Station
     >>> from cardan.units import deg
     >>> drive = Drive.from_angles([25 * deg])
     >>> drive = replace(drive, shafts=(Shaft(number=1, stiffness=1000.0, damping=0.2),),

@@ -176,8 +176,9 @@ def torsion_response(
 
     Examples
     --------
-    >>> from cardan.drive.shaft import Shaft
-    >>> from cardan.drive.station import Station
+    >>> from dataclasses import replace
+    >>> from cardan import Drive, torsion_response
+    >>> from cardan.parts import Duty, Shaft, Station
     >>> tube = Shaft(number=2, length=1.0, outer=0.07, wall=0.002, loss_factor=0.02)
     >>> drive = replace(Drive.from_angles([0.2, 0.2]), shafts=(tube,), stations=(Station(shaft=3, inertia=0.5),))
     >>> found = torsion_response(drive, Duty(speed=100.0, torque=150.0))

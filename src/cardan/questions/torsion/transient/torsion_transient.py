@@ -149,8 +149,9 @@ def transient(
 
     Examples
     --------
-    >>> from cardan.drive.shaft import Shaft
-    >>> from cardan.drive.station import Station
+    >>> from dataclasses import replace
+    >>> from cardan import Drive, transient
+    >>> from cardan.parts import Duty, Shaft, Station
     >>> drive = replace(Drive.from_angles([0.2]), shafts=(Shaft(number=1, stiffness=4000.0, damping=2.0),),
     ...     stations=(Station(shaft=2, inertia=0.4),))
     >>> found = transient(drive, Duty(speed=50.0, torque=100.0), span=0.5)
