@@ -53,7 +53,11 @@ PRESSED = """if (!window.cardanKeys) {
     const letter = (/^[a-z]$/i.test(event.key) ? event.key : event.code.replace('Key', '')).toLowerCase();
     if (letter === 's') {
       event.preventDefault();
-      if (!event.repeat) emitEvent('cardan-key', 'save');
+      if (event.repeat) return;
+      const field = document.activeElement; // that tells what was written in it once it is left
+      field.blur();
+      field.focus({ preventScroll: true });
+      setTimeout(() => emitEvent('cardan-key', 'save'));
     } else if ((letter === 'z' || letter === 'y') && !writing) {
       event.preventDefault();
       emitEvent('cardan-key', letter === 'y' || event.shiftKey ? 'redo' : 'undo');

@@ -81,6 +81,7 @@ class Source:
         self._due: Timer | None = None
         self.text: Any = ui.codemirror(self._lines(), language="TOML", on_change=self._typed)
         self._theme()
+        self.text.on("focusout", self._read, js_handler="() => emit()")
         self.text.classes("source").props('data-mark="source"').props(f'aria-label="{_("text of the drive file")}"')
         self.problems = ui.element("div").classes("problems").props("role=status")
         self._judge()
@@ -88,29 +89,39 @@ class Source:
         session.listen("choices", self._theme)
 
     def _typed(self) -> None:
-        if self._silent:
-            return
+        if not self._silent:
+            self._wait()
+
+    def _wait(self) -> None:
         if self._due is not None:
             self._due.cancel()
-        self._due = Timer(self.session, self.text, QUIET, self._read, once=True)
+        self._due = Timer(self.session, self.text, QUIET, self._quiet, once=True)
+
+    def _quiet(self) -> None:
+        """Read the text, once what was read before is worked on no more."""
+        if self.session.apart is not None and self.session.apart.busy:
+            self._wait()
+        else:
+            self._read()
 
     def _read(self) -> None:
-        self._due = None
+        """Take what was written: after a while without a key, and at once where the writer leaves the text."""
+        waiting, self._due = self._due, None
+        if waiting is not None:
+            waiting.cancel()
         if self.text.value == self._lines():
             return
         ends = "\r\n" if "\r\n" in self.session.document.text else "\n"
-        self._silent = True
-        try:
+        with self.session.speaking():
             self.session.rewrite(self.text.value.replace("\n", ends))
-        finally:
-            self._silent = False
 
     def _lines(self) -> str:
         """Return the text with the one end of a line that the browser counts."""
         return self.session.document.text.replace("\r\n", "\n")
 
     def _follow(self) -> None:
-        if not self._silent and self.text.value != self._lines():
+        """Show the file as it is now; who writes on is ahead of it."""
+        if self._due is None and self.text.value != self._lines():
             self._silent = True
             self.text.value = self._lines()
             self._silent = False
