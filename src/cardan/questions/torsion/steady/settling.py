@@ -22,18 +22,19 @@ from .steady import LOWER
 
 compiled = later("cardan.maths.compiled.torsion_block")
 
-FADED, PERIODS = 5.0, (40, 250)
-"""By e to which power what a drive with play begins with has faded when it is looked at, and after how many periods."""
+FADED, PERIODS, SHARP = 5.0, (60, 250), 0.25
+"""By e to which power what a drive with play begins with has faded when it is looked at, after how many periods, and
+share of them that is added in the steps in which it is looked at."""
 
 REPEATS = 0.02
 """Share of its swing by which it may still change from one period to the next."""
 
-STEPS, REACH, LIGHT = 256, 0.4, 3.0
-"""Steps of a period at least, phase of the fastest oscillation in one, by how much what has no inertia is faster."""
+STEPS, GROSS, REACH, LIGHT = 256, 64, 0.4, 3.0
+"""Steps of a period at least where a motion is looked at and on the way there, phase of the fastest oscillation in one,
+by how much what has no inertia is faster."""
 
-LONGEST, EVERY, RUN = 6, 60, 36
-"""Periods after which a motion is looked at whether it repeats, what divides by all of them, and how many periods are
-followed of one that does not."""
+LONGEST, RUN = 6, 36
+"""Periods after which a motion is looked at whether it repeats, and how many are followed of one that does not."""
 
 CLOSE, COARSE = 64, 32
 """Samples of a period, to tell a motion and to follow what does not repeat."""
@@ -50,13 +51,19 @@ RAMPS, SLOW = (0.5, 1.5), 8
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Run:
-    """Where a search led: a sum (R, H+1) over some periods; of what does not repeat its torques (E,)."""
+    """Where a search led: a sum (R, H+1) over some periods; of what does not repeat its mean period and torques (E,)."""
 
     wave: Array
     periods: int = 1
     lowest: Array | None = None
     highest: Array | None = None
     reached: bool = False  # whether the drive does so after a slow run-up or run-down
+
+    @property
+    def mean(self) -> Array:
+        """Its mean over one period, sum (R, h+1): the motion itself but for jitter where that repeats with each."""
+        found: Array = self.wave[..., :: max(self.periods, 1)]
+        return found
 
     def same(self, other: Run) -> bool:
         """Tell whether another is alike, be it some periods later; those that do not repeat are."""
@@ -81,9 +88,9 @@ class _Line:
                 inertia[:, model.owner[r]] = spring / (LIGHT * fastest) ** 2
             fastest *= LIGHT
         self.model = replace(part.model, inertia=inertia)
-        self.steps = STEPS * max(1, math.ceil(self.duration * fastest / (REACH * STEPS)))
-        periods = min(max(math.ceil(FADED / (decay * self.duration)), PERIODS[0]), PERIODS[1])
-        self.periods = EVERY * math.ceil(periods / EVERY)
+        least = math.ceil(self.duration * fastest / REACH)
+        self.steps, self.gross = STEPS * max(1, math.ceil(least / STEPS)), max(least, GROSS)
+        self.periods = min(max(math.ceil(FADED / (decay * self.duration)), PERIODS[0]), PERIODS[1])
 
     def block(self, q: Array, v: Array) -> Any:
         """Return as many of it as there are columns of angles and speeds (R, b), to be moved on."""
@@ -100,8 +107,8 @@ class _Line:
         block = self.block(np.repeat(np.append(0.0, rest)[:, None], 2, axis=1), np.tile(first, (len(rest) + 1, 1)))
         block.advance(
             0.0,
-            turns * self.steps,
-            self.duration / self.steps,
+            turns * self.gross,
+            self.duration / self.gross,
             (0.0 * first, first, (speed - first) / time),
             last=False,
         )
@@ -132,23 +139,25 @@ def ramped(part: Turning) -> list[Run]:
 
 def _led(part: Turning, line: _Line, q: Array, v: Array, *, reached: bool) -> list[Run]:
     """Return where angles off the input and speeds (R, b) at its angle 0 lead to."""
-    duration, base, steps, periods = line.duration, line.base, line.steps, line.periods
+    duration, base, sharp = line.duration, line.base, math.ceil(SHARP * line.periods)
+    periods = line.periods + sharp
     speed = np.full(q.shape[-1], float(part.speed[0]))
     block = line.block(q, v)
 
-    def advanced(begin: float, taken: int) -> Array:
-        """Return what each coordinate is off even rotation, and that of its speed, after some steps."""
-        block.advance(begin, taken, duration / steps, (begin * speed, speed, 0.0 * speed), last=False)
+    def advanced(begin: float, time: float, taken: int) -> Array:
+        """Return what each coordinate is off even rotation, and that of its speed, some time and steps later."""
+        block.advance(begin, taken, time / taken, (begin * speed, speed, 0.0 * speed), last=False)
         angle, turning, _work = block.now()
-        then = begin + taken * duration / steps
+        then = begin + time
         return np.stack([angle[1:] - then * speed, (turning[1:] - speed) / abs(base)])
 
     def followed(first: int, count: int, samples: int) -> Array:
         """Return the same at the samples of some periods, each at the end of its step, array (2, R, k, s)."""
-        times = duration * (first + np.arange(count * samples) / samples)
-        return np.stack([advanced(float(time), steps // samples) for time in times], axis=-1)
+        times, each = duration * (first + np.arange(count * samples) / samples), line.steps // samples
+        return np.stack([advanced(float(time), duration / samples, each) for time in times], axis=-1)
 
-    advanced(0.0, periods * steps)
+    advanced(0.0, line.periods * duration, line.periods * line.gross)
+    advanced(line.periods * duration, sharp * duration, sharp * line.steps)
     path = followed(periods, LONGEST + 1, CLOSE)
     swing = np.max(np.ptp(path[0], axis=-1), axis=0)
     finite = np.isfinite(path).all(axis=(0, 1, 3))
@@ -158,12 +167,8 @@ def _led(part: Turning, line: _Line, q: Array, v: Array, *, reached: bool) -> li
         shifted = np.max(np.abs(path[..., m * CLOSE :] - path[..., : -m * CLOSE]), axis=(0, 1, 3))
         rows = np.flatnonzero(left & (shifted <= REPEATS * swing))
         left[rows] = False
-        samples = np.roll(path[0][..., : m * CLOSE], 1, axis=-1)[:, rows]
-        wave = np.fft.rfft(samples, axis=-1)[..., : m * LOWER] / (m * CLOSE)
-        wave[..., 1:] *= 2.0
-        for k in range(len(rows)):
-            one = wave[:, k] if base > 0.0 else wave[:, k].conj()
-            found.append(Run(wave=one, periods=m, reached=reached))
+        waves = _sums(path[0][:, rows, : m * CLOSE], m * LOWER, base)
+        found += [Run(wave=waves[:, k], periods=m, reached=reached) for k in range(len(rows))]
     rows = np.flatnonzero(left)
     if rows.size:
         path = followed(periods + LONGEST + 1, RUN, COARSE)[:, :, rows]
@@ -175,11 +180,18 @@ def _led(part: Turning, line: _Line, q: Array, v: Array, *, reached: bool) -> li
         torque = element_torques(
             part.drives(np.zeros(len(rows), dtype=int)), angle + (times * speed[0])[:, None], rate + speed[0]
         )
+        waves = _sums(np.mean(path[0].reshape(*path[0].shape[:2], RUN, COARSE), axis=-2), COARSE // 2, base)
         for k in np.flatnonzero(lasts).tolist():
             ends = {"lowest": np.min(torque[k], axis=0), "highest": np.max(torque[k], axis=0)}
-            none = np.zeros((len(path[0]), 0))
-            found.append(Run(wave=none, periods=0, reached=reached, **ends))
+            found.append(Run(wave=waves[:, k], periods=0, reached=reached, **ends))
     return found
+
+
+def _sums(samples: Array, width: int, base: float) -> Array:
+    """Return sums (R, k, width) through samples (R, k, s), each at the end of its step."""
+    wave = np.fft.rfft(np.roll(samples, 1, axis=-1), axis=-1)[..., :width] / samples.shape[-1]
+    wave[..., 1:] *= 2.0
+    return wave if base > 0.0 else wave.conj()
 
 
 def near(one: Array, other: Array, share: float) -> bool:

@@ -71,7 +71,7 @@ def stable_motions(orbit: Orbit, status: Array) -> tuple[Orbit, Array, tuple[Bes
     for row, runs in _searched(orbit, rows):
         own = _alone(orbit, row)
         known = [own] if floquet(own).verdict[0] == Verdict.STABLE else []
-        motions = _distinct([*known, *_others(orbit, row, [one.wave for one in runs if one.periods == 1])])
+        motions = _distinct([*known, *_others(orbit, row, [one.mean for one in runs if one.periods])])
         first, others = _counted(orbit, row, runs, motions)
         beside += others
         if first is None or first is own:
@@ -93,7 +93,7 @@ def _counted(
     part = orbit.turning.part(np.asarray([row]))
     if len(motions) > 1 and part.model.steppable and not any(one.reached for one in runs):
         runs = [*ramped(part), *runs]
-    waves = [one.wave for one in runs if one.reached and one.periods == 1]
+    waves = [one.mean for one in runs if one.reached]
     once = []
     for one in motions:
         reached = any(near(one.coefficient[0, part.first :], wave, ALIKE) for wave in waves)
