@@ -19,6 +19,7 @@ from cardan.questions.torsion.model.torsional_model import Torque, TorsionalMode
 from cardan.questions.torsion.steady.answer import answer
 from cardan.questions.torsion.steady.dynamic_torque import dynamic_torque
 from cardan.questions.torsion.steady.run_stability import Kind, Verdict, floquet
+from cardan.questions.torsion.steady.settling import ramped as ramps_of
 from cardan.questions.torsion.steady.several import stable_motions
 from cardan.questions.torsion.steady.steady import steady_orbits
 from cardan.questions.torsion.steady.steady_result import read_off
@@ -148,15 +149,20 @@ def test_a_hardening_spring_near_its_resonance_has_both_motions(speed: float, co
     np.testing.assert_allclose(told(model, speed), truth, rtol=2e-3)
 
 
-@pytest.mark.slow
-def test_of_three_motions_of_a_steep_joint_the_unstable_middle_one_is_left_for_the_others() -> None:
-    model = torsional_line(
+def steep(damping: float) -> TorsionalModel:
+    """Return a mass behind a joint of 40° that has three motions, two of them stable, at 49.5 rad/s."""
+    return torsional_line(
         [[1.0, 0.001], [0.001, 0.1]],
         stiffness=[[3000.0], [1500.0]],
-        damping=[[0.0], [0.5]],
+        damping=[[0.0], [damping]],
         joint_angle=[np.radians(40.0)],
         input_speed=49.5,
     )
+
+
+@pytest.mark.slow
+def test_of_three_motions_of_a_steep_joint_the_unstable_middle_one_is_left_for_the_others() -> None:
+    model = steep(0.5)
     orbit, status = steady_orbits(model, speed=[49.5])
     middle = floquet(orbit)
     assert (middle.verdict[0], middle.kind[0]) == (Verdict.UNSTABLE, Kind.REPEATING)
@@ -169,6 +175,38 @@ def test_of_three_motions_of_a_steep_joint_the_unstable_middle_one_is_left_for_t
         np.testing.assert_allclose(flow(model, 49.5, np.pi / 49.5, start) - start, turned, atol=1e-6)
         pushed = flow(model, 49.5, 40 * np.pi / 49.5, start * [1.002, 1.002, 1.0, 1.0])
         np.testing.assert_allclose(pushed - start, 40 * turned, atol=5e-3)  # it comes back
+
+
+def lasting(inner: float, speed: float) -> TorsionalModel:
+    """Return three shafts, the ends without damping: what they begin with fades in thousands of periods.
+
+    inner [kg·m²]: half of the middle shaft, whose stiffness and damping go with it.
+    """
+    return torsional_line(
+        [[0.15, 0.15], [inner, inner], [0.25, 0.25]],
+        stiffness=[[9e4], [1.97e7 * inner], [9e4]],
+        damping=[[0.0], [1240.0 * inner], [0.0]],
+        joint_angle=[0.149, 0.074],
+        phase=[0.0, -0.5 * np.pi],
+        input_speed=speed,
+        torques=[Torque(station=5, law=Constant(value=-250.0))],
+    )
+
+
+def test_where_no_ramp_settles_the_largest_motion_is_told_and_it_is_said_that_none_is_known_to_be_reached() -> None:
+    orbit, status = steady_orbits(lasting(0.0226, 158.7), speed=[158.7])
+    assert ramps_of(orbit.turning.part(np.asarray([0]))) == []
+    whole, _status, (other,) = stable_motions(orbit, status)
+    assert other.reached is None
+    found = read_off(whole, 1)
+    assert np.max(other.swing) < 0.5 * np.max(found.highest - found.lowest)
+    drive = example("pto-flywheel")
+    response = torsion_response(drive)
+    beside = tuple(replace(one, periods=1, reached=None) for one in response.beside)
+    said = [told_text(one.text, USUAL) for one in answer(drive, replace(response, beside=beside)).remarks]
+    (others,) = [one for one in said if "Other stable" in one]
+    assert "not known to which" in others
+    assert "blow" not in others
 
 
 def shaken(

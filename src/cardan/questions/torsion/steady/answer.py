@@ -353,20 +353,29 @@ def _beside(found: TorsionResponse) -> Remark:
             "Other stable motions at this speed: {torques}; told is the largest to which a slow run-up or run-down "
             "leads."
         )
+        if beside[0].reached is None:
+            text = _(
+                "Other stable motions at this speed: {torques}; told is the largest, for it is not known to which of "
+                "them a slow run-up or run-down leads."
+            )
         blow = _("±{torque} after a blow or an abrupt start")
         torques = [
-            say("±{torque}" if one.reached else blow, torque=_torque(float(np.max(one.swing)))) for one in beside
+            say(blow if one.reached is False else "±{torque}", torque=_torque(float(np.max(one.swing))))
+            for one in beside
         ]
         return Remark(text=say(text, torques=Joined(torques)), tone="warning")
     text = _(
         "Several stable motions at {where}, {torques}: the torque jumps on the way up and down; told is the largest to "
-        "which a slow run-up or run-down leads."
+        "which a slow run-up or run-down leads{unknown}."
     )
     several = np.isin(np.arange(len(found.speed)), [one.row for one in beside])
     where = ranges(np.abs(found.speed), several, "angular_speed")
     sizes = [float(np.max(one.swing)) for one in beside]
     ends = [say("±{torque}", torque=_torque(one)) for one in sorted({min(sizes), max(sizes)})]
-    return Remark(text=say(text, where=where, torques=Joined(ends, between=" … ")), tone="warning")
+    dark = np.isin(np.arange(len(found.speed)), [one.row for one in beside if one.reached is None])
+    lost = ranges(np.abs(found.speed), dark, "angular_speed")
+    unknown = say(_(", and the largest of all at {where}, where that is not known"), where=lost) if dark.any() else ""
+    return Remark(text=say(text, where=where, torques=Joined(ends, between=" … "), unknown=unknown), tone="warning")
 
 
 def _alarms(found: TorsionResponse) -> Iterator[Remark]:

@@ -51,7 +51,7 @@ RAMPS, SLOW = (0.5, 1.5), 8
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Run:
-    """Where a search led: a sum (R, H+1) over some periods; of what does not repeat its mean period and torques (E,)."""
+    """Where a search led: a sum (R, H+1) over some periods; of what never repeats its mean period and torques (E,)."""
 
     wave: Array
     periods: int = 1
@@ -90,7 +90,8 @@ class _Line:
         self.model = replace(part.model, inertia=inertia)
         least = math.ceil(self.duration * fastest / REACH)
         self.steps, self.gross = STEPS * max(1, math.ceil(least / STEPS)), max(least, GROSS)
-        self.periods = min(max(math.ceil(FADED / (decay * self.duration)), PERIODS[0]), PERIODS[1])
+        self.fading = FADED / (decay * self.duration) if decay else math.inf
+        self.periods = math.ceil(min(max(self.fading, PERIODS[0]), PERIODS[1]))
 
     def block(self, q: Array, v: Array) -> Any:
         """Return as many of it as there are columns of angles and speeds (R, b), to be moved on."""
@@ -131,10 +132,11 @@ def settled(part: Turning, starts: Array) -> list[Run]:
 def ramped(part: Turning) -> list[Run]:
     """Return what a slow run-up from half the speed and a slow run-down from one and a half times it lead to.
 
-    Torques and dampers are those at the speed itself.
+    Torques and dampers are those at the speed itself. Of a drive in which what it begins with takes longer to fade than
+    a ramp nothing is told: at its end it is still on the way.
     """
     line = _Line(part)
-    return _led(part, line, *line.ramped(part), reached=True)
+    return _led(part, line, *line.ramped(part), reached=True) if line.fading <= SLOW * PERIODS[1] else []
 
 
 def _led(part: Turning, line: _Line, q: Array, v: Array, *, reached: bool) -> list[Run]:

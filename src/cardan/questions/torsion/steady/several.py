@@ -38,7 +38,7 @@ class Beside:
     lowest: Array  # lowest, highest (E,) [N·m]: true extremes of the torque of every element
     highest: Array
     periods: int = 1  # after how many periods it repeats; 0 where not within `LONGEST`: extremes of a long run
-    reached: bool = False  # whether a slow run-up or run-down leads to it
+    reached: bool | None = False  # whether a slow run-up or run-down leads to it; None where it is not known which
     runs: bool = False  # whether it counts while it repeats after several periods only, or not at all
 
     @property
@@ -61,8 +61,8 @@ def stable_motions(orbit: Orbit, status: Array) -> tuple[Orbit, Array, tuple[Bes
     Of several stable motions one counts, by one rule for all: of those that a slow run-up or run-down leads to
     (`cardan.questions.torsion.steady.settling`) the one with the largest swing of the torque. It is the motion that is
     told where it repeats with every period; else it runs beside one of one period, see `widened`. Others take a blow or
-    an abrupt start: they stand beside it. Where neither leads to one that was found, or fixed steps do not follow the
-    drive (`TorsionalModel.steppable`), the largest of one period counts.
+    an abrupt start: they stand beside it. Where neither leads to one that was found, too little damping lets no ramp
+    settle, or fixed steps do not follow the drive (`TorsionalModel.steppable`), the largest of one period counts.
     """
     rows = np.flatnonzero(_several(orbit, status))
     coefficient = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])
@@ -102,6 +102,8 @@ def _counted(
     every = [*once, *_longer(part, row, runs, once)]
     if len(every) == 1:  # whatever the way, it leads there
         once, every = ([replace(one, reached=True) for one in each] for each in (once, every))
+    elif not any(one.reached for one in every):
+        once, every = ([replace(one, reached=None) for one in each] for each in (once, every))
     counted = max([one for one in every if one.reached] or once or every, key=_size, default=None)
     first = max([one for one in once if one.reached] or once, key=_size, default=None)
     others = [replace(one, runs=one is counted) for one in every if first is None or one.orbit is not first.orbit]
