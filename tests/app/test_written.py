@@ -12,6 +12,7 @@ import pytest
 from cardan.io import example_text
 from tests.app.test_hour import until
 from tests.app.test_kept import opened, speed, state
+from tests.app.test_numbers import says
 from tests.app.test_page import mark, text_of
 
 Open = Callable[..., Any]
@@ -86,3 +87,21 @@ def test_what_was_written_last_is_there_before_something_is_pressed(page: Any) -
     until(page, f"{before}# mine")
     mark(page, "undo").click()
     until(page, before)
+
+
+def test_what_is_written_into_a_field_stays_while_the_page_follows_the_one_before(page: Any) -> None:
+    mark(page, "way-form").click()
+    before, field = (page.get_by_label(f"centre mm {axis}", exact=True).first for axis in "yz")
+    before.click(click_count=3)
+    page.keyboard.type("41")
+    field.click(click_count=3)
+    for letter in "12.25":
+        page.keyboard.type(letter)
+        page.wait_for_timeout(100)
+    page.wait_for_timeout(1500)
+    assert field.input_value() == "12.25"
+    page.keyboard.press("Tab")
+    says(page, "41, 12.25]")
+    mark(page, "undo").click()
+    page.wait_for_function("one => one.value === '7'", arg=field.element_handle())
+    assert before.input_value() == "41"

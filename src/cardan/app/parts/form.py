@@ -305,16 +305,24 @@ class Triple:
     """Three numbers beside each other, of a point or a direction.
 
     value: the three, with blanks between; typed: called with all three once one of them changed; spun: likewise while
-    one is on the move.
+    one is on the move; written: called with every letter.
     """
 
-    def __init__(self, value: str, told: str, typed: Callable[[str], None], spun: Callable[[str], None]) -> None:
+    def __init__(
+        self,
+        value: str,
+        told: str,
+        typed: Callable[[str], None],
+        spun: Callable[[str], None],
+        written: Callable[[], None],
+    ) -> None:
         with ui.element("div").classes("triple"):
             self._inputs = [
                 ui.input(prefix=axis, value=part).props(f'dense outlined aria-label="{told} {axis}" {NUMBER}')
                 for axis, part in zip(AXES, self._parts(value), strict=True)
             ]
         for place, one in enumerate(self._inputs):
+            one.on_value_change(written)
             one.on("change", lambda event, place=place: self._changed(place, str(event.args), typed), js_handler=TYPED)
             one.on("spin", lambda event, place=place: self._changed(place, str(event.args), spun), js_handler=SPUN)
 
@@ -349,6 +357,7 @@ class KeyField:
         self.entry = entry
         self._silent = False
         self._spinning = False
+        self._writing = False
         with ui.element("div").classes("key").props(f'data-mark="key-{entry.key()}"') as self.row:
             with ui.element("div").classes("line"):
                 name = ui.label(entry.name.replace("_", " ")).classes("name")
@@ -360,13 +369,14 @@ class KeyField:
                     out.props(f'aria-label="{_("take out")} {entry.name}"')
             ui.label(entry.doc).classes("hint")
             self.row.on("spun", self._let_go, js_handler="() => emit()")
+            self.row.on("focusout", self._left, js_handler="() => emit()")
             self.wrong = ui.label("").classes("wrong").props("role=alert")
         self.judge()
 
     def show(self, entry: Entry) -> None:
-        """Show what stands there now, without moving anything; a number on the move is ahead of it."""
+        """Show what stands there now, without moving anything; a hand that writes or moves a number is ahead of it."""
         self.entry = entry
-        if self._spinning:
+        if self._spinning or self._writing:
             self.judge()
             return
         self._silent = True
@@ -401,7 +411,8 @@ class KeyField:
         told = f'dense outlined aria-label="{entry.name} {label(entry.unit)}"'
         if entry.sort == "point" and entry.size == 3:
             self.row.classes("wide")
-            return Triple(shown(entry), f"{entry.name} {label(entry.unit)}", self._typed, self._spun)
+            told = f"{entry.name} {label(entry.unit)}"
+            return Triple(shown(entry), told, self._typed, self._spun, self._written)
         if entry.sort == "flag":
             return ui.switch(value=bool(self._value()), on_change=lambda event: self._typed(event.value)).props(told)
         if entry.sort == "choice":
@@ -414,7 +425,7 @@ class KeyField:
             widget = ui.input(value=shown(entry), autocomplete=list(entry.offered) or None).props(told)
         if not entry.given and isinstance(entry.default, int | float | str) and entry.default != "":
             widget.props(f'placeholder="{entry.default}"')
-        widget.on("change", lambda event: self._typed(event.args), js_handler=TYPED)
+        widget.on_value_change(self._written).on("change", lambda event: self._typed(event.args), js_handler=TYPED)
         if entry.sort in ("number", "whole"):
             widget.props(NUMBER).on("spin", lambda event: self._spun(str(event.args)), js_handler=SPUN)
         return widget
@@ -444,9 +455,20 @@ class KeyField:
         self._spinning = False
         self.show(self.entry)
 
+    def _written(self) -> None:
+        """Note that somebody is writing in it."""
+        self._writing = not self._silent
+
+    def _left(self) -> None:
+        """End the writing: the field follows the file again."""
+        if self._writing:
+            self._writing = False
+            self.show(self.entry)
+
     def _typed(self, value: Any) -> None:
         if self._silent:
             return
+        self._writing = False
         if self.entry.sort == "flag":
             new: Any = bool(value)
         elif self.entry.sort == "choice" and value in ("true", "false"):
