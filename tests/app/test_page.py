@@ -204,6 +204,17 @@ def test_the_page_speaks_russian_and_remembers_it(page_of: Open, url: str) -> No
     page.reload()
     page.wait_for_function("document.documentElement.lang === 'ru'")
     assert "cardan_choices" in kept
+    ready(page)
+    mark(page, "way-form").click()
+    field = page.get_by_label("centre мм y", exact=True).first
+    for wrong in ("abc", "abd"):  # what cannot be taken is told in the language of the page, whoever found it
+        field.fill(wrong)
+        field.press("Enter")
+        page.wait_for_function(
+            "told => document.querySelector('[data-mark=problems]').innerText.includes(told)", arg=wrong
+        )
+        told = mark(page, "problems").inner_text()
+        assert re.match(r"Шарнир 1 · centre_mm y: [а-я]", told), told
 
 
 def test_every_export_opens_with_its_own_library(page: Any, tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from cardan.files import Enclosed
 from cardan.io import dumps, example, example_text
 from cardan.io.amend import amend
 from cardan.reading.limits import MAX_BYTES
-from cardan.texts import language
+from cardan.texts import language, speaking
 
 
 @pytest.fixture
@@ -64,6 +64,20 @@ def test_a_wrong_edit_keeps_the_last_sound_drive_and_tells_the_loaders_words(ses
     session.undo()
     assert session.document.valid
     assert session.drive == before
+
+
+def test_what_is_wrong_is_told_in_the_users_language_whatever_brought_it(session: Session) -> None:
+    session.choose(language="ru")
+    session.change(lambda text: amend(text, {"joints[1].centre_mm": "far"}))
+    with speaking("ru"):
+        told = read(session.document.text, session.workspace.enclosed).problems
+    assert session.document.problems == told
+    assert told != read(session.document.text, session.workspace.enclosed).problems
+    session.undo()
+    session.redo()
+    assert session.document.problems == told
+    session.open(session.document.text)
+    assert session.document.problems == told
 
 
 def test_undo_and_redo_walk_through_every_text(session: Session) -> None:

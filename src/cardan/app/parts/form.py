@@ -494,7 +494,8 @@ def apply(session: Session, values: dict[str, Any]) -> None:
 
 def attempt(session: Session, change: Callable[[str], str], *, gesture: str = "") -> None:
     """Change the file; say why where it cannot be."""
-    try:
-        session.change(change, gesture=gesture)
-    except InputError as error:
-        toasts.refused(error)
+    with session.speaking():
+        try:
+            session.change(change, gesture=gesture)
+        except InputError as error:
+            toasts.refused(error)

@@ -136,7 +136,8 @@ class Session:
 
     def read(self, text: str) -> Document:
         """Return the document that a text is in this workspace."""
-        return read(text, self.workspace.enclosed)
+        with self.speaking():
+            return read(text, self.workspace.enclosed)
 
     @property
     def saved(self) -> bool:
@@ -218,7 +219,8 @@ class Session:
             self.apart(step)
             return
         how, then = step()
-        then(changed(self.document, how, self.workspace.enclosed))
+        with self.speaking():
+            then(changed(self.document, how, self.workspace.enclosed))
 
     def _stepped(self, after: Document, gesture: str = "") -> None:
         if after.text == self.document.text:

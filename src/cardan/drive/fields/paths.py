@@ -27,6 +27,7 @@ D = TypeVar("D", bound=Described | Mechanism)  # a drive, checked or not, or a m
 P = TypeVar("P", bound=Described)
 
 _STEP = re.compile(r"([A-Za-z_][A-Za-z0-9_]*)((?:\[\d+\])*)$")
+_WRITTEN = re.compile(r"([^\[\]]+)((?:\[\d+\])*)$")  # likewise, where a key may be wrong
 
 
 @dataclass(frozen=True, slots=True)
@@ -308,10 +309,12 @@ def counted(path: str) -> str:
     'Shaft 3 · parts 1 · mass_kg'
     >>> counted("joints[0].centre_mm[2]")
     'Joint 1 · centre_mm z'
+    >>> counted("supports[0].größe")
+    'Support 1 · größe'
     """
     if "[" not in path:
         return path
-    words = [_STEP.fullmatch(word) for word in path.split(".")]
+    words = [(_WRITTEN if k else _STEP).fullmatch(word) for k, word in enumerate(path.split("."))]
     told: list[str] = []
     for word in words:
         if word is None:  # the name of a file, say
