@@ -67,10 +67,14 @@ def test_errors_are_told_in_the_same_words_and_numbers_everywhere(name):
     assert f"With the errors of its joints as made the speed fluctuation is {share}." in told(first[0], USUAL)
 
 
-def test_a_kind_without_errors_counts_as_made_true_and_the_answers_say_so():
+def test_joints_whose_sizes_are_not_given_count_as_made_true_and_the_answers_say_so():
     drive = erring("propshaft-with-rzeppa")
     texts = [told(one.text, USUAL) for one in said(QUESTIONS["motion"], drive).remarks]
     assert any("With the errors of its joints as made" in text for text in texts)
     texts = [told(one.text, USUAL) for one in said(QUESTIONS["accuracy"], drive).remarks]
-    true = " and ".join(str(k) for k, joint in enumerate(drive.joints, 1) if not joint.single_cross)
-    assert any(f"oint {true} count" in text or f"oints {true} count" in text for text in texts)
+    others = [(number, joint) for number, joint in enumerate(drive.joints, 1) if not joint.single_cross]
+    assert others
+    for number, joint in others:
+        assert not any(joint.sizes().values())
+        own = next(text for text in texts if text.startswith(f"Of joint {number} only alpha4"))
+        assert ", ".join(joint.law_sizes) in own

@@ -10,6 +10,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any, get_args
 
+from cardan.drive.accuracy import Cost, Error, Tolerance
 from cardan.drive.drive import Drive
 from cardan.drive.duty import History
 from cardan.drive.fields.keys import KINDS, NAMED, spelled
@@ -190,6 +191,8 @@ def unknown(cls: type, key: str) -> str:
         return _("{unit} is not a unit of this field: write {choices}").format(unit=label(unit), choices=choices)
     other = _other_word(cls, key)
     near = other or _near(cls, key, cutoff=CLOSE)
+    if _of_a_kind(cls) and not near:
+        return _listed(cls)
     owners = [] if other else _owners(cls, key)
     if owners:
         text = _("unknown here; it belongs to {owners}").format(owners=_(" or ").join(owners))
@@ -197,8 +200,18 @@ def unknown(cls: type, key: str) -> str:
     near = near or _near(cls, key)
     if near:
         return _("unknown key; the nearest known one is {near}").format(near=near)
-    listed = ", ".join(one.spelling for one in fields_of(cls).values())
-    return _("unknown key; known here: {known}").format(known=listed)
+    return _listed(cls)
+
+
+def _listed(cls: type) -> str:
+    """Return that a key is unknown, with all that are known."""
+    known = ", ".join(one.spelling for one in fields_of(cls).values())
+    return _("unknown key; known here: {known}").format(known=known)
+
+
+def _of_a_kind(cls: type) -> bool:
+    """Tell whether a table is one of errors, tolerances or costs that the kind of a joint has of its own."""
+    return cls.__base__ in (Error, Tolerance, Cost)
 
 
 def _split(cls: type, key: str) -> tuple[str, str, str] | None:
@@ -233,9 +246,9 @@ def _near(cls: type, key: str, cutoff: float = 0.0) -> str:
 
 def _owners(cls: type, key: str) -> list[str]:
     """Return the tables that know a key, as a file names them: first those of the same sort."""
-    if cls not in {other for _title, other in tables()}:
-        return []  # of a file that is no drive
-    return [title for title, other in tables() if other is not cls and _knows(other, key)]
+    if _of_a_kind(cls) or cls not in {other for _title, other in tables()}:
+        return []  # what a kind can have, or of a file that is no drive
+    return [title for title, other in tables() if other is not cls and not _of_a_kind(other) and _knows(other, key)]
 
 
 def _knows(cls: type, key: str) -> bool:

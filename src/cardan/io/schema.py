@@ -225,7 +225,11 @@ def _tables_of_kinds() -> Iterator[tuple[str, type]]:
     for name, kind in JOINTS.items():
         own: dict[type, list[str]] = {}
         for field, one in fields_of(kind).items():
-            if field in kind.own_fields() and isinstance(one.type, type) and is_dataclass(one.type):
+            if (
+                (field in kind.own_fields() or one.type in kind.tables().values())
+                and isinstance(one.type, type)
+                and is_dataclass(one.type)
+            ):
                 own.setdefault(one.type, []).append(f"`{field}`")
         for cls, fields in own.items():
             yield f'{" and ".join(fields)} of a joint with `kind = "{name}"`', cls

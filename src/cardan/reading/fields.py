@@ -56,7 +56,7 @@ def fields_of(cls: Any) -> dict[str, Field]:
 
 @cache
 def _fields_of(cls: Any) -> dict[str, Field]:
-    hints = _hints(cls)
+    hints = _hints(cls) | (cls.tables() if hasattr(cls, "tables") else {})
     foreign: frozenset[str] = getattr(cls, "foreign", frozenset())
     return {
         one.name: Field(

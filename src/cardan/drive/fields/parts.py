@@ -13,6 +13,7 @@ from cardan.drive.profile_tube import LOBES
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 from cardan.errors import Problem
+from cardan.reading.fields import fields_of
 from cardan.texts import _
 from cardan.units import mm, rpm
 
@@ -82,6 +83,8 @@ def _joint(joint: Joint, path: str) -> Iterator[Problem]:
         if one.name in joint.foreign and getattr(joint, one.name) != one.default:
             text = _("a joint of kind {kind} has none")
             yield Problem(f"{path}.{one.name}", text.format(kind=joint.kind), "unknown_key")
+    for name in ("error", "tolerance"):
+        yield from _departures(joint, name, f"{path}.{name}")
     for problem in joint.own_problems():
         yield Problem(f"{path}.{problem.field}", problem.message, problem.code)
     if joint.friction is not None and joint.material_friction is not None:
@@ -92,6 +95,23 @@ def _joint(joint: Joint, path: str) -> Iterator[Problem]:
     if cross is not None and cross.span is not None and cross.journal is not None and cross.journal >= cross.span:
         text = _("a journal of {journal:.6g} mm does not fit a cross with a span of {span:.6g} mm")
         yield Problem(f"{path}.cross.journal", text.format(journal=cross.journal / mm, span=cross.span / mm))
+
+
+def _departures(joint: Joint, name: str, path: str) -> Iterator[Problem]:
+    """Yield errors that a joint of its kind cannot have, and those of sizes that it does not give."""
+    given = getattr(joint, name)
+    if given is None:
+        return
+    known, sizes = fields_of(fields_of(type(joint))[name].type), joint.sizes()
+    for one in fields(given):
+        if getattr(given, one.name) == one.default:
+            continue
+        if one.name not in known:
+            text = _("a joint of kind {kind} has none; it takes {names}")
+            message = text.format(kind=joint.kind, names=", ".join(known))
+            yield Problem(f"{path}.{one.name}", message, "unknown_key")
+        elif one.name in sizes and sizes[one.name] is None:
+            yield Problem(f"{path}.{one.name}", _("the joint does not give this size itself"), "missing")
 
 
 def _body(shaft: Shaft, path: str) -> Iterator[Problem]:

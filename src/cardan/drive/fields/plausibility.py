@@ -17,6 +17,7 @@ from cardan.texts import _
 from .keys import spelled
 
 USUAL: tuple[tuple[str, float, float], ...] = (
+    (r".*\.(error|tolerance)\.\w+", 0.0, math.inf),
     (r"shafts\[\d+\]\.length|shafts\[\d+\]\.segments\[\d+\]\.length", 2e-3, 40.0),
     (r".*\.(outer|inner|root|mean_diameter|span|driving_distance|driven_distance|groove_radius)", 1e-3, 4.0),
     (r".*\.(wall|journal|journal_length|journal_bore|bending_arm|torsion_arm|height|width|tooth_width)", 1e-4, 1.0),

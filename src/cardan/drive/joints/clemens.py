@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -15,7 +15,7 @@ from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import Surface, ball, joined, placed, revolved
 from cardan.texts import _, mark
-from cardan.units import plain, quantity
+from cardan.units import KEY, Key, plain, quantity
 
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
 from .common.laws import contact_push
@@ -33,6 +33,11 @@ class Profile:
     radius: float = quantity("length", doc="radius of the circle: length of the arm", above=0.0)
 
 
+SIDES = ("driving", "driven")
+PROFILES = tuple(f"{side}_{one.name}" for side in SIDES for one in fields(Profile))
+"""Sizes of both profiles."""
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Clemens(Joint):
     """Clemens coupling, or another one with circular profiles: even where both profiles are alike."""
@@ -43,6 +48,7 @@ class Clemens(Joint):
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("driving", "hinge_diameter", "hinge_length", "tip_diameter")
     loose: ClassVar[bool] = True
+    law_sizes: ClassVar[tuple[str, ...]] = PROFILES
     steepest: ClassVar[float] = 0.5 * math.pi
     refusals: ClassVar[Mapping[str, str]] = {
         **REFUSALS,
@@ -63,6 +69,23 @@ class Clemens(Joint):
         if self.driven is not None and self.driving is None:
             yield Problem("driving", _("missing; it goes with {other}").format(other="driven"), "missing")
         yield from both_or_none(self, "hinge_diameter", "hinge_length", "tip_diameter")
+
+    @classmethod
+    def size_keys(cls) -> dict[str, Key]:
+        """Return what the sizes of both profiles mean."""
+        return dict(zip(PROFILES, [one.metadata[KEY] for one in fields(Profile)] * 2, strict=True))
+
+    def sizes(self) -> dict[str, float | None]:
+        """Return the sizes of both profiles, the driven one as the driving one where it is not given."""
+        both = self.driving, self.driving if self.driven is None else self.driven
+        values = [None if side is None else getattr(side, one.name) for side in both for one in fields(Profile)]
+        return dict(zip(PROFILES, values, strict=True))
+
+    def sized(self, sizes: Mapping[str, Any]) -> Joint:
+        """Return it with other sizes of its profiles."""
+        whole = {**self.sizes(), **sizes}
+        one, other = (Profile(**{f.name: whole[f"{side}_{f.name}"] for f in fields(Profile)}) for side in SIDES)
+        return replace(self, driving=one, driven=other)
 
     def pair(self, joint_angle: Array) -> mobius.Pair | None:
         """Return the identity for profiles alike, else None."""

@@ -37,6 +37,7 @@ class DoubleCardan(Joint):
     rubbing: ClassVar[tuple[str, ...]] = ("centre_distance", "journal_span", "journal_diameter")
     rated: ClassVar[tuple[str, ...]] = (*rubbing, "bearing_capacity")
     fixed: ClassVar[bool] = True
+    law_sizes: ClassVar[tuple[str, ...]] = ("centring_ratio",)
     steepest: ClassVar[float] = 0.5 * math.pi
 
     centring_ratio: float | None = plain(

@@ -18,6 +18,7 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``centred``          no: what it passes on needs no housing that centres its shafts
 ``loose``            no: it holds its shafts in its centre, but for sliding
 ``twist_spring``     none: it does not give under torque
+``law_sizes``        none: its law follows none of its sizes, so that errors of them do nothing to it
 ``stuck``            its kind and the joint angle at which it does not turn
 ``inside``           nothing else moves in it
 ``rubbing``          no: what rubs in it is not counted
@@ -49,9 +50,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from types import MappingProxyType
-from typing import ClassVar, TypeAlias
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -63,9 +64,9 @@ from cardan.errors import Problem
 from cardan.maths.arrays import Array, unit_complex
 from cardan.maths.kernel import mobius
 from cardan.texts import _, mark
-from cardan.units import plain, quantity
+from cardan.units import KEY, Key, plain, quantity
 
-from .common import inner
+from .common import departures, inner
 from .common import site as drawn
 from .common.inner import InnerPair, Stance
 from .common.site import Site
@@ -73,9 +74,7 @@ from .common.site import Site
 Point: TypeAlias = tuple[float, float, float]
 Box: TypeAlias = tuple[tuple[float, float], tuple[float, float], tuple[float, float]]
 
-CROSS_ONLY = frozenset(
-    ("friction", "material_friction", "fit", "cross", "needles", "yoke", "inspection", "error", "tolerance")
-)
+CROSS_ONLY = frozenset(("friction", "material_friction", "fit", "cross", "needles", "yoke", "inspection"))
 """Fields that only a joint with one cross can use."""
 
 
@@ -89,6 +88,7 @@ REFUSALS: Mapping[str, str] = MappingProxyType(
         "life": mark("it has no rolling bearings, and ISO 281 tells nothing of parts that slide or give"),
         "sizing": mark("the rows of the catalogue are of cross joints"),
         "cross": mark("only the law of a cross joint is taken here"),
+        "tolerance": mark("its law follows none of its sizes"),
     }
 )
 """Question -> why a joint that is no cross joint does not answer it, marked for translation."""
@@ -152,6 +152,9 @@ class Joint:
 
     rated: ClassVar[tuple[str, ...]] = ()
     """Keys of the sizes that tell, with `bearing_capacity` among them, the life of bearings in it; none without any."""
+
+    law_sizes: ClassVar[tuple[str, ...]] = ()
+    """Keys of its sizes that its law follows: what of them is off, or may be, is told beside them."""
 
     slides: ClassVar[bool] = False
     """Whether it lets its shafts slide along each other."""
@@ -251,6 +254,26 @@ class Joint:
         """Whether it turns its driven shaft as its driving one, at every joint angle."""
         pair = self.pair(np.asarray(0.1))
         return pair is not None and bool(abs(pair[1]) == 0.0)
+
+    @classmethod
+    def size_keys(cls) -> dict[str, Key]:
+        """Return what the sizes mean that its law follows."""
+        given = {one.name: one.metadata[KEY] for one in fields(cls) if KEY in one.metadata}
+        return {name: given[name] for name in cls.law_sizes}
+
+    @classmethod
+    def tables(cls) -> Mapping[str, Any]:
+        """Return the classes of its keys `error` and `tolerance`, where they are not those of a cross joint."""
+        alike: Any = cls if cls.law_sizes else Joint
+        return {} if cls.single_cross else departures.tables(alike)
+
+    def sizes(self) -> dict[str, float | None]:
+        """Return the sizes that its law follows, None where one is not given."""
+        return {name: getattr(self, name) for name in self.law_sizes}
+
+    def sized(self, sizes: Mapping[str, Any]) -> Joint:
+        """Return it with other sizes of those that its law follows."""
+        return replace(self, **sizes)
 
     def stuck(self, joint_angle: float) -> str:
         """Return in a sentence that it does not turn at a joint angle [rad], and why where it is known."""

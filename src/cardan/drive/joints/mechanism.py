@@ -87,6 +87,7 @@ class MechanismJoint(Joint):
     steepest: ClassVar[float] = 0.5 * math.pi
     refusals: ClassVar[Mapping[str, str]] = {
         **REFUSALS,
+        "tolerance": mark("tolerances of its pairs stand in its mechanism file, and `cardan motion` tells them of it"),
         "forces": mark("its shafts can shift across each other one way and not another, so that both take forces"),
     }
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -21,7 +21,7 @@ from cardan.units import plain, quantity
 from .common import site as drawn
 from .common.inner import DRIVEN, FRAME, InnerPair, Stance, carried, crossed
 from .common.site import Site
-from .joint import CROSS_ONLY, Inside, Joint, both_or_none
+from .joint import CROSS_ONLY, REFUSALS, Inside, Joint, both_or_none
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -33,6 +33,10 @@ class OffsetCross(Joint):
     types: ClassVar[tuple[str, ...]] = ("hooke_offset_cross",)
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("journal_span", "journal_diameter")
+    refusals: ClassVar[Mapping[str, str]] = {
+        **REFUSALS,
+        "tolerance": mark("it turns by the law of a Hooke joint for any offset, which makes its shaft wobble alone"),
+    }
     crossed: ClassVar[bool] = True
     fixed: ClassVar[bool] = True
 

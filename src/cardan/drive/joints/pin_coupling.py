@@ -32,6 +32,9 @@ class PinCoupling(Joint):
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("driving_distance", "driven_distance")
     loose: ClassVar[bool] = True
+    law_sizes: ClassVar[tuple[str, ...]] = (
+        "driving_slant", "driven_slant", "driving_distance", "driven_distance",
+    )  # fmt: skip
     steepest: ClassVar[float] = 0.5 * math.pi
     refusals: ClassVar[Mapping[str, str]] = {
         **REFUSALS,
@@ -65,6 +68,10 @@ class PinCoupling(Joint):
     @property
     def _slants(self) -> tuple[float, float]:
         return self.driving_slant, self.driving_slant if self.driven_slant is None else self.driven_slant
+
+    def sizes(self) -> dict[str, float | None]:
+        """Return slants and distances of its pins, the driven slant as the driving one where it is not given."""
+        return {**Joint.sizes(self), "driven_slant": self._slants[1]}
 
     def pair(self, joint_angle: Array) -> mobius.Pair | None:
         """Return the identity for pins alike, nan where they do not reach round a turn; None for unlike pins."""

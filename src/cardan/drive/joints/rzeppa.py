@@ -48,6 +48,7 @@ class Rzeppa(Joint):
     pressed: ClassVar[tuple[str, ...]] = (*GROOVES, "ball_diameter", "groove_conformity", "pressure_angle")
     refusals: ClassVar[Mapping[str, str]] = {**REFUSALS, "life": NO_BEARING}
     fixed: ClassVar[bool] = True
+    law_sizes: ClassVar[tuple[str, ...]] = (*LEVER, *GROOVES)
     steepest: ClassVar[float] = math.radians(47.0)
 
     balls: int = plain(6, doc="number of balls, all of which carry", low=3)

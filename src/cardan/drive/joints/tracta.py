@@ -34,6 +34,7 @@ class Tracta(Joint):
         "driving_distance", "driven_distance", "swivel_diameter", "swivel_length", "tongue_length",
     )  # fmt: skip
     fixed: ClassVar[bool] = True
+    law_sizes: ClassVar[tuple[str, ...]] = ("driving_distance", "driven_distance")
     centred: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(50.0)
 

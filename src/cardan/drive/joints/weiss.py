@@ -134,6 +134,7 @@ class Weiss(Joint):
     pressed: ClassVar[tuple[str, ...]] = (*rubbing, "ball_diameter", "groove_conformity")
     refusals: ClassVar[Mapping[str, str]] = {**REFUSALS, "life": NO_BEARING}
     fixed: ClassVar[bool] = True
+    law_sizes: ClassVar[tuple[str, ...]] = ("driving_offset", "driven_offset", "groove_radius")
     centred: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(40.0)
 

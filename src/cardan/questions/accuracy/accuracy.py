@@ -11,15 +11,17 @@ import numpy as np
 from cardan.drive.accuracy import Error
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
-from cardan.drive.models.kinematics_model import Chain, given_chain, turning
+from cardan.drive.joints import Joint
+from cardan.drive.models.kinematics_model import Chain, given_chain
+from cardan.drive.models.wobble import wobbling
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.kernel import loops
-from cardan.questions.motion.motion import Motion, motion
+from cardan.questions.motion.motion import Motion, followed, motion
 from cardan.texts import _
 
-TURNS = ("phase", "alpha1", "alpha2", "alpha3", "alpha4")
-"""Errors of a joint that turn the output, in the order of the last axis of arrays."""
+from . import own_laws
+from .own_laws import TURNS, seats
 
 WAYS = ("s1", "a1", "a2", "a3", "a4")
 """Errors of a joint that shift the output along its axis, each in the seat of the one of `TURNS` that it is twin to."""
@@ -111,22 +113,42 @@ def sensitivity(drive: Drive | Drives | Chain, angle: ArrayLike, *, located: Seq
     drive (...); angle (p,) [rad]: input angle φ_1 from the start position.
     located: numbers of the intermediate shafts that a bearing holds along their axis: shifts end there. Leave empty for
     angles.
-    Returns (..., p, n, 5): derivative of the output angle by the `TURNS` of each joint; of the output shift by its
-    `WAYS`.
+    Returns (..., p, n, c): derivative of the output angle by the `own_laws.seats` of each joint, `TURNS` first; of the
+    output shift by its `WAYS` in the first five.
 
     For joint j the row of φ_4 of `loops.influence`, with the sign of θ' = π/2 - φ_4, times the speed
     ratios of all joints behind it; the same numbers for shifts, because lengths are to angles as the dual parts of
     dual numbers.
     """
-    moved = motion(drive, angle)
+    moved = still(drive, angle)
     xp = namespace(moved.joint_angle)
-    own = -coefficients(moved)[..., 2, :]
+    own = _influences(drive, moved)
     weight, rows = None, []
     for j in reversed(range(own.shape[-3])):
         row = own[..., j, :, :] if weight is None else weight[..., None] * own[..., j, :, :]
         rows.append(row)
         weight = row[..., 0] * (0.0 if j + 1 in located else 1.0)
     return xp.stack(rows[::-1], axis=-2)
+
+
+def still(drive: Drive | Drives | Chain, angle: ArrayLike) -> Motion:
+    """Return how perfect joints turn at the joint angles as drawn, shafts that wobble as they lie in the mean."""
+    if isinstance(drive, Drive) and wobbling(drive):
+        return Motion(**followed(drive, np.atleast_1d(np.asarray(angle, dtype=float))))
+    return motion(drive, angle)
+
+
+def _influences(drive: Drive | Drives | Chain, moved: Motion) -> Array:
+    """Return how the driven mark of every joint feels its own errors, array (..., n, p, c), the phase first."""
+    own: Array = -coefficients(moved)[..., 2, :]
+    if not isinstance(drive, Drive) or all(moved.crossed):
+        return own
+    count = len(seats(drive.joints)[0])
+    found = np.concatenate((own, np.zeros((*own.shape[:-1], count - 5))), axis=-1)
+    for j, joint in enumerate(drive.joints):
+        if not joint.single_cross:
+            found[j] = own_laws.influence(joint, float(moved.joint_angle[j]), moved.yoke_rotation[j], count)
+    return found
 
 
 def coefficients(moved: Motion) -> Array:
@@ -146,8 +168,18 @@ def coefficients(moved: Motion) -> Array:
 
 
 def walked(drive: Drive | Drives | Chain) -> Chain:
-    """Return the loops of a drive to be walked along; joints of other kinds as those that turn alike, or nearly so."""
-    return turning(given_chain(drive), drive.joints, near=True) if isinstance(drive, Drive) else kinematics(drive)
+    """Return the joint angles, planes and yokes of a drive to be walked along; see `own_kinds` on joints in them."""
+    return given_chain(drive) if isinstance(drive, Drive) else kinematics(drive)
+
+
+def own_kinds(drive: Drive | Drives | Chain) -> tuple[Joint | None, ...]:
+    """Return the joints of one drive that turn by a law of their own, None for each that is a loop of four axes.
+
+    Of a batch there are none: in its chain joints of other kinds stand as the cross joints that turn alike.
+    """
+    if not isinstance(drive, Drive):
+        return ()
+    return tuple(None if joint.single_cross else joint for joint in drive.joints)
 
 
 def transmission_error(
@@ -168,11 +200,12 @@ def transmission_error(
     angle : array (p,) [rad], optional
         Input angle φ_1 from the start position; one turn of 360 positions by default.
     turns : array (..., n, 5) [rad], optional
-        Errors of each joint in the order of `TURNS`; of its axes so many that they broadcast with those of the drives.
+        Errors of each joint in the order of `TURNS`, those of the sizes of its kind after them where a joint has any;
+        of its axes so many that they broadcast with those of the drives.
     ways : array (..., n, 5) [m], optional
         Errors of each joint in the order of `WAYS`.
     errors : Error, or n of them, optional
-        Errors by name instead; those of the drive where nothing is given. Those of joints of other kinds count as 0.
+        Errors by name instead; those of the drive where nothing is given.
     located : sequence of int, optional
         Numbers of the shafts that a bearing holds along their axis, where shifts end; those with axial supports by
         default.
@@ -189,8 +222,9 @@ def transmission_error(
     -----
     Each joint is the closed loop of `cardan.maths.kernel.loops` with α = (90°, 90°, 90°, α) and no lengths, plus its
     errors. The phase turns its driving yoke on; θ' = π/2 - φ_4. A shaft that floats passes the shift on,
-    u_j = -s_4 with s_1 = u_{j-1} + its own. To first order Book (171), (180), chained. Joints of other kinds count as
-    made true: they pass on angle and shift as they pass on the turn, one that slides no shift.
+    u_j = -s_4 with s_1 = u_{j-1} + its own. To first order Book (171), (180), chained. Joints of other kinds turn by
+    their law with their joint angle, the place of their driving mark and the sizes that it follows off by the errors;
+    they pass on a shift as they pass on the turn, one that slides none.
 
     Examples
     --------
@@ -202,7 +236,7 @@ def transmission_error(
     >>> (found.error / deg).round(6), (found.error_linear / deg).round(6)
     (array([0.05]), array([0.05]))
     """
-    chain = walked(drive)
+    chain, own = walked(drive), own_kinds(drive)
     xp = namespace(chain.joint_angle, turns, ways)
     phi = xp.asarray(one_turn()) if angle is None else real(angle, xp)
     phi = phi if phi.ndim else phi[None]
@@ -210,8 +244,8 @@ def transmission_error(
     turned, shifted = _given(drive, chain.joints, turns, ways, errors, xp)
     mu = chain.turn_before
     start = xp.cos(mu[..., :1] + phi), xp.sin(mu[..., :1] + phi)
-    ideal, linear = walk(links(chain.joint_angle, None), mu, None, start, carry=((turned, ()), (shifted, held)))
-    actual, exact = walk(links(chain.joint_angle, turned), mu, turned[..., 0], start, carry=((shifted, held),))
+    ideal, linear = walk(chain, None, start, own=own, carry=((turned, ()), (shifted, held)))
+    actual, exact = walk(chain, turned, start, own=own, carry=((shifted, held),))
     error = ahead(actual, ideal)
     shape = (error + exact[-1][0]).shape
 
@@ -230,44 +264,62 @@ def transmission_error(
 
 
 def walk(
-    given: tuple[Array, Array],
-    mu: Array,
-    phase: Array | None,
+    chain: Chain,
+    errors: Array | None,
     start: tuple[Array, Array],
     *,
+    own: Sequence[Joint | None] = (),
     carry: Sequence[tuple[Array, Sequence[int]]] = (),
 ) -> tuple[tuple[Array, Array], list[tuple[Array, ...]]]:
     """Walk along chains, joint by joint.
 
-    given, two arrays (..., n, 4): cosines and sines of the angles of each joint's loop, see `links`.
-    mu (..., n) [rad]: angle added before each joint; that before the first is part of ``start``.
-    phase (..., n) [rad]: errors of the angle of the driving yokes; start, two arrays (..., p): cosine and sine of θ_1.
-    carry, sequence of (array (..., n, 5), sequence of int): errors to be carried along through the coefficients, and
-    the numbers of the shafts where they end.
+    errors (..., n, c): of the joints as they are, in the order of `own_laws.seats`; None for perfect ones.
+    start, two arrays (..., p): cosine and sine of θ_1; own: joints that turn by a law of their own, see `own_kinds`.
+    carry, sequence of (array (..., n, c), sequence of int): errors to be carried along through the coefficients, and
+    the numbers of the shafts where they end; of joints as they are those of length alone, to which no law of its own
+    adds anything.
     Returns tuple of two arrays (..., p): cosine and sine of the angle of the last driven yoke; list of n tuples of
     arrays (..., p): what has become of each of ``carry`` behind each joint.
     """
-    cosine, sine = given
-    xp = namespace(cosine, *start)
+    cosine, sine = links(chain.joint_angle, errors)
+    xp, mu = namespace(cosine, *start), chain.turn_before
     direction, found = start, []
     carried = tuple(0.0 * start[0] for _errors in carry)
-    for j in range(int(cosine.shape[-2])):
+    for j in range(chain.joints):
         if j:
             direction = _on(direction, mu[..., j, None], xp)
-        if phase is not None:
-            direction = _on(direction, phase[..., j, None], xp)
-        row = cosine[..., j, None, :], sine[..., j, None, :]
-        if not carry:
-            direction = loops.followed(*row, *direction)
-            continue
-        along, across, table = loops.driven(*row, *direction)
-        direction = along, across
+        if errors is not None:
+            direction = _on(direction, errors[..., j, 0, None], xp)
+        joint, row = own[j] if own else None, (cosine[..., j, None, :], sine[..., j, None, :])
+        if joint is not None:
+            off = errors[..., j, :] if errors is not None else np.zeros(len(seats([joint])[0]))
+            first = carry[0][0].shape[-1] if carry and errors is None else 1
+            direction, table = _by_its_law(joint, float(chain.joint_angle[j]), off, direction, first)
+        elif carry:
+            along, across, table = loops.driven(*row, *direction)
+            direction = along, across
+        else:
+            direction, table = loops.followed(*row, *direction), ()
         carried = tuple(
-            _carried(table, 0.0 * before if j + 1 in ends else before, errors[..., j, None, :])
-            for before, (errors, ends) in zip(carried, carry, strict=True)
+            _carried(table, 0.0 * before if j + 1 in ends else before, given[..., j, None, :])
+            for before, (given, ends) in zip(carried, carry, strict=True)
         )
         found.append(carried)
     return direction, found
+
+
+def _by_its_law(
+    joint: Joint,
+    joint_angle: float,
+    errors: Array,
+    direction: tuple[Array, Array],
+    count: int,
+) -> tuple[tuple[Array, Array], tuple[Array, ...]]:
+    """Return the driven mark of a joint that turns by its law, as a cross would stand there, and some coefficients."""
+    theta = np.atan2(direction[1], direction[0])
+    lead, ratio = own_laws.turned(joint, joint_angle, errors, theta)
+    table = (ratio,) if count == 1 else np.moveaxis(own_laws.influence(joint, joint_angle, theta, count), -1, 0)
+    return _on(direction, lead - (0.0 if joint.crossed else 0.5 * np.pi), np), tuple(table)
 
 
 def ahead(direction: tuple[Array, Array], other: tuple[Array, Array]) -> Array:
@@ -283,7 +335,7 @@ def links(joint_angle: Array, turned: Array | None) -> tuple[Array, Array]:
     xp = namespace(joint_angle, turned)
     right = 0.5 * xp.pi + 0.0 * joint_angle
     alpha = xp.stack((right, right, right, joint_angle), axis=-1)
-    alpha = alpha if turned is None else alpha + turned[..., 1:]
+    alpha = alpha if turned is None else alpha + turned[..., 1:5]
     return xp.cos(alpha), xp.sin(alpha)
 
 
@@ -295,17 +347,29 @@ def located_shafts(drive: Drive | Drives | Chain) -> tuple[int, ...]:
     return tuple(sorted(sliding | {support.shaft for support in drive.supports if support.axial}))
 
 
-def error_arrays(errors: Sequence[object | None]) -> tuple[Array, Array]:
-    """Return errors, or tolerances, by name as arrays (n, 5): those that turn [rad], those that shift [m].
+def error_arrays(errors: Sequence[object | None], joints: Sequence[Joint] = ()) -> tuple[Array, Array]:
+    """Return errors, or tolerances, by name as arrays: those that turn (n, c), those that shift (n, 5) [rad, and SI].
+
+    joints: those that they belong to; cross joints where they are not given.
 
     >>> error_arrays([Error(alpha2=0.1, a4=0.2)])[0]
     array([[0. , 0. , 0.1, 0. , 0. ]])
     """
-    turns, ways = (
-        np.asarray([[0.0 if one is None else getattr(one, name) for name in names] for one in errors], dtype=float)
-        for names in (TURNS, WAYS)
+    names = seats(joints) if joints else [TURNS] * len(errors)
+    ways = way_names(joints) if joints else [WAYS] * len(errors)
+    turned, shifted = (
+        np.asarray(
+            [[getattr(one, name, 0.0) if name else 0.0 for name in row] for one, row in zip(errors, rows, strict=True)],
+            dtype=float,
+        )
+        for rows in (names, ways)
     )
-    return turns, ways
+    return turned, shifted
+
+
+def way_names(joints: Sequence[Joint]) -> list[tuple[str, ...]]:
+    """Return the names of the errors of each joint that shift the output, "" where a joint of its kind has none."""
+    return [WAYS if joint.single_cross else ("",) * len(WAYS) for joint in joints]
 
 
 def per_joint(name: str, given: T | Sequence[T | None], joints: int) -> list[T | None]:
@@ -330,23 +394,31 @@ def _given(
         if errors is not None:
             raise refuse("errors", _("given beside turns or ways; give one of them"))
         arrays = [real(np.zeros((joints, 5)) if one is None else one, xp) for one in (turns, ways)]
+        wide = len(seats(drive.joints)[0]) if isinstance(drive, Drive) else 5
+        if wide > 5 and tuple(arrays[0].shape[-2:]) == (joints, wide):
+            return arrays[0], _of_crosses(drive, arrays[1])
         check(
             Problem(name, _("shape {shape} is not (..., {joints}, 5)").format(shape=tuple(one.shape), joints=joints))
             for name, one in zip(("turns", "ways"), arrays, strict=True)
             if tuple(one.shape[-2:]) != (joints, 5)
         )
-        return arrays[0], arrays[1]
+        return arrays[0], _of_crosses(drive, arrays[1])
     turned, shifted = given_errors(drive, joints, errors)
-    own = np.asarray([[one.single_cross] for one in drive.joints]) if isinstance(drive, Drive) else True
-    turned, shifted = np.where(own, turned, 0.0), np.where(own, shifted, 0.0)
     return real(turned, xp), real(shifted, xp)
+
+
+def _of_crosses(drive: Drive | Drives | Chain, ways: Array) -> Array:
+    """Return errors of length with those of joints without a single cross left out."""
+    own = own_kinds(drive)
+    return np.where(np.asarray([[one is None] for one in own]), ways, 0.0) if any(own) else ways
 
 
 def given_errors(drive: Drive | Drives | Chain, joints: int, errors: Errors) -> tuple[Array, Array]:
     """Return errors by name, those of the drive where none are given, as `error_arrays` does."""
-    if errors is not None:
-        return error_arrays(per_joint("errors", errors, joints))
-    return error_arrays([joint.error for joint in drive.joints] if isinstance(drive, Drive) else [None] * joints)
+    given = [None] * joints if errors is None else per_joint("errors", errors, joints)
+    if not isinstance(drive, Drive):
+        return error_arrays(given)
+    return error_arrays([joint.error for joint in drive.joints] if errors is None else given, drive.joints)
 
 
 def _on(direction: tuple[Array, Array], angle: Array, xp: Any) -> tuple[Array, Array]:
@@ -359,6 +431,6 @@ def _on(direction: tuple[Array, Array], angle: Array, xp: Any) -> tuple[Array, A
 def _carried(carried: Sequence[Array], before: Array, own: Array) -> Array:
     """Return what a joint makes of the error before it and its own, through its row of coefficients."""
     total = carried[0] * (before + own[..., 0])
-    for k in range(1, 5):
+    for k in range(1, min(len(carried), own.shape[-1])):
         total = total + carried[k] * own[..., k]
     return total

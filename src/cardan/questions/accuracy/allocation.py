@@ -9,13 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from cardan.drive.accuracy import Cost, Tolerance
+from cardan.drive.accuracy import Tolerance
 from cardan.drive.drive import Drive
+from cardan.drive.joints import Joint
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .accuracy import TURNS, WAYS, located_shafts, one_turn, sensitivity, transmission_error
+from .accuracy import WAYS, error_arrays, located_shafts, one_turn, sensitivity, transmission_error, way_names
+from .own_laws import dimension, seats, table_of
 from .tolerance import Linear, Spread, WorstCase, spreads
 
 FLAT = 1e-9
@@ -57,7 +59,8 @@ class Allotted:
 
     joint: int  # number of its joint, from 1
     key: str  # its key, ``alpha2``
-    tolerance: float  # ± [rad or m]; infinite where it has no influence
+    dimension: str = "angle"  # of it, "" of a pure number
+    tolerance: float  # ± in SI; infinite where it has no influence
     cost: float  # what it costs, its weight over the tolerance
     weight: float  # its weight in the cost
     kept: bool  # whether it was given and not to be changed
@@ -130,8 +133,8 @@ def allocate(
     Parameters
     ----------
     drive : Drive
-        The drive; the costs of its tolerances are weights w, a tolerance t costs w/t; 1 where none is given. What its
-        known errors make is taken off the target.
+        The drive; the costs of its tolerances are weights w, a tolerance t costs w/t; 1 where none is given. Lengths
+        and ratios inside a joint count by their share of the size. What its known errors make is taken off the target.
     target : float
         The error allowed, ± [rad], of the shift [m].
     of : Of
@@ -172,18 +175,24 @@ def allocate(
     ['phase 0.051°', 'alpha1 0.111°', 'alpha2 0.049°', 'alpha3 0.088°', 'alpha4 0.125°']
     """
     kind = _kind(of)
-    names = WAYS if kind is Of.SHIFT else TURNS
+    names = way_names(drive.joints) if kind is Of.SHIFT else seats(drive.joints)
     given = spreads(drive, spread)
-    limits = np.asarray([[0.0 if row is None else getattr(row, name) for name in names] for row in given])
-    weights = np.asarray([[_weight(row, name) for name in names] for row in given])
-    fields = [f"joints[{j}].tolerance.{name}" for j in range(len(given)) for name in names]
+    limits = error_arrays(given, drive.joints)[int(kind is Of.SHIFT)]
+    weights = np.asarray(
+        [
+            [_weight(row, name, joint) for name in one]
+            for joint, row, one in zip(drive.joints, given, names, strict=True)
+        ]
+    )
+    scale = np.asarray([_scale(joint, name) for joint, one in zip(drive.joints, names, strict=True) for name in one])
+    fields = [f"joints[{j}].tolerance.{name}" if name else "" for j, row in enumerate(names) for name in row]
     kept = np.asarray([field in keep for field in fields])
     check(_problems(target, keep, fields, limits.reshape(-1)))
     budget = _Budget(drive, kind, power=1 if isinstance(method, WorstCase) else 2, target=target)
-    flat, weight = limits.reshape(-1), weights.reshape(-1)
+    flat, weight = limits.reshape(-1), weights.reshape(-1) * scale
     phi = one_turn()
     most = np.max(budget(phi)[0], axis=0)
-    free = ~kept & (most > FLAT**budget.power * np.max(most))
+    free = ~kept & np.asarray([bool(field) for field in fields]) & (most > FLAT**budget.power * np.max(most))
     if not np.any(free):
         raise refuse("keep", _("no tolerance with an influence is left to be found"))
     place, more, tolerances = phi, phi[:0], np.full(len(fields), np.inf)
@@ -204,17 +213,19 @@ def allocate(
         method=method,
         rows=tuple(
             Allotted(
-                joint=k // len(names) + 1,
-                key=names[k % len(names)],
+                joint=k // len(names[0]) + 1,
+                key=key,
+                dimension=dimension(drive.joints[k // len(names[0])], key),
                 tolerance=float(tolerances[k]),
                 cost=float(costs[k]),
-                weight=float(weight[k]),
+                weight=float(weight[k] / scale[k]),
                 kept=bool(kept[k]),
                 before=float(flat[k]),
             )
-            for k in range(len(fields))
+            for k, key in enumerate(name for row in names for name in row)
+            if key
         ),
-        spread=_spread(given, names, finite.reshape(limits.shape)),
+        spread=_spread(drive, given, names, finite.reshape(limits.shape)),
         cost=float(np.sum(costs[free])),
         equal_cost=float(np.sum(weight[free] / equal)),
         largest=float(np.max(budget.error(place, finite))),
@@ -240,6 +251,7 @@ class _Budget:
     def _at(self, phi: Array) -> tuple[Array, Array]:
         known = transmission_error(self.drive, phi)
         table = sensitivity(self.drive, phi, located=self.held)
+        table = table[..., : len(WAYS)] if self.kind is Of.SHIFT else table
         centre = known.output_shift if self.kind is Of.SHIFT else known.error
         return table.reshape(len(phi), -1), centre
 
@@ -299,10 +311,16 @@ def _kind(of: Of | str) -> Of:
         raise refuse("of", text.format(value=repr(of), choices=", ".join(Of))) from None
 
 
-def _weight(row: Tolerance | None, name: str) -> float:
-    cost = Cost() if row is None or row.cost is None else row.cost
-    weight: float = getattr(cost, name)
+def _weight(row: Tolerance | None, name: str, joint: Joint) -> float:
+    cost = table_of(joint, "cost")() if row is None or row.cost is None else row.cost
+    weight: float = getattr(cost, name, 1.0)
     return weight
+
+
+def _scale(joint: Joint, name: str) -> float:
+    """Return what a tolerance is measured by in its cost: a size of a kind by itself, all else by its unit of SI."""
+    size = joint.sizes().get(name)
+    return abs(size) if size and dimension(joint, name) != "angle" else 1.0
 
 
 def _problems(target: float, keep: Sequence[str], fields: Sequence[str], limits: Array) -> list[Problem]:
@@ -312,7 +330,7 @@ def _problems(target: float, keep: Sequence[str], fields: Sequence[str], limits:
     for name in keep:
         if name not in fields:
             text = _("{name} is none of {choices}")
-            problems.append(Problem("keep", text.format(name=name, choices=", ".join(fields))))
+            problems.append(Problem("keep", text.format(name=name, choices=", ".join(filter(None, fields)))))
         elif limits[fields.index(name)] <= 0.0:
             problems.append(Problem(name, _("missing; it is to be kept")))
     return problems
@@ -324,9 +342,13 @@ def _equal(use: Array, power: int) -> Array:
     return share
 
 
-def _spread(given: Sequence[Tolerance | None], names: Sequence[str], values: Array) -> tuple[Tolerance, ...]:
-    rows = [Tolerance() if row is None else row for row in given]
-    found: list[dict[str, Any]] = [dict(zip(names, map(float, row), strict=True)) for row in values]
+def _spread(
+    drive: Drive, given: Sequence[Tolerance | None], names: Sequence[Sequence[str]], values: Array
+) -> tuple[Tolerance, ...]:
+    rows = [table_of(joint)() if row is None else row for joint, row in zip(drive.joints, given, strict=True)]
+    found: list[dict[str, Any]] = [
+        {name: float(value) for name, value in zip(names[j], row, strict=True) if name} for j, row in enumerate(values)
+    ]
     return tuple(replace(row, **one) for row, one in zip(rows, found, strict=True))
 
 

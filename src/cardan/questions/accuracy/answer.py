@@ -14,17 +14,16 @@ from cardan.answers.answer import FILE, Answer, Checked, Column, Depth, KeyFigur
 from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
-from cardan.drive.accuracy import Error
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint
+from cardan.drive.models.wobble import wobbling
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost, largest
-from cardan.questions.motion.kinds import made_true
 from cardan.texts import _, mark
 from cardan.units import arcmin, deg, mm
 
 from .accuracy import TransmissionError, course, transmission_error
-from .allocation import SQUARES, Allocation, Of
+from .allocation import SQUARES, Allocation, Allotted, Of
 from .cross_play import CrossPlay, cross_play, loop_slides
 from .figure import (
     ANGLE,
@@ -33,13 +32,15 @@ from .figure import (
     band_figure,
     cross_figure,
     error_figure,
+    measure,
     pareto_figure,
     sides,
     tolerance_figures,
     tolerance_name,
 )
+from .own_laws import table_of
 from .sampling import MonteCarlo
-from .tolerance import Band, Linear, Method, ToleranceBand, WorstCase, tolerance
+from .tolerance import Band, Contribution, Linear, Method, ToleranceBand, WorstCase, tolerance
 
 CURVED = 0.02
 """Share by which exact loops may differ from the influence, which is a tangent: errors of some degrees bend it so."""
@@ -80,7 +81,7 @@ def lacking(drive: Drive) -> Lacking:
     """Return what the drive file lacks for its accuracy: errors or tolerances of a joint."""
     some = any(joint.tolerance is not None or joint.error is not None for joint in drive.joints)
     keys = (*in_a_joint(drive, "tolerance"), *in_a_joint(drive, "error"))
-    return absent((some, *(keys or ("joints[0].type",))))
+    return absent((some, *keys))
 
 
 def ask(
@@ -131,7 +132,7 @@ def answer(drive: Drive, result: Accuracy) -> Answer:
         title=title,
         sentence=_sentence(drive, result),
         tables=tuple(_tables(drive, result)),
-        remarks=(*made_true(drive), *_remarks(drive, result)),
+        remarks=(*_as_drawn(drive), *_remarks(drive, result)),
         keys=(*_keys(drive, result), *_cross_key(result)),
         figures=lambda: _figures(drive, result),
         facts=_facts(result),
@@ -297,6 +298,15 @@ def _column(side: Side, key: str, values: Sequence[Any], heading: str = "", dept
     return Column(key=key, heading=heading, values=values, dimension=side.dimension, unit=side.unit, depth=depth)
 
 
+def _measured(
+    rows: Sequence[Contribution | Allotted], values: Sequence[Any], key: str, heading: str = "", depth: Depth = "brief"
+) -> Iterator[Column]:
+    """Yield the columns of values of tolerances, one for each dimension that they have."""
+    for kind in dict.fromkeys(one.dimension for one in rows):
+        here = [value if one.dimension == kind else None for one, value in zip(rows, values, strict=True)]
+        yield _column(measure(kind), key, here, heading, depth)
+
+
 def _tidy(row: Sequence[float | None]) -> list[float | None]:
     """Return numbers with what is nothing but rounding beside the first set to zero."""
     top = row[0] or 0.0
@@ -316,7 +326,7 @@ def _parts(side: Side, band: Band) -> Table:
         title=_("What makes the shift") if side is SHIFT else _("What makes the angle error"),
         columns=(
             Column(key="", heading=_("tolerance"), values=[tolerance_name(one.joint, one.key) for one in rows]),
-            _column(side, "tolerance", [one.tolerance for one in rows], _("given ±")),
+            *_measured(rows, [one.tolerance for one in rows], "tolerance", _("given ±")),
             Column(key="share", heading=_("share"), values=[one.share for one in rows], dimension="share", decimals=1),
             *(
                 _column(side, key, [one if one > NONE * band.largest else 0.0 for one in values], heading)
@@ -324,6 +334,21 @@ def _parts(side: Side, band: Band) -> Table:
             ),
         ),
     )
+
+
+def _as_drawn(drive: Drive) -> Iterator[Remark]:
+    """Yield of which joints no inner size counts, and why, and how a shaft that wobbles counts."""
+    if wobbling(drive):
+        yield Remark(text=_("Shafts that wobble count as drawn: what errors do to a wobble is not told."))
+    for number, joint in enumerate(drive.joints, start=1):
+        sizes = joint.sizes()
+        if joint.single_cross or any(size is not None for size in sizes.values()):
+            continue
+        why = joint.refusal("tolerance")
+        if sizes:
+            why = _("the file gives none of the sizes that its law follows, {keys}").format(keys=", ".join(sizes))
+        text = _("Of joint {number} only alpha4, its joint angle, and phase, the place of its yoke, can be off: {why}.")
+        yield Remark(text=say(text, number=number, why=why), code="made_true")
 
 
 def _remarks(drive: Drive, result: Accuracy) -> Iterator[Remark]:
@@ -431,7 +456,8 @@ def _checks(drive: Drive, result: Accuracy) -> Iterator[Checked]:
     if band is None or result.worst is None or not band.output.contributions:
         return
     most = band.output.contributions[0]
-    errors = [Error(**{most.key: most.tolerance}) if k == most.joint else None for k in range(1, len(drive.joints) + 1)]
+    errors: list[Any] = [None] * len(drive.joints)
+    errors[most.joint - 1] = table_of(drive.joints[most.joint - 1], "error")(**{most.key: most.tolerance})
     exact = _largest(np.asarray(transmission_error(drive, errors=errors).error))
     yield Checked(
         what=_("influence of {name}").format(name=tolerance_name(most.joint, most.key)),
@@ -483,9 +509,14 @@ def _sizes(band: Band, side: Side) -> dict[str, Any]:
 
 
 def _band_facts(band: Band, side: Side) -> dict[str, Any]:
-    keys = ("tolerance", "largest", "mean", "first", "second")
+    keys = ("largest", "mean", "first", "second")
     rows = [
-        {"field": one.field, "share": one.share, **{key: side.quantity(getattr(one, key)) for key in keys}}
+        {
+            "field": one.field,
+            "share": one.share,
+            "tolerance": measure(one.dimension).quantity(one.tolerance),
+            **{key: side.quantity(getattr(one, key)) for key in keys},
+        }
         for one in band.contributions
     ]
     return {**_sizes(band, side), "contributions": rows}
@@ -526,7 +557,7 @@ def answer_of_allocation(drive: Drive, found: Allocation, *, written: Path | Non
         name="accuracy",
         title=_("Cheapest tolerances"),
         sentence=_allotted(found, side),
-        tables=(_allotments(found, side),),
+        tables=(_allotments(found),),
         remarks=tuple(_allocation_remarks(found, side, written)),
         figures=lambda: tolerance_figures(tolerance(drive, found.spread, method=found.method)),
         facts={
@@ -562,7 +593,7 @@ def _allotted(found: Allocation, side: Side) -> Say:
     return say(_("{first}; equal shares would cost {more} more."), first=first, more=more)
 
 
-def _allotments(found: Allocation, side: Side) -> Table:
+def _allotments(found: Allocation) -> Table:
     rows = found.rows
     allotted = [one.tolerance if isfinite(one.tolerance) else None for one in rows]
     costs = [None if one.kept or not isfinite(one.tolerance) else one.cost / found.cost for one in rows]
@@ -572,9 +603,9 @@ def _allotments(found: Allocation, side: Side) -> Table:
         columns=(
             Column(key="", heading=_("tolerance"), values=[tolerance_name(one.joint, one.key) for one in rows]),
             Column(key="field", values=[one.field for one in rows], depth="data"),
-            _column(side, "before", [one.before or None for one in rows], _("so far ±")),
-            _column(side, "", [_("any") if one is None else one for one in allotted], _("allotted ±")),
-            _column(side, "allotted", allotted, depth="data"),
+            *_measured(rows, [one.before or None for one in rows], "before", _("so far ±")),
+            *_measured(rows, [_("any") if one is None else one for one in allotted], "", _("allotted ±")),
+            *_measured(rows, allotted, "allotted", depth="data"),
             Column(key="", values=[_change(one.before, one.tolerance, kept=one.kept) for one in rows], left=True),
             Column(key="weight", heading=_("weight"), values=[one.weight for one in rows], trim=True),
             Column(key="", heading=_("of the cost"), values=costs, dimension="share", decimals=1),
@@ -599,14 +630,15 @@ def values_of(found: Allocation) -> dict[str, float]:
     >>> values_of(allocate(Drive.from_angles([0.5]), 1e-3))["joints[0].tolerance.phase_arcmin"]
     1.77
     """
-    size, unit = (mm, "mm") if found.of is Of.SHIFT else (arcmin, "arcmin")
+    units = {"angle": (arcmin, "_arcmin"), "length": (mm, "_mm")}
     values = {}
     for one in found.rows:
         if one.kept or not isfinite(one.tolerance):
             continue
+        size, unit = units.get(one.dimension, (1.0, ""))
         told = one.tolerance / size
         digits = DIGITS - 1 - floor(log10(told))
-        values[f"{one.field}_{unit}"] = round(floor(told * 10.0**digits) / 10.0**digits, max(digits, 0))
+        values[f"{one.field}{unit}"] = round(floor(told * 10.0**digits) / 10.0**digits, max(digits, 0))
     return values
 
 

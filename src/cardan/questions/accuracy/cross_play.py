@@ -17,9 +17,19 @@ from cardan.drive.models.kinematics_model import Chain
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import peak
 from cardan.maths.kernel import loops
-from cardan.questions.motion.motion import motion
 
-from .accuracy import Errors, coefficients, error_arrays, given_errors, located_shafts, one_turn, walked
+from .accuracy import (
+    Errors,
+    coefficients,
+    error_arrays,
+    given_errors,
+    located_shafts,
+    one_turn,
+    own_kinds,
+    still,
+    walked,
+)
+from .own_laws import turned as turned_by
 from .tolerance import ToleranceBand, WorstCase, change, spreads, stacked
 
 YOKES = ("driving", "driven")
@@ -52,7 +62,7 @@ def cross_slides(
 ) -> Array:
     """Return how the crosses move along their driving and driven journals, array (n, 2, p) [m], exactly.
 
-    drive: its joints of other kinds as those that turn alike; angle (p,) [rad]: input angle φ_1 from the start
+    drive: its joints of other kinds by their laws; angle (p,) [rad]: input angle φ_1 from the start
     position, one turn of 360 positions by default; errors: of the joints by name, those of the drive where nothing is
     given; located: numbers of the shafts that a bearing holds along their axis, those with axial supports by default.
     s_2 and s_3 of `loop_slides`.
@@ -72,15 +82,20 @@ def loop_slides(
     Each at the angle and with the shift that the joint before it really gives; nan where it does not close.
     Kozhevnikov & Perfil'ev (1978), eq. 171.
     """
-    chain = walked(drive)
+    chain, own = walked(drive), own_kinds(drive)
     held = located_shafts(drive) if located is None else located
     turned, shifted = given_errors(drive, chain.joints, errors)
     mu = chain.turn_before
     theta, shift, found = np.asarray(one_turn() if angle is None else angle) + mu[0], np.asarray(0.0), []
     for j, joint_angle in enumerate(chain.joint_angle.tolist()):
         theta = theta + (mu[j] if j else 0.0) + turned[j, 0]
-        alpha = np.asarray([0.5 * np.pi, 0.5 * np.pi, 0.5 * np.pi, joint_angle]) + turned[j, 1:]
+        alpha = np.asarray([0.5 * np.pi, 0.5 * np.pi, 0.5 * np.pi, joint_angle]) + turned[j, 1:5]
         before = 0.0 * shift if j + 1 in held else shift
+        if own and (joint := own[j]) is not None:
+            lead, ratio = turned_by(joint, joint_angle, turned[j], theta)
+            theta, shift = theta + lead - (0.0 if joint.crossed else 0.5 * np.pi), ratio * before
+            found.append(np.stack((0.0 * theta, 0.0 * theta, -shift)))
+            continue
         loop = loops.rccc(alpha, theta, length=shifted[j, 1:], slide=before + shifted[j, 0])
         found.append(np.moveaxis(loop.slide, -1, 0))
         theta, shift = 0.5 * np.pi - loop.angle[..., 2], -loop.slide[..., 2]
@@ -92,7 +107,7 @@ def cross_sensitivity(drive: Drive | Drives | Chain, angle: Array, *, located: t
 
     drive: one; angle (p,) [rad]; located: numbers of the shafts that a bearing holds along their axis.
     """
-    moved = motion(drive, angle)
+    moved = still(drive, angle)
     table = coefficients(moved)  # (n, p, 3, 5)
     count = len(table)
     before, rows = np.zeros((len(angle), count, 5)), []
@@ -110,7 +125,7 @@ def cross_play(drive: Drive, band: ToleranceBand | None) -> tuple[CrossPlay, ...
 
     band: what the tolerances do to the output: tells how they add up, of samples as the root of squares.
     """
-    limits = np.zeros((len(drive.joints), 5)) if band is None else error_arrays(spreads(drive, None))[1]
+    limits = np.zeros((len(drive.joints), 5)) if band is None else error_arrays(spreads(drive, None), drive.joints)[1]
     held, phi = located_shafts(drive), one_turn() if band is None else band.angle
     known = cross_slides(drive, phi)
     parts = cross_sensitivity(drive, phi, located=held) * limits

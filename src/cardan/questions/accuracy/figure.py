@@ -58,6 +58,14 @@ ANGLE = Side(key="angle", dimension="angle", unit="arcmin", size=arcmin)
 SHIFT = Side(key="shift", dimension="displacement", unit="um", size=MICRON)
 
 
+RATIO = Side(key="ratio", dimension="", unit="", size=1.0)
+
+
+def measure(dimension: str) -> Side:
+    """Return in what an error of a dimension is told: angles, lengths, and ratios of sizes inside a joint."""
+    return {"angle": ANGLE, "length": SHIFT}.get(dimension, RATIO)
+
+
 def sides(found: ToleranceBand, *, shifts: bool = True) -> list[tuple[Side, Band]]:
     """Return the sides of the output that tolerances leave open; its shift only where nothing holds it.
 
@@ -82,8 +90,12 @@ def tolerance_name(joint: int, key: str) -> str:
 
     >>> tolerance_name(1, "alpha2")
     'α₂ of joint 1'
+    >>> tolerance_name(2, "driving_distance")
+    'driving_distance of joint 2'
     """
-    return _("{name} of joint {number}").format(number=joint, name=SIGNS.get(key) or _("yoke phase"))
+    return _("{name} of joint {number}").format(
+        number=joint, name=_("yoke phase") if key == "phase" else SIGNS.get(key, key)
+    )
 
 
 def band_figure(found: ToleranceBand, *, shifts: bool = True) -> Figure:

@@ -18,13 +18,14 @@ from cardan.maths.compiled.method import Compiled, Method, chosen, share
 from cardan.texts import _
 
 from .accuracy import (
+    WAYS,
     TransmissionError,
     ahead,
     course,
     error_arrays,
-    links,
     located_shafts,
     one_turn,
+    own_kinds,
     sensitivity,
     transmission_error,
     walk,
@@ -174,10 +175,10 @@ def sampled(
     drive: the drive; its known errors are added to those drawn.
     spreads: tolerances of each joint; method: how many, which seed.
     """
-    limits = np.concatenate(error_arrays(spreads), axis=-1)
-    laws = [law for row in spreads for law in ["normal" if row is None else row.distribution] * 10]
+    limits = np.concatenate(error_arrays(spreads, drive.joints), axis=-1)
+    laws = [law for row in spreads for law in ["normal" if row is None else row.distribution] * limits.shape[-1]]
     seats = np.flatnonzero(limits)
-    known = np.concatenate(error_arrays([joint.error for joint in drive.joints]), axis=-1)
+    known = np.concatenate(error_arrays([joint.error for joint in drive.joints], drive.joints), axis=-1)
     phi = one_turn(method.positions)
     centre = transmission_error(drive, phi)
     sums = (Sums(centre.error), Sums(centre.output_shift))
@@ -191,7 +192,7 @@ def sampled(
         if progress is not None and progress((k + 1) / BATCHES) == "stop":
             cancelled = k + 1 < BATCHES
             break
-    leading = sums[0] if np.any(limits[:, :5]) else sums[1]
+    leading = sums[0] if np.any(limits[:, : -len(WAYS)]) else sums[1]
     return Draw(samples=(_sample(sums[0]), _sample(sums[1])), convergence=_settled(leading, lost), cancelled=cancelled)
 
 
@@ -312,7 +313,7 @@ class Exact:
     """Exact output of a drive with errors, at fixed positions.
 
     phi (p,) [rad]: input angles.
-    known, limits (n, 10): known errors, and tolerances, those that turn before those that shift.
+    known, limits (n, c): known errors, and tolerances, those that turn before those that shift.
     """
 
     def __init__(
@@ -326,14 +327,14 @@ class Exact:
         samples: int,
         method: Method | None = None,
     ) -> None:
-        whole = walked(drive)
-        self.joint_angle, self.mu, self.held = whole.joint_angle, whole.turn_before, located_shafts(drive)
+        self.whole, self.own, self.held = walked(drive), own_kinds(drive), located_shafts(drive)
+        self.mu = self.whole.turn_before
         self.known, self.seats = known, np.flatnonzero(limits)
-        self.shifts = bool(np.any(limits[:, 5:]) or np.any(known[:, 5:]))
+        self.shifts = bool(np.any(limits[:, -len(WAYS) :]) or np.any(known[:, -len(WAYS) :]))
         self.start = np.cos(self.mu[:1] + phi), np.sin(self.mu[:1] + phi)
-        self.ideal = walk(links(whole.joint_angle, None), self.mu, None, self.start)[0]
-        most = np.abs(centre.error) + np.sum(np.abs(sensitivity(drive, phi)) * limits[:, :5], axis=(-2, -1)) * TAIL
-        mild = bool(np.max(most) < REACH) and not self.shifts
+        self.ideal = walk(self.whole, None, self.start, own=self.own)[0]
+        reach = np.sum(np.abs(sensitivity(drive, phi)) * limits[:, : -len(WAYS)], axis=(-2, -1))
+        mild = bool(np.max(np.abs(centre.error) + reach * TAIL) < REACH) and not self.shifts and not any(self.own)
         self.method = chosen(method, np, samples * len(phi) >= LARGE and mild) if mild else None
 
     def add(self, errors: Array, sums: tuple[Sums, Sums]) -> int:
@@ -354,16 +355,16 @@ class Exact:
         return lost
 
     def __call__(self, errors: Array) -> tuple[Array, Array]:
-        """Return error of the output angle and shift, arrays (m, p), for errors (m, n, 10)."""
-        turned = errors[..., :5]
-        carry = ((errors[..., 5:], self.held),) if self.shifts else ()
-        direction, carried = walk(links(self.joint_angle, turned), self.mu, turned[..., 0], self.start, carry=carry)
+        """Return error of the output angle and shift, arrays (m, p), for errors (m, n, c)."""
+        turned, shifted = errors[..., : -len(WAYS)], errors[..., -len(WAYS) :]
+        carry = ((shifted, self.held),) if self.shifts else ()
+        direction, carried = walk(self.whole, turned, self.start, own=self.own, carry=carry)
         error = ahead(direction, self.ideal)
         return error, carried[-1][0] if carry else np.zeros_like(error)
 
     def _compiled(self, errors: Array, sums: tuple[Sums, Sums], room: int, method: Compiled) -> bool:
         """Add a batch by the kernel; false, and nothing added, where a joint cannot be assembled."""
-        count, positions, joints = len(errors), len(self.start[0]), len(self.joint_angle)
+        count, positions, joints = len(errors), len(self.start[0]), self.whole.joints
         phi = one_turn(positions)
         shared = (*self.start, *self.ideal, sums[0].centre, np.cos(phi), np.sin(phi), np.cos(2 * phi), np.sin(2 * phi))
         table = np.stack(shared, axis=-1).reshape(-1)
@@ -374,7 +375,7 @@ class Exact:
             np.ascontiguousarray(errors.T).reshape(-1),
             np.ascontiguousarray(self.known[:, :5]).reshape(-1),
             slot,
-            np.stack((np.cos(self.joint_angle), np.sin(self.joint_angle)), axis=-1).reshape(-1),
+            np.stack((np.cos(self.whole.joint_angle), np.sin(self.whole.joint_angle)), axis=-1).reshape(-1),
             np.stack((np.cos(self.mu[1:]), np.sin(self.mu[1:])), axis=-1).reshape(-1),
             table,
         )

@@ -10,11 +10,13 @@ import numpy as np
 
 from cardan.drive.accuracy import Tolerance
 from cardan.drive.drive import Drive
+from cardan.drive.joints import Joint
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .accuracy import TURNS, WAYS, error_arrays, located_shafts, one_turn, per_joint, sensitivity, transmission_error
+from .accuracy import WAYS, error_arrays, located_shafts, one_turn, per_joint, sensitivity, transmission_error
+from .own_laws import dimension, seats
 from .sampling import SIGMA, Convergence, MonteCarlo, Sample, sampled
 
 NORMAL_95 = 1.959963984540054
@@ -47,7 +49,8 @@ class Contribution:
 
     joint: int  # number of its joint, from 1
     key: str  # its key, ``alpha2``
-    tolerance: float  # the tolerance, ± [rad or m]
+    dimension: str = "angle"  # of it, "" of a pure number
+    tolerance: float  # the tolerance, ± in SI
     share: float  # its share of the variance over the turn
     largest: float  # the largest error it makes by itself, at the worst position [rad or m]
     # mean, first, second: the parts of that error that stay, come once a turn, and come twice a turn [rad or m]
@@ -166,7 +169,7 @@ def tolerance(
     [('joints[0].tolerance.alpha2', 0.67), ('joints[0].tolerance.alpha1', 0.33)]
     """
     rows = spreads(drive, spread)
-    turns, ways = error_arrays(rows)
+    turns, ways = error_arrays(rows, drive.joints)
     if not np.any(turns) and not np.any(ways):
         raise refuse(
             "joints[0].tolerance", _("missing; no joint has a tolerance: give joints[k].tolerance.alpha1_deg or others")
@@ -175,11 +178,12 @@ def tolerance(
     held = located_shafts(drive)
     phi = one_turn(method.positions) if isinstance(method, MonteCarlo) else one_turn()
     known = transmission_error(drive, phi)
-    tables = (sensitivity(drive, phi), sensitivity(drive, phi, located=held))
+    tables = (sensitivity(drive, phi), sensitivity(drive, phi, located=held)[..., : len(WAYS)])
+    names: list[Sequence[Sequence[str]]] = [seats(drive.joints), [WAYS] * len(rows)]
     parts = [
-        _Part(table=table, limits=limits, deviations=limits * widths, centre=centre, names=names)
-        for table, limits, centre, names in zip(
-            tables, (turns, ways), (known.error, known.output_shift), (TURNS, WAYS), strict=True
+        _Part(table=table, limits=limits, deviations=limits * widths, centre=centre, names=some, joints=drive.joints)
+        for table, limits, centre, some in zip(
+            tables, (turns, ways), (known.error, known.output_shift), names, strict=True
         )
     ]
     if not isinstance(method, MonteCarlo):
@@ -203,13 +207,14 @@ def spreads(drive: Drive, spread: Spread) -> list[Tolerance | None]:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class _Part:
-    """Sensitivity (p, n, 5) of the output to errors, with their tolerances and standard deviations (n, 5)."""
+    """Sensitivity (p, n, c) of the output to errors, with their tolerances and standard deviations (n, c)."""
 
     table: Array
     limits: Array
     deviations: Array
     centre: Array
-    names: tuple[str, ...]
+    names: Sequence[Sequence[str]]
+    joints: Sequence[Joint]
 
 
 def stacked(parts: Array, power: int) -> Array:
@@ -238,7 +243,7 @@ def _stacked(part: _Part, power: int) -> Band:
         first=_amplitude(orders[0], power),
         second=_amplitude(orders[1], power),
         peak_to_peak=change(flat, power),
-        contributions=contributions(part.table, part.limits, part.deviations, part.names),
+        contributions=contributions(part),
     )
 
 
@@ -260,16 +265,13 @@ def _from_sample(part: _Part, sample: Sample) -> Band:
         first=sample.first,
         second=sample.second,
         peak_to_peak=sample.peak_to_peak,
-        contributions=contributions(part.table, part.limits, part.deviations, part.names),
+        contributions=contributions(part),
     )
 
 
-def contributions(table: Array, limits: Array, deviations: Array, names: Sequence[str]) -> tuple[Contribution, ...]:
-    """Return what every tolerance contributes, the largest share first.
-
-    table (p, n, 5): sensitivity over one turn; limits, deviations (n, 5): tolerances and standard deviations.
-    names: names of the tolerances of a joint.
-    """
+def contributions(part: _Part) -> tuple[Contribution, ...]:
+    """Return what every tolerance contributes, the largest share first."""
+    table, limits, deviations = part.table, part.limits, part.deviations
     reach = table * limits
     variance = np.mean((table * deviations) ** 2, axis=0)
     total = float(np.sum(variance))
@@ -278,15 +280,16 @@ def contributions(table: Array, limits: Array, deviations: Array, names: Sequenc
         Contribution(
             joint=j + 1,
             key=name,
+            dimension=dimension(part.joints[j], name),
             tolerance=float(limits[j, k]),
             share=float(variance[j, k]) / total,
             largest=float(np.max(np.abs(reach[:, j, k]))),
-            mean=float(abs(mean[5 * j + k])),
-            first=float(abs(orders[0][5 * j + k])),
-            second=float(abs(orders[1][5 * j + k])),
+            mean=float(abs(mean[len(row) * j + k])),
+            first=float(abs(orders[0][len(row) * j + k])),
+            second=float(abs(orders[1][len(row) * j + k])),
         )
-        for j in range(len(limits))
-        for k, name in enumerate(names)
+        for j, row in enumerate(part.names)
+        for k, name in enumerate(row)
         if limits[j, k] > 0.0 and variance[j, k] > 0.0
     ]
     return tuple(sorted(rows, key=lambda row: -float(f"{row.share:.{ALIKE}g}")))

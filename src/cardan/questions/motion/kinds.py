@@ -79,12 +79,12 @@ def beside_turning(drive: Drive) -> Iterator[Say]:
 
 
 def made_true(drive: Drive) -> Iterator[Remark]:
-    """Yield which joints count as made true, since errors are those of cross joints."""
+    """Yield which joints count as made true, since errors of length are those of cross joints."""
     which = [str(i) for i, joint in enumerate(drive.joints, start=1) if not joint.single_cross]
     if which:
         text = plural(
-            "Joint {which} counts as made true: errors and tolerances are those of cross joints.",
-            "Joints {which} count as made true: errors and tolerances are those of cross joints.",
+            "Joint {which} counts as made true: errors of length are those of cross joints.",
+            "Joints {which} count as made true: errors of length are those of cross joints.",
             len(which),
         )
         yield Remark(text=say(text, which=Joined(which, last=_(" and "))), code="made_true")
