@@ -34,6 +34,9 @@ SUBJECTS = {
 
 BOOK = "Kozhevnikov & Perfil'ev, *Cardan transmissions* (1978), see the [bibliography](../../../bibliography.md)."
 
+ASIDE = "---\norphan: true\n---\n"
+"""Names are found from their list and by search: beside every page they would be two thirds of its navigation."""
+
 
 def pages() -> tuple[str, dict[str, str]]:
     """Return the list by subject, and the text of the page of each name by its file."""
@@ -45,7 +48,7 @@ def pages() -> tuple[str, dict[str, str]]:
             thing = getattr(module, name)
             parts.append(f"| [`{name}`](generated/{file}.md) | {_first(thing)} |")
             found[f"{file}.md"] = _page(f"{module.__name__}.{name}", thing)
-        parts += ["", "```{toctree}", ":hidden:", "", *(f"generated/{file}" for file in files), "```", ""]
+        parts.append("")
     return "\n".join(parts), found
 
 
@@ -80,7 +83,17 @@ def _page(name: str, thing: Any) -> str:
     kind = "class" if inspect.isclass(thing) else "function" if callable(thing) else "data"
     if inspect.isclass(thing) and issubclass(thing, Exception):
         kind = "exception"
-    parts = [f"# `{name.rpartition('.')[2]}`", "", "```{eval-rst}", f".. auto{kind}:: {name}", "```", ""]
+    parts = [
+        ASIDE,
+        f"# `{name.rpartition('.')[2]}`",
+        "",
+        "[All names by subject](../../python.md)",
+        "",
+        "```{eval-rst}",
+        f".. auto{kind}:: {name}",
+        "```",
+        "",
+    ]
     if callable(thing) and re.search(r"\bBook (\(|p\.)", "".join(_docstrings(thing))):
         parts += [f"*Book* is {BOOK}", ""]
     return "\n".join([*parts, *_fields(thing)])
