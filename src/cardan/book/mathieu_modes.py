@@ -117,7 +117,7 @@ def _sizing(drive: Drive, modes: TorsionModes) -> tuple[Sizing | None, str]:
         text = _("The book's method for sizing is of two inertias and one mode; this drive has {count} modes.")
         return None, text.format(count=len(modes.omega))
     if model.sums is not None:
-        return None, _("The book's method for sizing is of cross joints, which swing by order 2 alone.")
+        return None, _("The book's method for sizing is of cross joints, which excite order 2 alone.")
     if duty.torque is None:
         return None, _("The book's method for sizing needs a torque, duty.torque.")
     behind = np.asarray(model.shaft) > 0

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import Answer, Column, Remark, Table, Tone
-from cardan.answers.quantity import Joined, Quantity, Say, Text, say
+from cardan.answers.quantity import Joined, Quantity, Say, Text, Written, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
+from cardan.drive.fields.paths import counted
 from cardan.drive.yokes import yokes_estimated
 from cardan.maths.ties import foremost
 from cardan.questions.torsion.absorber.answer import (
@@ -107,7 +108,7 @@ def _values(result: OptimisedTorsion) -> Table:
     free = result.free
     return Table(
         columns=(
-            Column(key="path", heading=_("what may change"), values=[one.path for one in free]),
+            Column(key="path", heading=_("what may change"), values=[_key(one.path) for one in free]),
             Column(key="built", heading=_("as built"), values=[one.built for one in free], digits=5, trim=True),
             Column(
                 key="best", heading=_("best"), values=[result.values[one.path] for one in free], digits=5, trim=True
@@ -116,6 +117,11 @@ def _values(result: OptimisedTorsion) -> Table:
         ),
         fixed=0,
     )
+
+
+def _key(path: str) -> Written:
+    """Return a key that may change, whose unit its values have, to whoever reads it."""
+    return Written(path, counted(path), counted(path))
 
 
 def _range(one: Free) -> Say:
@@ -160,7 +166,7 @@ def _remarks(result: OptimisedTorsion) -> Iterator[Remark]:
     for text in reasons(result):
         yield Remark(text=text)
     for path in result.at_limits:
-        yield Remark(text=_("{path} is at the end of its range; a wider one may do more.").format(path=path))
+        yield Remark(text=say(_("{path} is at the end of its range; a wider one may do more."), path=_key(path)))
     yield from cautions(result)
     yield from _spread_remarks(result)
     if result.infeasible:
@@ -185,7 +191,12 @@ def _spread_remarks(result: OptimisedTorsion) -> Iterator[Remark]:
         text = _("As drawn ±{drawn}; at worst within the tolerances ±{worst} at {speed}, with {values}.")
         pairs = [(one, side) for one, side in zip(result.off, worst.sides, strict=True) if side]
         parts: list[Text] = [
-            say(_("{path} {sign}{size}"), path=one.path, sign="+" if side > 0.0 else "−", size=_off(one, abs(side)))
+            say(
+                _("{path} {sign}{size}"),
+                path=_key(one.path),
+                sign="+" if side > 0.0 else "−",
+                size=_off(one, abs(side)),
+            )
             for one, side in pairs
         ]
         values = Joined(parts) if parts else _("all values as drawn")
