@@ -129,3 +129,21 @@ def test_a_point_put_elsewhere_stands_there_and_the_others_stay(name: str) -> No
         for other, (at, _loose) in points.items():
             if other.startswith("joints") and other != path:
                 np.testing.assert_allclose(after[other][0], at, atol=1e-12)
+
+
+def test_keys_take_back_a_number_that_was_moved_and_letters_that_were_typed_into_it(page_of: Open, url: str) -> None:
+    page = page_of(f"{url}/?example=three-joints-unequal", reduced_motion="reduce")
+    ready(page)
+    field = page.get_by_label("joint_angle °", exact=True).first
+    field.click()
+    page.keyboard.press("ArrowUp")
+    shows(page, field, "10.1")
+    page.keyboard.press("ControlOrMeta+z")
+    shows(page, field, "10")
+    says(page, "joint_angle_deg = 10\n")
+    field.press("End")
+    field.press("5")
+    shows(page, field, "105")
+    page.keyboard.press("ControlOrMeta+z")
+    shows(page, field, "10")
+    assert mark(page, "redo").is_enabled()

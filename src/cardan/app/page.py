@@ -49,7 +49,7 @@ PRESSED = """if (!window.cardanKeys) {
   window.cardanKeys = true;
   addEventListener('keydown', (event) => {
     if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
-    const writing = event.target.closest('input, select, textarea, [contenteditable=true]');
+    const writing = event.target.closest('input:not([data-spun]), select, textarea, [contenteditable=true]');
     const letter = (/^[a-z]$/i.test(event.key) ? event.key : event.code.replace('Key', '')).toLowerCase();
     if (letter === 's') {
       event.preventDefault();

@@ -452,7 +452,7 @@ class KeyField:
     def _let_go(self) -> None:
         """End the move: the field follows the file again."""
         self.session.end_gesture()
-        self._spinning = False
+        self._spinning = self._writing = False
         self.show(self.entry)
 
     def _written(self) -> None:

@@ -28,6 +28,7 @@ function begin(field) {
   const value = number(field.value);
   if (!Number.isFinite(value) || field.disabled || field.readOnly) return null;
   moving = { field, value, step: stepOf(value), steps: 0, waits: 0, text: field.value, told: field.value };
+  field.dataset.spun = ""; // what the browser would undo in it is not what stands there
   return moving;
 }
 
@@ -87,6 +88,10 @@ addEventListener("keydown", (event) => {
   } else if (!["Shift", "Alt", "Control", "Meta"].includes(event.key)) end();
 });
 addEventListener("focusout", (event) => at(event, NUMBERS) && end());
+addEventListener("input", (event) => {
+  const field = /** @type {HTMLInputElement | null} */ (at(event, NUMBERS));
+  if (field && event.isTrusted) delete field.dataset.spun;
+});
 
 addEventListener(
   "wheel",
