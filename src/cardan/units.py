@@ -22,6 +22,7 @@ rpm = math.pi / 30
 percent = 1e-2
 pound = 0.45359237
 lbf = pound * 9.80665
+hour = 3600.0
 
 DIMENSIONS: dict[str, dict[str, float]] = {
     "length": {"mm": mm, "m": 1.0, "cm": 1e-2, "in": inch, "ft": 12 * inch, "km": 1e3},
@@ -31,8 +32,8 @@ DIMENSIONS: dict[str, dict[str, float]] = {
     "angular_acceleration": {"rad_s2": 1.0, "deg_s2": deg},
     "speed": {"m_s": 1.0, "mm_s": mm},
     "acceleration": {"m_s2": 1.0, "mm_s2": mm},
-    "time": {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0},
-    "duration": {"h": 3600.0, "min": 60.0, "s": 1.0},
+    "time": {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": hour},
+    "duration": {"h": hour, "min": 60.0, "s": 1.0},
     "frequency": {"Hz": 2 * math.pi, "rad_s": 1.0, "per_min": 2 * math.pi / 60},
     "rate": {"per_s": 1.0},
     "turning": {"deg_per_mm": deg / mm, "rad_per_m": 1.0},

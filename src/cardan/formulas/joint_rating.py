@@ -12,16 +12,15 @@ import numpy as np
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import LifeFactor
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
-from cardan.units import deg, mm, rpm
+from cardan.units import deg, hour, mm, rpm
 
 Method: TypeAlias = Literal["power_law", "table"]
 
 POWER = 10.0 / 3.0
 """Exponent of the life of roller bearings."""
 
-HOUR = 3600.0
 
-RATED_LIFE = 500.0 * HOUR
+RATED_LIFE = 500.0 * hour
 """Life at which f_h is 1 [s]."""
 
 RATED_SPEED_ANGLE = 100.0 * rpm * deg
@@ -33,7 +32,7 @@ LEAST_JOINT_ANGLE = 3.0 * deg
 NOMINAL = 2.6
 """Nominal torque over dynamic capacity times arm."""
 
-LIFE_RANGE = (100.0 * HOUR, 100_000.0 * HOUR)
+LIFE_RANGE = (100.0 * hour, 100_000.0 * hour)
 """Ends of table 6 [s]."""
 
 SPEED_ANGLE_RANGE = (10.0 * rpm * deg, 35_000.0 * rpm * deg)
@@ -67,7 +66,7 @@ def life_factor(life: ArrayLike, *, method: Method = "power_law") -> Array:
     """
     (value,) = floats(life)
     if method == "table":
-        return _interpolated(value / HOUR, "life_factors")
+        return _interpolated(value / hour, "life_factors")
     return (value / RATED_LIFE) ** (1.0 / POWER)
 
 

@@ -31,10 +31,9 @@ from cardan.questions.life.duty_cycle import WHOLE, combined_life
 from cardan.questions.life.life_cautions import clamped, extrapolated
 from cardan.reading.given import at_least_zero, given, gives, joint_angle, positive, rows, whole, word
 from cardan.texts import _
-from cardan.units import deg, rpm
+from cardan.units import deg, hour, rpm
 
 formula = Formulas(__doc__)
-HOUR = 3600.0
 
 SLACK = 1e-12
 """What sums of decimal fractions may be off."""
@@ -117,7 +116,7 @@ def _shares(v: Values) -> Problems:
     METHOD,
     gives("f_h", "factor", None),
     WARNINGS,
-    check=_outside("life", LIFE_RANGE, "h", HOUR),
+    check=_outside("life", LIFE_RANGE, "h", hour),
 )
 def _f_h(v: Values) -> Any:
     life = v.life
@@ -177,7 +176,7 @@ def _joint_life(v: Values) -> Any:
 )
 def _iso_life(v: Values) -> Any:
     found = bearing_life(v.C, v.R, v.torque, **v.of("speed", joint_angle="alpha", torque_at="torque_side"))
-    return tuple(life / HOUR for life in (found.simple, found.driving, found.driven))
+    return tuple(life / hour for life in (found.simple, found.driving, found.driven))
 
 
 @formula(
@@ -195,7 +194,7 @@ def _iso_life(v: Values) -> Any:
 def _ball_bearing_life(v: Values) -> Any:
     load = equivalent_load(v.radial_force, v.axial_force, v.C0)
     life = _limited(ball_life(v.C, load, speed=v.speed))
-    return load, static_load(v.radial_force, v.axial_force), life / HOUR
+    return load, static_load(v.radial_force, v.axial_force), life / hour
 
 
 @formula(
@@ -210,7 +209,7 @@ def _ball_bearing_life(v: Values) -> Any:
 def _catalogue_life(v: Values) -> Any:
     case = {"speed": v.speed, "joint_angle": v.alpha, "shock": v.shock_factor}
     found = maker_life(v.rating, v.torque, convention=v.convention, **case)
-    return found / HOUR, said(angle_clamped_3deg=clamped(v.alpha))
+    return found / hour, said(angle_clamped_3deg=clamped(v.alpha))
 
 
 @formula(

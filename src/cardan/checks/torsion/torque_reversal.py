@@ -14,13 +14,12 @@ from cardan.checks.verdict import Verdict
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.road.places import sign_changes
 from cardan.texts import _, mark
+from cardan.units import hour
 
 from .line import lacking, worst
 
 SOURCE = mark("where the torque passes through zero, backlash opens and strikes shut")
 
-HOUR = 3600.0
-"""Seconds in an hour."""
 
 LEAST = 1e-9
 """Mean torque that counts where there is none [N·m]."""
@@ -68,7 +67,7 @@ def _measured(design: Design) -> Iterator[Verdict]:
         value=np.asarray(high - low),
         limit=np.asarray(max(high, -low)),
         source=_(SOURCE),
-        note=say(struck if loose else free, count=Quantity(HOUR * rate, digits=3)),
+        note=say(struck if loose else free, count=Quantity(hour * rate, digits=3)),
         advice=True,
     )
 

@@ -8,15 +8,15 @@ from functools import cache
 
 import numpy as np
 
-from cardan.formulas.joint_rating import HOUR, NOMINAL, POWER, RATED_LIFE, RATED_SPEED_ANGLE, lasting, rated_joint_angle
+from cardan.formulas.joint_rating import NOMINAL, POWER, RATED_LIFE, RATED_SPEED_ANGLE, lasting, rated_joint_angle
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
-from cardan.units import deg, rpm
+from cardan.units import deg, hour, rpm
 
 MILLION = 1e6
 
 CONVENTIONS = {
-    "Tc": 1.5e6 * HOUR * rpm * deg,
-    "CR": 1.5e7 * HOUR * rpm * deg,
+    "Tc": 1.5e6 * hour * rpm * deg,
+    "CR": 1.5e7 * hour * rpm * deg,
     "book": RATED_LIFE * RATED_SPEED_ANGLE * (2.0 * NOMINAL) ** POWER,
 }
 """Convention of a maker -> constant of L = constant/(n α)·(rating/M)^(10/3) [rad²]; the rating of book is C R."""

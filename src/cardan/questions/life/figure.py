@@ -14,10 +14,9 @@ from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule
 from cardan.figures.palette import dash_of, shaft
 from cardan.maths.ties import foremost
 from cardan.texts import _
+from cardan.units import hour
 
 from .lives import Life
-
-HOUR = 3600.0
 
 REACH = np.linspace(0.5, 2.0, 61)
 """Loads over those of the duty that the curves span."""
@@ -45,7 +44,7 @@ def load_figure(found: Life) -> Figure:
 
     found: of a drive whose life is limited. Supports that outlive every joint are left out.
     """
-    lives = found.loaded(REACH) / HOUR
+    lives = found.loaded(REACH) / hour
     curves = tuple(
         Curve(
             x=100.0 * REACH,
@@ -59,9 +58,9 @@ def load_figure(found: Life) -> Figure:
     )
     curves += tuple(_held(found))
     rules = [Rule(value=100.0, upright=True, text=_("duty"), role="ink")]
-    asked = [] if found.demanded is None else [found.demanded / HOUR]
+    asked = [] if found.demanded is None else [found.demanded / hour]
     rules += [Rule(value=value, text=_("asked for"), role="accent") for value in asked]
-    point = Curve(x=np.asarray([100.0]), y=np.asarray([found.drive / HOUR]), role=_tone(found), width=0.0, marker=7.0)
+    point = Curve(x=np.asarray([100.0]), y=np.asarray([found.drive / hour]), role=_tone(found), width=0.0, marker=7.0)
     x = axis(_("all loads over those of the duty"), "percent", [100.0 * REACH], dimension="share", margin=0.0, count=6)
     y = _decades(_("Life"), np.concatenate([*(curve.y for curve in curves), asked]))
     over = Panel(series=(*curves, *rules, point), x=x, y=y)
@@ -78,7 +77,7 @@ def _held(found: Life) -> Iterator[Curve]:
     """Yield the lives of the bearings of supports, those that outlive every joint left out."""
     if found.supports is None:
         return
-    lives = found.supports_loaded(REACH) / HOUR
+    lives = found.supports_loaded(REACH) / hour
     longest = float(np.max(found.joints[np.isfinite(found.joints)], initial=0.0)) or math.inf
     for k, number in enumerate(found.supports.number):
         if math.isfinite(found.of_supports[k]) and found.of_supports[k] <= longest:
@@ -101,9 +100,9 @@ def methods_figure(found: Life) -> Figure:
         (_("maker, {convention}").format(convention=kind) if kind else _("maker"), found.of("maker")[i]),
         (_("book"), found.of("book")[i]),
     ]
-    rows = [(name, float(life) / HOUR, "accent") for name, life in named if math.isfinite(life)]
+    rows = [(name, float(life) / hour, "accent") for name, life in named if math.isfinite(life)]
     if found.demanded is not None:
-        rows.append((_("asked for"), found.demanded / HOUR, "muted"))
+        rows.append((_("asked for"), found.demanded / hour, "muted"))
     size = np.asarray([life for _name, life, _role in rows])
     top = float(np.max(size))
     ticks = steps(0.0, top, 5)
@@ -111,7 +110,7 @@ def methods_figure(found: Life) -> Figure:
     bars = Bars(
         at=at,
         size=size,
-        texts=tuple(Quantity(HOUR * life, "duration", 3) for life in size.tolist()),
+        texts=tuple(Quantity(hour * life, "duration", 3) for life in size.tolist()),
         roles=tuple(role for _name, _life, role in rows),
         thick=0.62,
         lying=True,

@@ -20,6 +20,7 @@ from cardan.errors import refuse
 from cardan.questions.torsion.model.answer import assumptions, left_out, nonsynchronous
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.texts import _, mark
+from cardan.units import hour
 
 from .figure import road_figures
 from .road import MULTIPLE, NEAR, SLOW, STRONG, RoadTorsion, road_torsion
@@ -29,7 +30,6 @@ __all__ = ["COLUMNS", "answer", "ask", "lacking"]
 LONGER = 0.02
 """Share of its length by which a shaft may telescope without a word."""
 
-HOUR = 3600.0
 
 SEEN = 5e-3
 """Share of the largest order below which another one is not shown to people."""
@@ -137,10 +137,10 @@ def _elements(found: RoadTorsion) -> Table:
             Column(key="max", heading=_("highest"), values=np.max(high, axis=0), dimension="torque", digits=3),
             Column(key="above", heading=_("above {n} × mean").format(n=f"{MULTIPLE:g}"), values=found.above[line],
                    dimension="share", digits=3),
-            Column(key="reversals_per_hour", heading=_("reversals per hour"), values=HOUR * found.reversals[line],
+            Column(key="reversals_per_hour", heading=_("reversals per hour"), values=hour * found.reversals[line],
                    digits=3),
             Column(key="entries_per_hour", heading=_("spells with reversals per hour"),
-                   values=HOUR * found.entries[line], digits=3),
+                   values=hour * found.entries[line], digits=3),
         ),
     )  # fmt: skip
 
@@ -194,8 +194,8 @@ def _damages(found: RoadTorsion) -> Iterator[Table]:
         records=True,
         columns=(
             Column(key="shaft", heading=_("shaft"), values=[one.shaft for one in found.damage]),
-            Column(key="damage_per_hour", heading=_("damage per hour"), values=HOUR * rate, digits=3),
-            Column(key="life", heading=_("life"), values=life, dimension="duration", digits=3, most=1e7 * HOUR),
+            Column(key="damage_per_hour", heading=_("damage per hour"), values=hour * rate, digits=3),
+            Column(key="life", heading=_("life"), values=life, dimension="duration", digits=3, most=1e7 * hour),
         ),
         note=_("Palmgren and Miner over the torques of every turn, with secondary couples; a damage of 1 is a crack."),
     )
@@ -214,7 +214,7 @@ def _keys(found: RoadTorsion) -> Iterator[KeyFigure]:
     yield KeyFigure(name="road_unstable", title=_("share of the time unstable"), value=_share(found.unstable))
     rate = float(np.max(found.reversals[found.line]))
     yield KeyFigure(
-        name="road_reversals", title=_("reversals of the torque per hour"), value=Quantity(HOUR * rate, digits=3)
+        name="road_reversals", title=_("reversals of the torque per hour"), value=Quantity(hour * rate, digits=3)
     )
 
 
@@ -360,7 +360,7 @@ def _facts(found: RoadTorsion) -> dict[str, Any]:
         "unstable": Quantity(found.unstable, "share"),
         "mean_growth": Quantity(found.mean_growth, "rate"),
         "largest_growth": found.grown,
-        "reversals_per_hour": HOUR * found.reversals,
+        "reversals_per_hour": hour * found.reversals,
         "largest_torque_open_backlash": Quantity(
             math.nan if found.opened is None else float(np.max(np.nan_to_num(found.opened.largest[:, found.line]))),
             "torque",
@@ -392,7 +392,7 @@ def _course(found: RoadTorsion) -> Table:
 def _column_values(found: RoadTorsion) -> tuple[float, float, float, float]:
     if not found.places.found.any():
         raise refuse("movements", _("no steady motion was found"))
-    return found.peak[0], found.resonance, found.unstable, HOUR * float(np.max(found.reversals[found.line]))
+    return found.peak[0], found.resonance, found.unstable, hour * float(np.max(found.reversals[found.line]))
 
 
 COLUMNS = (
