@@ -18,9 +18,7 @@ from cardan.drive.movement import Body, Random, Spectrum
 from cardan.drive.shaft import PointMass, Shaft, Spline, Unbalance
 from cardan.drive.station import Station
 from cardan.drive.support import Support
-from cardan.units import deg, mm, rpm
-
-HOUR = 3600.0
+from cardan.units import deg, hour, mm, rpm
 
 Rng = np.random.Generator
 
@@ -109,7 +107,7 @@ def _duty(rng: Rng) -> Duty:
     if rng.random() < 0.3:
         made["speed_range"] = (0.5 * abs(speed), 1.2 * abs(speed))
     if rng.random() < 0.5:
-        made["life"] = float(rng.uniform(500.0, 20e3)) * HOUR
+        made["life"] = float(rng.uniform(500.0, 20e3)) * hour
     if rng.random() < 0.3:
         made["shock_factor"] = float(rng.uniform(1.0, 2.0))
     if rng.random() < 0.25 and "torque" in made:

@@ -26,9 +26,7 @@ from cardan.errors import InputError
 from cardan.io.examples import example_names, example_text
 from cardan.questions.life.bearing_life import maker_life
 from cardan.questions.motion.equivalence import largest_acceleration
-from cardan.units import deg, mm, rpm
-
-HOUR = 3600.0
+from cardan.units import deg, hour, mm, rpm
 
 SCALED = {"critical_speed": 3e-3, "half_critical": 3e-3, "bearing_life": 3e-3}
 """Checks whose exact answer is scaled by a closed formula where keys vary: a percent here moves it by so much less."""
@@ -71,12 +69,12 @@ def whole() -> Drive:
                 speed=2000 * rpm,
                 speed_range=(500 * rpm, 2600 * rpm),
                 torque=900.0,
-                life=2000 * HOUR,
+                life=2000 * hour,
                 shock_factor=1.3,
                 balance_grade="G16",
                 balance_class="truck_up_to_5t",
                 vehicle=Vehicle(engine_torque=400.0, gear_ratio=3.0, wheelbase=3.8),
-                upkeep=Upkeep(hours=100 * HOUR, distance=1e6, items=("needle_bearings", "spline_gaz66")),
+                upkeep=Upkeep(hours=100 * hour, distance=1e6, items=("needle_bearings", "spline_gaz66")),
                 blocks=(
                     Block(torque=600.0, speed=1800 * rpm, share=0.7),
                     Block(torque=1100.0, speed=900 * rpm, share=0.3),
@@ -227,7 +225,7 @@ def test_the_rated_torque_is_that_which_lasts_the_life(convention):
     drive = whole()
     joint = drive.joints[0]
     rating = replace(joint.rating, convention=convention)
-    duty = Duty(speed=1500 * rpm, torque=800.0, life=3000 * HOUR, shock_factor=1.2)
+    duty = Duty(speed=1500 * rpm, torque=800.0, life=3000 * hour, shock_factor=1.2)
     found = check(
         replace(drive, joints=(replace(joint, rating=rating), *drive.joints[1:]), duty=duty), only=["rated_torque"]
     )[0]
@@ -235,7 +233,7 @@ def test_the_rated_torque_is_that_which_lasts_the_life(convention):
     life = maker_life(
         rated, found.limit, speed=1500 * rpm, joint_angle=design(drive).joint_angle[0], convention=convention
     )
-    assert float(life) == pytest.approx(3000 * HOUR, rel=1e-12)
+    assert float(life) == pytest.approx(3000 * hour, rel=1e-12)
     assert found.value == pytest.approx(1.2 * 800.0, rel=2e-2)  # the joints make the torque swing a little
 
 
@@ -299,9 +297,9 @@ def test_a_composite_tube_buckles_in_proportion():
 
 def test_lubrication_is_due_at_the_interval():
     drive = Drive.from_angles([0.1])
-    due = check(drive, Duty(upkeep=Upkeep(hours=500 * HOUR)), only=["lubrication"])
-    soon = check(drive, Duty(upkeep=Upkeep(hours=499 * HOUR)), only=["lubrication"])
-    severe = check(drive, Duty(upkeep=Upkeep(hours=499 * HOUR, severe=True)), only=["lubrication"])
+    due = check(drive, Duty(upkeep=Upkeep(hours=500 * hour)), only=["lubrication"])
+    soon = check(drive, Duty(upkeep=Upkeep(hours=499 * hour)), only=["lubrication"])
+    severe = check(drive, Duty(upkeep=Upkeep(hours=499 * hour, severe=True)), only=["lubrication"])
     assert [v[0].state for v in (due, soon, severe)] == ["failed", "close", "failed"]
 
 

@@ -17,9 +17,7 @@ from cardan.drive.material import Material
 from cardan.drive.shaft import Shaft, Spline, Unbalance
 from cardan.io import dumps, loads
 from cardan.io.edit import edit
-from cardan.units import deg, mm, rpm
-
-HOUR = 3600.0
+from cardan.units import deg, hour, mm, rpm
 
 
 def car(**duty: object) -> Drive:
@@ -36,7 +34,7 @@ def car(**duty: object) -> Drive:
     )
     drive = Drive.from_points([(-0.25, 0, 0), (0, 0, 0), (1.25, 0, -0.07), (1.5, 0, -0.05)])
     joints = tuple(replace(joint, size="example-58") for joint in drive.joints)
-    use = {"speed": 2800 * rpm, "torque": 520.0, "life": 3000 * HOUR, "balance_grade": "G16", **duty}
+    use = {"speed": 2800 * rpm, "torque": 520.0, "life": 3000 * hour, "balance_grade": "G16", **duty}
     return completed(
         replace(
             drive,
@@ -57,7 +55,7 @@ def plain() -> Drive:
     joints = tuple(replace(joint, cross=cross, needles=needles, rating=rating) for joint in drive.joints)
     tube = Shaft(number=2, outer=50 * mm, wall=2 * mm, length=1.6, material=Material(grade="45"))
     blocks = (Block(torque=900.0, speed=800 * rpm, share=0.5), Block(torque=1500.0, speed=300 * rpm, share=0.5))
-    return replace(drive, joints=joints, shafts=(tube,), duty=Duty(life=1000 * HOUR, shock_factor=1.2, blocks=blocks))
+    return replace(drive, joints=joints, shafts=(tube,), duty=Duty(life=1000 * hour, shock_factor=1.2, blocks=blocks))
 
 
 def running_at_half() -> Drive:

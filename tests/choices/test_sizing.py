@@ -26,10 +26,9 @@ from cardan.drive.shaft import Layup, Ply, Segment, Shaft
 from cardan.formulas.shaft_strength import shaft_diameter
 from cardan.io import dumps, loads
 from cardan.io.edit import edit
-from cardan.units import deg, mm, rpm
+from cardan.units import deg, hour, mm, rpm
 
 C45 = Material(grade="C45")
-HOUR = 3600.0
 
 
 def drive(**changes):
@@ -39,7 +38,7 @@ def drive(**changes):
         for joint in Drive.from_angles([14 * deg, 14 * deg]).joints
     )
     tube = Shaft(number=2, outer=70 * mm, wall=3 * mm, length=1.1, material=C45)
-    duty = Duty(speed=1800 * rpm, torque=900.0, shock_factor=1.25, life=3000 * HOUR)
+    duty = Duty(speed=1800 * rpm, torque=900.0, shock_factor=1.25, life=3000 * hour)
     return replace(Drive(joints=joints, shafts=(tube,), duty=duty), **changes)
 
 
@@ -124,13 +123,13 @@ def test_the_capacity_for_a_life_is_the_tenth_root_law():
     from cardan.questions.life.life import life
 
     now = float(life(base).of("iso")[0])
-    assert found.exact["joints[0].needles.capacity_N"] == pytest.approx(20e3 * (3000 * HOUR / now) ** 0.3, rel=1e-9)
+    assert found.exact["joints[0].needles.capacity_N"] == pytest.approx(20e3 * (3000 * hour / now) ** 0.3, rel=1e-9)
     force = 1.25 * 900.0 / math.cos(14 * deg) / 0.080  # of joint 1: torque of shaft 1 is that of shaft 3
     assert found.exact["joints[0].needles.static_capacity_N"] == pytest.approx(force, rel=1e-7)
 
 
 def test_the_smallest_row_of_the_catalogue_passes_and_no_smaller_one_does():
-    base = drive(duty=Duty(speed=1200 * rpm, torque=600.0, life=1000 * HOUR))
+    base = drive(duty=Duty(speed=1200 * rpm, torque=600.0, life=1000 * hour))
     found = size(base, None, "joint")
     row = found.values["joints[0].size"]
     assert found.values == {"joints[0].size": row, "joints[1].size": row}
@@ -157,7 +156,7 @@ def test_no_row_is_large_enough():
 
 
 def test_a_joint_of_a_series_is_offered_its_series_and_rows_of_the_user():
-    base = drive(duty=Duty(speed=1200 * rpm, torque=600.0, life=1000 * HOUR))
+    base = drive(duty=Duty(speed=1200 * rpm, torque=600.0, life=1000 * hour))
     joints = tuple(replace(j, cross=None, needles=None, size="example-90") for j in base.joints)
     found = size(replace(base, joints=joints), None, "joint")
     assert {catalogue().rows(JointSize)[one.id].series for one in found.tried} == {"example"}
@@ -165,7 +164,7 @@ def test_a_joint_of_a_series_is_offered_its_series_and_rows_of_the_user():
 
 @pytest.mark.slow
 def test_a_size_whose_life_nobody_can_tell_is_not_taken_where_a_life_is_asked():
-    found = size(drive(duty=Duty(speed=1200 * rpm, torque=600.0, life=1000 * HOUR)), None, "joint")
+    found = size(drive(duty=Duty(speed=1200 * rpm, torque=600.0, life=1000 * hour)), None, "joint")
     bare = [one for one in found.tried if one.id.startswith("ml-")]
     assert bare
     assert not any(one.passed for one in bare)

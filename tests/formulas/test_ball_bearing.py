@@ -4,22 +4,21 @@ import numpy as np
 import pytest
 
 from cardan.formulas.ball_bearing import AXIAL, LEAST, RADIAL, THRUST, ball_life, equivalent_load, static_load
-from cardan.units import rpm
+from cardan.units import hour, rpm
 
-HOUR = 3600.0
 C, C0 = 25.7e3, 15.3e3  # of a 6207
 
 
 def test_the_makers_example_with_radial_load_alone():
     """TPI catalogue 2202/TE, p. 11: 6207, 650 rpm, 2.8 kN: about 20 000 h."""
-    assert ball_life(C, equivalent_load(2.8e3, 0.0, C0), speed=650 * rpm) / HOUR == pytest.approx(20000.0, rel=0.01)
+    assert ball_life(C, equivalent_load(2.8e3, 0.0, C0), speed=650 * rpm) / hour == pytest.approx(20000.0, rel=0.01)
 
 
 def test_the_makers_example_with_axial_load_too():
     """The same page: with 1.6 kN axially e = 0.29, Y = 1.48, P = 3.94 kN, about 7 000 h."""
     load = equivalent_load(2.8e3, 1.6e3, C0)
     assert load == pytest.approx(3.94e3, rel=0.006)  # it takes e and Y from a curve, by eye
-    assert ball_life(C, load, speed=650 * rpm) / HOUR == pytest.approx(7000.0, rel=0.04)
+    assert ball_life(C, load, speed=650 * rpm) / hour == pytest.approx(7000.0, rel=0.04)
 
 
 @pytest.mark.parametrize("k", range(len(THRUST)))

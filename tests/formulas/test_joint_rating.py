@@ -6,7 +6,6 @@ import pytest
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import LifeFactor
 from cardan.formulas.joint_rating import (
-    HOUR,
     book_life,
     life_factor,
     nominal_torque,
@@ -14,12 +13,12 @@ from cardan.formulas.joint_rating import (
     rated_torque,
     speed_angle_factor,
 )
-from cardan.units import deg, rpm
+from cardan.units import deg, hour, rpm
 
 
 @pytest.mark.parametrize(
     ("name", "factor", "unit", "largest"),
-    [("life_factors", life_factor, HOUR, 0.0025), ("speed_angle_factors", speed_angle_factor, rpm * deg, 0.004)],
+    [("life_factors", life_factor, hour, 0.0025), ("speed_angle_factors", speed_angle_factor, rpm * deg, 0.004)],
 )
 def test_the_tables_are_the_power_law_but_for_their_misprints(name, factor, unit, largest):
     """Corrected columns keep within 0.25 % and 0.4 % of the law; every correction lies nearer to it than the print."""
@@ -37,9 +36,9 @@ def test_the_tables_are_the_power_law_but_for_their_misprints(name, factor, unit
 def test_between_its_points_a_table_is_straight_on_logarithmic_paper():
     """3500 h lies between 3000 h (1.71) and 4000 h (1.865)."""
     share = np.log(3500 / 3000) / np.log(4000 / 3000)
-    assert life_factor(3500 * HOUR, method="table") == pytest.approx(1.71 ** (1 - share) * 1.865**share, rel=1e-12)
-    assert np.isnan(life_factor([99 * HOUR, 100001 * HOUR], method="table")).all()
-    assert life_factor(100000 * HOUR, method="table") == pytest.approx(4.90)
+    assert life_factor(3500 * hour, method="table") == pytest.approx(1.71 ** (1 - share) * 1.865**share, rel=1e-12)
+    assert np.isnan(life_factor([99 * hour, 100001 * hour], method="table")).all()
+    assert life_factor(100000 * hour, method="table") == pytest.approx(4.90)
 
 
 def test_by_hand():
@@ -49,15 +48,15 @@ def test_by_hand():
     """
     nominal = nominal_torque(20e3, 0.040)
     assert nominal == pytest.approx(2080.0)
-    found = rated_torque(nominal, speed=1000 * rpm, joint_angle=6 * deg, life=2000 * HOUR, shock=1.38)
+    found = rated_torque(nominal, speed=1000 * rpm, joint_angle=6 * deg, life=2000 * hour, shock=1.38)
     assert found == pytest.approx(582.3, abs=0.05)
 
 
 def test_life_and_rating_undo_each_other():
     n, alpha, shock = np.asarray([33.3, 900.0, 4000.0]) * rpm, np.asarray([0.5, 7.0, 25.0]) * deg, 1.2
-    torque = rated_torque(1500.0, speed=n, joint_angle=alpha, life=3000 * HOUR, shock=shock)
+    torque = rated_torque(1500.0, speed=n, joint_angle=alpha, life=3000 * hour, shock=shock)
     np.testing.assert_allclose(
-        book_life(1500.0, torque, speed=-n, joint_angle=alpha, shock=shock), 3000 * HOUR, rtol=1e-12
+        book_life(1500.0, torque, speed=-n, joint_angle=alpha, shock=shock), 3000 * hour, rtol=1e-12
     )
 
 

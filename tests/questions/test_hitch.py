@@ -21,8 +21,8 @@ from cardan.questions.gathering import gather
 from cardan.questions.life.life import life
 from cardan.questions.losses.losses import losses
 from cardan.register import QUESTIONS
+from cardan.units import hour
 
-HOUR = 3600.0
 CAPACITY, SPAN, JOURNAL, FRICTION = 17.93e3, 0.08, 0.02, 0.0427
 TORQUE, SPEED = 400.0, 540.0 * 2.0 * np.pi / 60.0
 PIVOT, YAW, PITCH = np.array((0.5, 0.0, -0.24)), np.deg2rad(40.0), np.deg2rad(8.0)
@@ -94,7 +94,7 @@ def rates(points):
 
 def hours(damage):
     """Return how long the joint that fails first lasts [h]: a million turns by ISO 281, the worse of its yokes."""
-    return 1e6 / np.max(damage) * 2.0 * np.pi / SPEED / HOUR
+    return 1e6 / np.max(damage) * 2.0 * np.pi / SPEED / hour
 
 
 @pytest.fixture(scope="module")
@@ -114,8 +114,8 @@ def test_the_life_is_that_of_the_whole_movement(truth):
     drawn, lock, moving = (hours(one[0]) for one in truth)
     found = life(drive)
     # What friction adds to the load of a journal, 0.4 % of it at the lock, tires it by that to the power 10/3.
-    assert found.drive / HOUR == pytest.approx(moving, rel=0.02)
-    assert life(replace(drive, movements=())).drive / HOUR == pytest.approx(drawn, rel=0.02)
+    assert found.drive / hour == pytest.approx(moving, rel=0.02)
+    assert life(replace(drive, movements=())).drive / hour == pytest.approx(drawn, rel=0.02)
     assert (drawn, lock) == (pytest.approx(56768.0, rel=0.01), pytest.approx(8339.0, rel=0.01))
     assert lock < moving < 0.3 * drawn
 
@@ -138,7 +138,7 @@ def test_a_pose_at_the_lock_counts_by_its_share(truth):
     assert [one.share for one in in_poses(drive)] == pytest.approx([0.8, 0.2])
     drawn, lock, _moving = truth
     damage, heat = 0.8 * drawn + 0.2 * lock
-    assert life(drive).drive / HOUR == pytest.approx(hours(damage), rel=0.02)
+    assert life(drive).drive / hour == pytest.approx(hours(damage), rel=0.02)
     assert losses(drive).heat == pytest.approx(watts(heat), rel=0.01)
     assert losses(drive).efficiency < 1.0 - 0.9 * watts(heat) / (TORQUE * SPEED)
 

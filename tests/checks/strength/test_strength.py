@@ -22,10 +22,9 @@ from cardan.drive.models.kinematics_model import chain
 from cardan.drive.shaft import Layup, Notch, Ply, PointMass, Segment, Shaft, Spline
 from cardan.maths.kernel import mobius
 from cardan.questions.forces.turn_loads import turn_loads
-from cardan.units import deg, mm, rpm
+from cardan.units import deg, hour, mm, rpm
 
 STEEL = Material(yield_strength=355e6, ultimate_strength=600e6)
-HOUR = 3600.0
 
 
 def hand_drive():
@@ -43,7 +42,7 @@ def hand_drive():
     tube = Shaft(number=2, outer=76 * mm, wall=3 * mm, length=1.2, material=STEEL, spline=spline)
     return replace(
         Drive(joints=(joint, joint), shafts=(tube,)),
-        duty=Duty(speed=1500 * rpm, torque=700.0, shock_factor=1.2, life=1000 * HOUR),
+        duty=Duty(speed=1500 * rpm, torque=700.0, shock_factor=1.2, life=1000 * hour),
         limits=Limits(spline_pressure=60e6),
     )
 
@@ -172,7 +171,7 @@ def everything():
                 speed=2000 * rpm,
                 torque=500.0,
                 shock_factor=1.3,
-                life=2000 * HOUR,
+                life=2000 * hour,
                 blocks=(
                     Block(torque=300.0, speed=1800 * rpm, share=0.7),
                     Block(torque=900.0, speed=900 * rpm, share=0.3, joint_angle=5 * deg),

@@ -14,12 +14,11 @@ from cardan.drive.movement import Harmonic
 from cardan.drive.pose import Pose
 from cardan.drive.support import Support
 from cardan.questions.life.life import life
-from cardan.units import deg, rpm
+from cardan.units import deg, hour, rpm
 
-HOUR = 3600.0
 PLACE, TORQUE, ALPHA = 0.2, 800.0, 20 * deg
 NAMES = ("support_life", "support_static", "support_speed")
-DUTY = Duty(torque=TORQUE, speed=1000 * rpm, life=1000 * HOUR)
+DUTY = Duty(torque=TORQUE, speed=1000 * rpm, life=1000 * hour)
 SUPPORTS = (
     Support(shaft=1, position=-0.1, axial=True),
     Support(shaft=1, position=-0.3),

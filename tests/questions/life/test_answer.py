@@ -14,8 +14,8 @@ from cardan.questions.life.life import life
 from cardan.questions.life.lives import METHODS
 from cardan.report.block import page, row
 from cardan.texts import speaking
+from cardan.units import hour
 
-HOUR = 3600.0
 INCHES = Reader(units={"torque": "lbft", "force": "lbf"}, decimal=",")
 
 
@@ -32,9 +32,9 @@ def test_a_life_too_short_stands_first_with_what_would_do():
     said, found = of(drive), life(drive)
     (key,) = said.keys
     assert told(key.called, USUAL) == "life of the joint that fails first, joint 3"
-    assert (key.value.value, key.limit.value, key.better, key.tone) == (found.drive, 8000 * HOUR, "more", "failed")
+    assert (key.value.value, key.limit.value, key.better, key.tone) == (found.drive, 8000 * hour, "more", "failed")
     made = page(said, USUAL)
-    assert [cell.text for cell in row(said.keys[0], USUAL)[3:5]] == ["≥ 8\u202f000", fixed(8000 * HOUR / found.drive)]
+    assert [cell.text for cell in row(said.keys[0], USUAL)[3:5]] == ["≥ 8\u202f000", fixed(8000 * hour / found.drive)]
     assert [one.tone for one in made.alarms] == ["failed"]
     assert made.answer == "Too short; joint 3 (axle) fails after 5\u202f943 h, and 8\u202f000 h are asked for."
     assert said.code == 1

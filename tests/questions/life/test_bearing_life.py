@@ -5,9 +5,8 @@ import pytest
 from scipy.special import hyp2f1
 
 from cardan.questions.life.bearing_life import RELIABILITIES, bearing_life, maker_life, reliability_factor, swing_damage
-from cardan.units import deg, rpm
+from cardan.units import deg, hour, rpm
 
-HOUR = 3600.0
 P = 10.0 / 3.0
 
 
@@ -60,7 +59,7 @@ def test_by_hand():
     A turn moves the bearing by 3/90 revolutions: L = 2^(10/3) * 10^6 * 30/(60 * 1000) h = 10.079 * 500 = 5040 h.
     """
     found = bearing_life(20e3, 0.040, 800.0, speed=1000 * rpm, joint_angle=3 * deg, torque_at="input")
-    assert found.simple / HOUR == pytest.approx(5039.7, abs=0.05)
+    assert found.simple / hour == pytest.approx(5039.7, abs=0.05)
     assert found.worst == min(found.driving, found.driven)
 
 
@@ -82,9 +81,9 @@ def test_without_torque_or_without_bend_nothing_is_damaged():
 def test_makers_rating_points_are_theirs():
     """T_c lasts 5000 h at 3° and 100 rpm; C R 5000 h with the rounded constant; the book's 2.6 is 0.9373 of 2.774."""
     case = {"speed": 100 * rpm, "joint_angle": 3 * deg}
-    assert maker_life(700.0, 700.0, convention="Tc", **case) / HOUR == pytest.approx(5000.0)
-    assert maker_life(700.0, 700.0, convention="CR", **case) / HOUR == pytest.approx(50_000.0)
-    assert maker_life(700.0, 700.0, convention="book", **case) / HOUR == pytest.approx(1.218e7 / 300, rel=1e-4)
+    assert maker_life(700.0, 700.0, convention="Tc", **case) / hour == pytest.approx(5000.0)
+    assert maker_life(700.0, 700.0, convention="CR", **case) / hour == pytest.approx(50_000.0)
+    assert maker_life(700.0, 700.0, convention="book", **case) / hour == pytest.approx(1.218e7 / 300, rel=1e-4)
     assert maker_life(700.0, 700.0, convention="CR", speed=1.0, joint_angle=1 * deg, shock=2.0) == pytest.approx(
         maker_life(700.0, 1400.0, convention="CR", speed=-1.0, joint_angle=3 * deg), rel=1e-12
     )

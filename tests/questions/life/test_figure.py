@@ -18,8 +18,8 @@ from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.questions.life.figure import SHOWN, history_figure, methods_figure, parts_figure
 from cardan.questions.life.life import life
+from cardan.units import hour
 
-HOUR = 3600.0
 JOINTS = tuple(
     Hooke(joint_angle=joint_angle, cross=Cross(span=0.08), needles=Needles(capacity=20e3), rating=Rating(torque=1000.0))
     for joint_angle in (0.1, 0.2)
@@ -39,7 +39,7 @@ def series(figure, kind):
     return [item for panel in figure.panels for item in panel.series if isinstance(item, kind)]
 
 
-@pytest.mark.parametrize("demanded", [None, 100 * HOUR, 1e6 * HOUR])
+@pytest.mark.parametrize("demanded", [None, 100 * hour, 1e6 * hour])
 def test_the_duty_lies_on_the_curve_of_the_joint_that_fails_first(demanded):
     found = life(DRIVE, Duty(speed=100.0, torque=400.0, life=demanded))
     figure, methods = figures.for_result(found)
@@ -49,15 +49,15 @@ def test_the_duty_lies_on_the_curve_of_the_joint_that_fails_first(demanded):
     assert len(curves) == 2
     first = curves[found.governing - 1]
     assert np.interp(100.0, first.x, np.log(first.y)) == pytest.approx(np.log(point.y[0]), rel=1e-12)
-    assert (first.x[0], first.y[0]) == pytest.approx((50.0, 2 ** (10 / 3) * found.drive / HOUR))
+    assert (first.x[0], first.y[0]) == pytest.approx((50.0, 2 ** (10 / 3) * found.drive / hour))
 
 
 def test_bars_are_the_lives_by_each_method():
-    found = life(DRIVE, Duty(speed=100.0, torque=400.0, life=100 * HOUR))
+    found = life(DRIVE, Duty(speed=100.0, torque=400.0, life=100 * hour))
     (bars,) = series(methods_figure(found), Bars)
     i = found.governing - 1
     wanted = [found.combined(one)[i] for one in (found.driving, found.driven, found.simple, found.maker, found.book)]
-    np.testing.assert_allclose(bars.size, np.asarray([*wanted, 100 * HOUR]) / HOUR)
+    np.testing.assert_allclose(bars.size, np.asarray([*wanted, 100 * hour]) / hour)
 
 
 def test_parts_are_told_by_time_and_damage():

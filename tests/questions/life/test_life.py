@@ -18,9 +18,8 @@ from cardan.questions.life.bearing_life import bearing_life, maker_life
 from cardan.questions.life.duty_cycle import combined_life, equivalent_torque
 from cardan.questions.life.life import life
 from cardan.questions.life.lives import METHODS
-from cardan.units import deg, rpm
+from cardan.units import deg, hour, rpm
 
-HOUR = 3600.0
 P = 10.0 / 3.0
 CROSS, NEEDLES = Cross(span=0.08, journal=0.016), Needles(count=22, diameter=2.5e-3, length=14e-3, capacity=20e3)
 
@@ -121,23 +120,23 @@ def test_speeds_measured_beside_a_torque_are_those_of_its_levels():
 
 
 def test_shocks_reliability_and_demand():
-    duty = Duty(speed=100.0, torque=500.0, life=4000 * HOUR)
+    duty = Duty(speed=100.0, torque=500.0, life=4000 * hour)
     plain = life(one(), duty)
     hard = life(one(), replace(duty, shock_factor=1.3, reliability=0.99))
     for name in METHODS[:2] + METHODS[3:]:
         assert hard.of(name)[0] == pytest.approx(0.25 * plain.of(name)[0] / 1.3**P, rel=1e-12)
     assert hard.journal_force[0, 0] == pytest.approx(1.3 * plain.journal_force[0, 0])
     assert plain.journal_force[0, 0] == pytest.approx(500.0 / 0.08 / np.cos(12 * deg), rel=1e-9)
-    assert (plain.enough, hard.enough) == (bool(plain.drive >= 4000 * HOUR), bool(hard.drive >= 4000 * HOUR))
+    assert (plain.enough, hard.enough) == (bool(plain.drive >= 4000 * hour), bool(hard.drive >= 4000 * hour))
     for found in (plain, hard):
-        again = life(one(), Duty(speed=100.0, torque=500.0 * found.torque_margin, life=4000 * HOUR))
+        again = life(one(), Duty(speed=100.0, torque=500.0 * found.torque_margin, life=4000 * hour))
         if found is plain:
-            assert again.drive == pytest.approx(4000 * HOUR, rel=1e-9)
+            assert again.drive == pytest.approx(4000 * hour, rel=1e-9)
         strong = replace(NEEDLES, capacity=float(found.needed_capacity[0]))
         stronger = life(
             one(needles=strong), replace(duty, shock_factor=found.shock_factor, reliability=found.reliability)
         )
-        assert stronger.drive == pytest.approx(4000 * HOUR, rel=1e-9)
+        assert stronger.drive == pytest.approx(4000 * hour, rel=1e-9)
     assert plain.loaded([1.0, 2.0])[1, 0] == pytest.approx(plain.drive / 2.0**P)
 
 

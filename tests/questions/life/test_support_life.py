@@ -23,9 +23,8 @@ from cardan.questions.life.answer import COLUMNS, answer, lacking
 from cardan.questions.life.bearing_life import reliability_factor
 from cardan.questions.life.figure import life_figures
 from cardan.questions.life.life import life
-from cardan.units import deg, rpm
+from cardan.units import deg, hour, rpm
 
-HOUR = 3600.0
 C, C0 = 25.7e3, 15.3e3
 PLACE = 0.2  # of the rated bearing behind its joint [m]
 SPEED, TORQUE = 1000 * rpm, 800.0
@@ -189,22 +188,22 @@ def test_the_drive_lasts_as_long_as_the_first_of_both():
     both = life(rated)
     assert both.governing_support == 0
     assert both.drive == alone.drive
-    small = replace(rated, supports=supports(capacity=3000.0), duty=replace(DUTY, life=1000 * HOUR))
+    small = replace(rated, supports=supports(capacity=3000.0), duty=replace(DUTY, life=1000 * hour))
     found = life(small)
     assert found.governing_support == 3
     assert found.drive == np.min(found.of_supports) < alone.drive
     grown = replace(small, duty=replace(small.duty, torque=found.torque_margin * TORQUE))
-    assert life(grown).drive == pytest.approx(1000 * HOUR, rel=1e-9)
+    assert life(grown).drive == pytest.approx(1000 * hour, rel=1e-9)
     assert COLUMNS[0].of_one(small) == (found.drive,)
     said = answer(small, found)
     assert told(said.sentence, USUAL).startswith("too short; support 3 fails after ")
     facts = data(said, Reader())
     assert (facts["governing_joint"], facts["governing_support"]) == (None, 3)
-    assert [one["life_h"] for one in facts["supports"]] == pytest.approx(found.of_supports / HOUR)
+    assert [one["life_h"] for one in facts["supports"]] == pytest.approx(found.of_supports / hour)
     (key,) = said.keys
     assert told(key.called, USUAL) == "life of the support that fails first, support 3"
     (failed,) = [told(one.text, USUAL) for one in said.remarks if one.tone == "failed"]
-    need = 3000.0 * (1000 * HOUR / found.drive) ** (1 / 3)
+    need = 3000.0 * (1000 * hour / found.drive) ** (1 / 3)
     assert f"a capacity of {need:,.0f} N".replace(",", "\u202f") in failed
     bored = replace(small, supports=supports(capacity=3000.0, bore=0.015))
     (larger,) = [
