@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from cardan import example
+from cardan import Drive, example
 from cardan.answers.data import data
 from cardan.answers.quantity import told as told_text
 from cardan.answers.reader import USUAL
@@ -23,7 +23,7 @@ from cardan.questions.torsion.steady.settling import ramped as ramps_of
 from cardan.questions.torsion.steady.several import stable_motions
 from cardan.questions.torsion.steady.steady import steady_orbits
 from cardan.questions.torsion.steady.steady_result import read_off
-from cardan.questions.torsion.steady.torsion_response import loaded_model, torsion_response
+from cardan.questions.torsion.steady.torsion_response import TorsionResponse, loaded_model, torsion_response
 from cardan.units import rpm
 from tests.builders.torsion_in_time import flow
 
@@ -255,6 +255,12 @@ def shaken(
     return found.sol(ends)[0] - speed * ends, np.asarray([torque(*one) for one in zip(fine, q, v, strict=True)])
 
 
+def further(drive: Drive, found: TorsionResponse) -> list[str]:
+    """Return what is said of motions that repeat after several periods only, or not at all."""
+    said = (told_text(one.text, USUAL) for one in answer(drive, found).remarks)
+    return [one for one in said if "further motions" in one]
+
+
 @pytest.mark.slow
 def test_a_motion_whose_period_has_doubled_is_told() -> None:
     """The flywheel at a third of its torque: the motion of a half turn is unstable, that of a whole turn runs."""
@@ -288,4 +294,19 @@ def test_motions_of_several_periods_that_take_a_blow_are_told_and_do_not_count()
     assert not any(one.runs or one.reached for one in found.beside)
     assert found.torque_lowest[0] > 0.0
     assert min(float(one.lowest[0]) for one in found.beside) < 0.0
-    assert any("further motions" in told_text(one.text, USUAL) for one in answer(drive, found).remarks)
+    (longer,) = further(drive, found)
+    assert "where a slow run-up or run-down leads to it, else it takes a blow" in longer
+    dark = replace(found, beside=tuple(replace(one, reached=None) for one in found.beside))
+    (longer,) = further(drive, dark)
+    assert "it is not known to which motion a slow run-up or run-down leads" in longer
+    assert "blow" not in longer
+
+
+@pytest.mark.slow
+def test_speeds_at_which_no_ramp_is_known_are_named() -> None:
+    drive = example("pto-flywheel")
+    found = torsion_response(drive, speed=np.asarray([535.0, 540.0]) * rpm)
+    assert {one.row for one in found.beside} == {0, 1}
+    dark = replace(found, beside=tuple(replace(one, reached=None if one.row else False) for one in found.beside))
+    (longer,) = further(drive, dark)
+    assert "else it takes a blow or an abrupt start; at 540 rpm it is not known to which motion" in longer

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,7 @@ from cardan.texts import _, mark, plural
 from .figure import response_figures
 from .run_stability import Verdict, verdict_words
 from .settling import LONGEST
+from .several import Beside
 from .torsion_response import TorsionResponse, level, peak_refined, torsion_response
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "worst"]
@@ -337,12 +338,27 @@ def _longer(found: TorsionResponse) -> Remark:
             where = say(_(", at {speeds}"), speeds=ranges(np.abs(found.speed), rows, "angular_speed"))
         torque = _torque(max(float(np.max(one.swing)) for one in own))
         swings.append(say(text, periods=periods, longest=LONGEST, torque=torque, where=where))
-    text = _(
-        "Where backlash opens there are further motions: {how}; such a motion counts in lowest and highest torques "
-        "where a slow run-up or run-down leads to it, else it takes a blow or an abrupt start; orders are of the "
-        "motion of one period."
+    text = _("Where backlash opens there are further motions: {how}; {counts}; orders are of the motion of one period.")
+    known = _(
+        "such a motion counts in lowest and highest torques where a slow run-up or run-down leads to it, else it takes "
+        "a blow or an abrupt start"
     )
-    return Remark(text=say(text, how=Joined(swings)), tone="warning")
+    dark, lost = _not_known(found, longer)
+    unknown = _(
+        "{where}it is not known to which motion a slow run-up or run-down leads: there such a motion counts in lowest "
+        "and highest torques only where none of one period is stable"
+    )
+    rules: list[Text] = [] if len(dark) == len(longer) else [known]
+    if dark:
+        rules.append(say(unknown, where=say(_("at {speeds} "), speeds=lost) if found.speed.ndim else ""))
+    return Remark(text=say(text, how=Joined(swings), counts=Joined(rules, between="; ")), tone="warning")
+
+
+def _not_known(found: TorsionResponse, beside: Sequence[Beside]) -> tuple[list[Beside], Text]:
+    """Return those of further motions of which it is not known whether a ramp leads there, and at which speeds."""
+    dark = [one for one in beside if one.reached is None]
+    speeds = np.atleast_1d(np.abs(found.speed))
+    return dark, ranges(speeds, np.isin(np.arange(len(speeds)), [one.row for one in dark]), "angular_speed")
 
 
 def _beside(found: TorsionResponse) -> Remark:
@@ -372,9 +388,8 @@ def _beside(found: TorsionResponse) -> Remark:
     where = ranges(np.abs(found.speed), several, "angular_speed")
     sizes = [float(np.max(one.swing)) for one in beside]
     ends = [say("±{torque}", torque=_torque(one)) for one in sorted({min(sizes), max(sizes)})]
-    dark = np.isin(np.arange(len(found.speed)), [one.row for one in beside if one.reached is None])
-    lost = ranges(np.abs(found.speed), dark, "angular_speed")
-    unknown = say(_(", and the largest of all at {where}, where that is not known"), where=lost) if dark.any() else ""
+    dark, lost = _not_known(found, beside)
+    unknown = say(_(", and the largest of all at {where}, where that is not known"), where=lost) if dark else ""
     return Remark(text=say(text, where=where, torques=Joined(ends, between=" … "), unknown=unknown), tone="warning")
 
 
