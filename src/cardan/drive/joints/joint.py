@@ -51,6 +51,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeAlias
 
@@ -217,10 +218,8 @@ class Joint:
         found = self.pair(joint_angle)
         if found is not None:
             return found
-        theta = np.arange(PLACES) * (2.0 * np.pi / PLACES)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            each = [self.deviation(theta, one)[0] @ np.sin(2.0 * theta) for one in np.ravel(np.asarray(joint_angle))]
-        tau = np.reshape(np.asarray(each), np.shape(joint_angle)) * (2.0 / PLACES)
+        bends, rows = np.unique(np.asarray(joint_angle), return_inverse=True)
+        tau = np.reshape(np.asarray([_second_order(self, one) for one in bends.tolist()])[rows], np.shape(joint_angle))
         root = np.sqrt(1.0 - tau * tau)
         return (1.0 + 0.0j) / root, (-1.0 + 0.0j) * tau / root
 
@@ -452,6 +451,15 @@ def both_or_none(joint: Joint, *names: str) -> Iterator[Problem]:
         given = next(name for name in names if name not in missing)
         for name in missing:
             yield Problem(name, _("missing; it goes with {other}").format(other=given), "missing")
+
+
+@lru_cache(maxsize=4096)
+def _second_order(joint: Joint, joint_angle: float) -> float:
+    """Return the amplitude of the second order of a law at a bend [rad]: many loads and variants ask for few bends."""
+    theta = np.arange(PLACES) * (2.0 * np.pi / PLACES)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        angle_error = joint.deviation(theta, np.asarray(joint_angle))[0]
+    return float(angle_error @ np.sin(2.0 * theta)) * (2.0 / PLACES)
 
 
 # One measure of what else moves inside a joint: wobble, orbits, strokes, play, planes that are missed.
