@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import pytest
 
-from cardan import check, optimise_torsion
+from cardan import check, example, optimise_torsion
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
-from cardan.choices.torsion_design import answer, ask, limits_used
+from cardan.choices.torsion_design import JUDGED, answer, ask, limits_used
 from cardan.drive.duty import Limits
 from cardan.drive.fields.paths import with_values
 from cardan.methods import Grid
@@ -71,6 +71,29 @@ def test_limits_hold_within_the_tolerances():
     assert drawn.limited[1] <= 1.0
     assert off.worst_after is not None
     assert off.worst_after.torque >= off.peak_after.torque * (1.0 - 1e-9)
+
+
+def test_every_limit_of_a_file_is_one_of_the_search():
+    assert {one.name for one in fields(Limits) if one.default is None} == set(JUDGED)
+
+
+@pytest.mark.slow
+def test_the_whirl_of_the_line_may_bound_the_search():
+    """The search wants the softest tube that may be, which whirls most; what a standard advises is no limit of it."""
+    path = "shafts[1].outer_mm"
+    drive, how = example("pto-flywheel"), {"free": {path: (30.0, 60.0, 10.0)}, "method": Grid(), "speeds": (40.0, 60.0)}
+    free = optimise_torsion(drive, **how)
+    whirls = {}
+    for outer in (30.0, 40.0, 50.0, 60.0):
+        limited = replace(drive, limits=Limits(whirl=1.0))
+        whirls[outer] = float(check(with_values(limited, {path: outer}), only=["whirl_amplitude"])[0].value)
+    best = free.values[path]
+    allowed = 0.5 * (min(whirls.values()) + whirls[best])
+    assert min(whirls.values()) < whirls[best]
+    found = optimise_torsion(replace(drive, limits=Limits(whirl=allowed)), **how)
+    assert whirls[found.values[path]] <= allowed
+    assert found.limited is not None
+    assert found.limited[1] == pytest.approx(whirls[found.values[path]] / allowed)
 
 
 def test_a_drive_without_limits_is_searched_as_before_and_asked_by_the_app_alike():

@@ -25,10 +25,11 @@ JUDGED = {
     "shear_stress": "tube_strength",
     "spline_pressure": "spline_pressure",
     "spline_overlap": "spline_overlap",
+    "whirl": "whirl_amplitude",
     "critical_speed": "critical_speed",
 }
 """Limit of the drive file -> the check that judges it. Safeties, which have values where the file gives none, are no
-limits of a search: `check` tells them of the design that is found."""
+limits of a search, nor are rows that nothing confirms: `check` tells them of the design that is found."""
 
 
 def limits_used(drive: Drive, *, known: Catalogue | None = None) -> Callable[[Drive], float] | None:
@@ -49,7 +50,7 @@ def limits_used(drive: Drive, *, known: Catalogue | None = None) -> Callable[[Dr
             found = check(other, only=names, known=known)
         except InputError:
             return float("inf")
-        return max((float(one.utilisation) for one in found if one.run and not one.advice), default=0.0)
+        return max((float(one.utilisation) for one in found if one.run and one.sure and not one.advice), default=0.0)
 
     return used
 
