@@ -33,6 +33,7 @@ USUAL: tuple[tuple[str, float, float], ...] = (
     (r".*\.(mass|masses\[\d+\]\.mass)", 1e-6, 2e5),
     (r".*\.(inertia|polar_inertia|transverse_inertia|diametral_inertia)", 1e-10, 1e6),
     (r".*\.capacity|.*\.static_capacity", 10.0, 1e8),
+    (r".*\.to_next\.friction", 1e-4, 5e7),
     (r".*\.friction|.*\.material_friction", 0.0, 1.0),
 )
 """Pattern of a path, and between which magnitudes in SI its value lies in drives that are built."""

@@ -16,6 +16,8 @@ from cardan.drive.station import Station, ToNext
 from cardan.questions.torsion.model.answer import assumptions
 from cardan.questions.torsion.model.torsional_balance import balance, energy, slopes, spring_torque
 from cardan.questions.torsion.model.torsional_train import in_full, torsional_train
+from cardan.questions.torsion.steady.dynamic_torque import dynamic_torque
+from cardan.questions.torsion.steady.torsion_response import torsion_response
 from cardan.questions.torsion.transient.fixed_steps import FixedStep
 from cardan.questions.torsion.transient.torsion_transient import transient
 from cardan.questions.torsion.transient.transient import Adaptive
@@ -39,7 +41,7 @@ def drive(part: ToNext) -> Drive:
     )
 
 
-def plain(times: np.ndarray, friction: float, damping: float) -> np.ndarray:
+def plain(times: np.ndarray, friction: float, damping: float, start: tuple[float, float] = (0.0, SPEED)) -> np.ndarray:
     """Return the torque of the part: yoke and mill as one mass, spring by the table, friction that really sticks.
 
     Sticking the yoke turns with the input; it slips as long as its speed differs, each stretch integrated by itself.
@@ -68,7 +70,8 @@ def plain(times: np.ndarray, friction: float, damping: float) -> np.ndarray:
         return slope
 
     found = np.zeros(len(times))
-    now, state, way = 0.0, np.asarray([0.0, SPEED]), 0.0
+    slips = SPEED - start[1]
+    now, state, way = 0.0, np.asarray(start), math.copysign(1.0, slips) if abs(slips) > 1e-3 * SPEED else 0.0
     while now < times[-1]:
         if way == 0.0:  # how long does it stick
             twist = SPEED * now - state[0]
@@ -138,6 +141,37 @@ def test_hysteresis_takes_four_times_friction_and_amplitude_a_cycle() -> None:
     np.testing.assert_allclose(falls, 2.0 * 6.0 / 2000.0, rtol=0.02)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("friction", "off"), [(0.0, 1e-4), (5.0, 2e-3), (25.0, 5e-3)])
+def test_steady_running_with_tables_and_friction_is_what_scipy_keeps_to(friction: float, off: float) -> None:
+    """From where the steady motion begins SciPy's integration runs through it again, with the same extremes."""
+    part = ToNext(twists=TWISTS, torques=TORQUES, damping=2.0, friction=friction)
+    found = torsion_response(drive(part), speed=np.asarray([SPEED]))
+    q, rate, _change = (one[0, 0] for one in found.steady.orbit.of(np.asarray([0]), [0.0]))
+    turn = math.pi / SPEED
+    times = np.linspace(0.0, 3.0 * turn, 3001)
+    wanted = plain(times, friction, 2.0, (float(q[1]), float(rate[1])))
+    size = np.ptp(wanted)
+    assert size > 60.0
+    for values in (wanted, wanted[2000:]):
+        assert found.torque_highest[0, 0] == pytest.approx(np.max(values), abs=off * size)
+        assert found.torque_lowest[0, 0] == pytest.approx(np.min(values), abs=off * size)
+    assert found.floquet.stable[0]
+
+
+def test_every_steady_answer_has_tables_and_friction() -> None:
+    part = ToNext(twists=TWISTS, torques=TORQUES, damping=2.0, friction=25.0)
+    rubbing, smooth = drive(part), drive(replace(part, friction=0.0))
+    speeds = np.asarray([40.0, SPEED])
+    found, straight = (torsion_response(one, speed=speeds) for one in (rubbing, smooth))
+    assert straight.swing[0, 0] > 400.0 > 30.0 > found.swing[0, 0]  # at the resonance
+    strong = dynamic_torque(rubbing, speed=speeds)
+    np.testing.assert_allclose(strong.high[:, 0], found.torque_highest[:, 0], rtol=1e-6)
+    np.testing.assert_allclose(strong.low[:, 0], found.torque_lowest[:, 0], rtol=1e-6)
+    run = transient(rubbing, span=0.2, start="settled", method=FAST).motion
+    assert np.max(run.torque[:, 0]) == pytest.approx(found.torque_highest[1, 0], rel=0.01)
+
+
 def test_energy_and_slopes_are_those_of_the_table() -> None:
     train = torsional_train(drive(ToNext(twists=TWISTS, torques=TORQUES, damping=0.5, friction=25.0)))
     model = in_full(train, SPEED)
@@ -165,7 +199,7 @@ def test_linear_answers_take_the_tangent_and_say_so() -> None:
     assert steep.model.stiffness == pytest.approx([4000.0])
     (said,) = [one for one in assumptions(train) if "table" in str(one.text)]
     assert "stiffness at the torque of the duty" in str(said.text)
-    assert not [one for one in assumptions(train, wide=True) if "table" in str(one.text)]
+    assert not [one for one in assumptions(train, sprung=True) if "table" in str(one.text)]
 
 
 def test_what_contradicts_itself_is_said() -> None:
@@ -175,5 +209,3 @@ def test_what_contradicts_itself_is_said() -> None:
         drive(ToNext(twists=(0.0, 0.1), torques=(5.0, 5.0)))
     with pytest.raises(InputError, match="have no fixed steps"):
         transient(drive(ToNext(twists=TWISTS, torques=TORQUES)), span=0.1, method=FixedStep())
-    with pytest.raises(InputError, match="followed in time alone"):
-        transient(drive(ToNext(stiffness=1e3, friction=5.0)), span=0.1, start="settled")

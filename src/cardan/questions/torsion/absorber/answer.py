@@ -362,6 +362,13 @@ def cautions(found: Any) -> Iterator[Remark]:
             "cardan torsion response has them exactly."
         )
         yield Remark(text=say(text, orders=loose))
+    behind = [one.to_next for one in found.drive.stations if one.to_next is not None]
+    if any(one.twists or one.friction for one in behind):
+        text = _(
+            "Springs by a table count with their stiffness at the torque of the duty, dry friction does not; "
+            "cardan torsion response has both."
+        )
+        yield Remark(text=text)
     if found.cancelled:
         yield Remark(text=_("Warning: the search was stopped; this is the best so far."), tone="warning")
     elif not found.converged:

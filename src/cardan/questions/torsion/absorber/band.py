@@ -207,7 +207,7 @@ class Lines:
         if duty.engine is not None and duty.engine.piston_mass:  # its torques change with the speed
             parts = []
             for drive, row in zip(self.drives, speed, strict=True):
-                model = loaded_model(drive, drive.duty, row)[1]
+                model = replace(loaded_model(drive, drive.duty, row)[1], tables=(), friction=None, creep=None)
                 parts.append(chosen(model, (width,), np.arange(width), moments=False))
             return _closed(chained(parts))
         rows = np.repeat(np.arange(count), width)

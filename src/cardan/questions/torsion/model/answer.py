@@ -532,10 +532,11 @@ def left_out(drive: Drive) -> Iterator[Remark]:
         yield Remark(text=text, command=("cardan", "torsion", "road", FILE))
 
 
-def assumptions(train: TorsionalTrain, *, wide: bool = False) -> Iterator[Remark]:
+def assumptions(train: TorsionalTrain, *, wide: bool = False, sprung: bool = False) -> Iterator[Remark]:
     """Yield what the model assumes, in one line a sort.
 
-    train: whose `assumed` paths are put into words; wide: whether pendulums swing as far as they do, with their stops.
+    train: whose `assumed` paths are put into words; wide: whether pendulums swing as far as they do, with their stops;
+    sprung: whether springs follow their tables, with dry friction.
     """
     if train.pendulums and not wide:
         text = _("Pendulums count with small oscillations; torsion simulate follows wide ones.")
@@ -544,12 +545,12 @@ def assumptions(train: TorsionalTrain, *, wide: bool = False) -> Iterator[Remark
                 "Pendulums count with small oscillations, without their stops; torsion simulate follows wide ones."
             )
         yield Remark(text=text)
-    for e, one in train.springs if not wide else ():
-        text = _("Dry friction in {name} does not count here; torsion simulate follows it.")
+    for e, one in train.springs if not sprung else ():
+        text = _("Dry friction in {name} does not count here; it does in torsion response and simulate.")
         if one.twists:
             text = _(
                 "The spring in {name} counts with its stiffness at the torque of the duty, {stiffness}, without dry "
-                "friction; torsion simulate follows its table."
+                "friction; torsion response and simulate follow its table."
             )
         stiffness = Quantity(float(np.ravel(train.model.stiffness[..., e])[0]), "turning_stiffness", 4)
         yield Remark(text=say(text, name=train.elements[e], stiffness=stiffness))

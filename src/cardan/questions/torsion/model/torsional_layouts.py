@@ -153,13 +153,17 @@ def repeating(model: TorsionalModel) -> tuple[TorsionalModel, tuple[int, ...]]:
     return replace(model, torques=tuple(one for k, one in enumerate(model.torques) if k not in loose)), loose
 
 
+WIDER = 500.0
+"""By how much the band of dry friction is wider than it is where corners are quite round."""
+
+
 class Turning:
     """The drives as oscillators: how far each coordinate is off even rotation; see `harmonics.Equation`.
 
     model (...); speed (B,) [rad/s]: of the input, or mean speed of free drives; period [rad]: shaft angle of a period.
     share (B,): bends are these shares of their own.
-    rounding: radius of the corners of backlash over its half; elements then keep their damping amid it. 0 by the
-    equations.
+    rounding: radius of the corners of backlash over its half; elements then keep their damping amid it, and the band of
+    dry friction is wider by `WIDER` of it. 0 by the equations.
     """
 
     def __init__(
@@ -238,6 +242,7 @@ def _rounded(drives: TorsionalModel, q: Array, rounding: float) -> TorsionalMode
         stiffness=drives.stiffness[:, None] * slope,
         backlash=np.zeros_like(drives.backlash),
         rest=twist - over / slope,
+        creep=None if drives.creep is None else drives.creep * (1.0 + WIDER * rounding),
     )
 
 

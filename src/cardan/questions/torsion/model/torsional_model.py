@@ -98,6 +98,11 @@ class TorsionalModel:
         return bool(self.tables) or self.friction is not None
 
     @property
+    def rubs(self) -> bool:
+        """Whether elements have dry friction."""
+        return self.friction is not None and bool(np.any(self.friction > 0.0))
+
+    @property
     def steppable(self) -> bool:
         """Whether steps of one length may follow it: no tables, friction, pendulums, nor laws of joints' own."""
         return not (self.special or self.hinges or self.sums is not None)

@@ -398,22 +398,32 @@ BAND = 2e-4
 """Share of a speed below which dry friction grows with the speed of the twist, so that it sticks but for a creep."""
 
 
+def sprung(model: TorsionalModel, train: TorsionalTrain, speed: ArrayLike) -> TorsionalModel:
+    """Return a model of a train with its springs by their tables and dry friction by Coulomb.
+
+    speed (...) [rad/s]: by which the band of friction is told. A table stands beside the straight spring of the model,
+    with what its torques differ from that.
+    """
+    if not train.springs:
+        return model
+    friction = np.zeros(len(model.elements))
+    tables: list[tuple[tuple[float, ...], tuple[float, ...]] | None] = [None] * len(model.elements)
+    for e, one in train.springs:
+        friction[e] = one.friction
+        if one.twists:
+            straight = float(np.ravel(train.model.stiffness[..., e])[0]) * np.asarray(one.twists)
+            tables[e] = one.twists, tuple((np.asarray(one.torques) - straight).tolist())
+    turning = np.abs(np.asarray(speed, dtype=float))
+    creep = BAND * np.where(turning > 0.0, turning, 1.0)[..., None] * np.ones(len(model.elements))
+    return replace(model, tables=tuple(tables), friction=friction, creep=creep)
+
+
 def in_full(train: TorsionalTrain, speed: float) -> TorsionalModel:
     """Return the model for motion in time: pendulums as bodies, springs by their tables, dry friction by Coulomb.
 
     speed [rad/s]: by which the band of friction is told. Raises InputError: see `swinging`.
     """
-    model = swinging(train)
-    if not train.springs:
-        return model
-    stiffness, friction = np.array(model.stiffness, dtype=float), np.zeros(len(model.elements))
-    tables: list[tuple[tuple[float, ...], tuple[float, ...]] | None] = [None] * len(model.elements)
-    for e, one in train.springs:
-        friction[e] = one.friction
-        if one.twists:
-            tables[e], stiffness[e] = (one.twists, one.torques), 0.0
-    creep = np.full(len(model.elements), BAND * abs(speed or 1.0))
-    return replace(model, stiffness=stiffness, tables=tuple(tables), friction=friction, creep=creep)
+    return sprung(swinging(train), train, speed)
 
 
 def stacked(models: Sequence[TorsionalModel]) -> TorsionalModel:
@@ -451,6 +461,7 @@ def _merged(models: Sequence[TorsionalModel], join: Callable[[list[Array]], Arra
         raise refuse("models", _("are not built alike: their stations, elements or torques differ"))
     wide = max(0 if one.sums is None else one.sums.shape[-1] for one in models)
     models = [replace(one, sums=_widened(one, wide)) for one in models] if wide else models
+    models = [one if one.tables == first.tables else _beside(one, first) for one in models]
     first = models[0]
     given = [name for name in ARRAYS if getattr(first, name) is not None]
     parts: dict[str, Any] = {name: join([getattr(one, name) for one in models]) for name in given}
@@ -460,6 +471,22 @@ def _merged(models: Sequence[TorsionalModel], join: Callable[[list[Array]], Arra
     )
     speed = None if first.input_speed is None else join([np.asarray(one.input_speed) for one in models])
     return replace(first, input_speed=speed, **parts)
+
+
+def _beside(model: TorsionalModel, other: TorsionalModel) -> TorsionalModel:
+    """Return a model with the tables of another that stand beside other straight springs, and with these."""
+    stiffness = np.array(model.stiffness)
+    for e, (own, its) in enumerate(zip(model.tables, other.tables, strict=True)):
+        if own is None or its is None:
+            continue
+        both = [
+            np.asarray(t) + np.ravel(m.stiffness[..., e])[0] * np.asarray(x)
+            for m, (x, t) in ((model, own), (other, its))
+        ]
+        if own[0] != its[0] or not np.allclose(*both):
+            raise refuse("models", _("are not built alike: their springs by tables differ"))
+        stiffness[..., e] = np.ravel(other.stiffness[..., e])[0]
+    return replace(model, stiffness=stiffness, tables=other.tables)
 
 
 def _widened(model: TorsionalModel, width: int) -> Array:

@@ -270,7 +270,7 @@ def _remarks(drive: Drive, found: RoadTorsion) -> Iterator[Remark]:
             "cardan torsion response has them exactly."
         )
         yield Remark(text=say(text, orders=loose))
-    yield from assumptions(found.train)
+    yield from assumptions(found.train, sprung=True)
     yield from left_out(replace(drive, movements=()))
     yield from yokes_estimated(drive)
     text = _("Torques over a turn, at the speed of the duty as drawn:")

@@ -61,6 +61,8 @@ def hindered(standing: Standing, omega: Array, span: float, before: float) -> st
         return _("torques turn its input freely")
     if standing.loose:
         return _("a torque does not repeat within two turns")
+    if model.rubs:
+        return _("its dry friction sticks and slips")
     if np.any(gathered(model, model.inertia)[1:] <= 0.0):
         return _("a part of the line has no inertia")
     fastest = max(float(np.max(omega, initial=0.0)), TURNED * abs(standing.speed))

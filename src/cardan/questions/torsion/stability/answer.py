@@ -192,7 +192,10 @@ def _unproved(found: Stability, over: MapAxis) -> Iterator[Remark]:
     late = _("Not settled at {where}: the motion changes so often with the speed there that it takes too long.")
     for kind, text in (
         (_within(proof.unproved, proof.unsettled), late),
-        (_within(rest, proof.open), _("Not proved at {where}: backlash opens there, or the steady motion jumps.")),
+        (
+            _within(rest, proof.open),
+            _("Not proved at {where}: backlash opens, friction slips or a spring bends there, or the motion jumps."),
+        ),
         (_within(rest, proof.open, inside=False), _("Not proved at {where}: the margin is too small there.")),
     ):
         if len(kind):
@@ -303,7 +306,7 @@ def _remarks(drive: Drive, found: Stability, axes: tuple[MapAxis, ...], *, signs
         yield Remark(text=say(text, orders=loose))
     if found.train.model.free:
         yield Remark(text=_("Rigid-body rotation is left out: a free drive may shift in time."))
-    yield from assumptions(found.train)
+    yield from assumptions(found.train, sprung=True)
     if len(axes) == 2 and not signs and plays(found):
         text = _("The map is coarse, as motions whose backlash opens take long; in full: {command}")
         yield Remark(text=text.format(command=_finer(axes)), depth="full")

@@ -55,7 +55,7 @@ class Mapped:
 
 
 def fits(model: TorsionalModel, speed: Array) -> bool:
-    """Tell whether the kernel can take drives: all one way, no backlash, cross joints, alike in what has no inertia."""
+    """Tell whether the kernel can take drives: all one way, straight springs, no backlash, cross joints, alike."""
     heavy = _inertia(model) > 0.0
     alike = np.all(heavy == heavy.reshape(-1, heavy.shape[-1])[:1])
     return (
@@ -64,6 +64,7 @@ def fits(model: TorsionalModel, speed: Array) -> bool:
         and bool(np.all(speed > 0.0) or np.all(speed < 0.0))
         and not np.any(model.backlash > 0.0)
         and model.sums is None
+        and not model.special
         and all(type(torque.law) in KINDS for torque in model.torques)
     )
 

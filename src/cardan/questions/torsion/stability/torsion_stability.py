@@ -18,7 +18,7 @@ from cardan.maths.arrays import Array, ArrayLike
 from cardan.questions.torsion.model.joint_bends import bends
 from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
-from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained, torsional_train
+from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained, sprung, torsional_train
 from cardan.questions.torsion.steady.run_stability import Verdict, Zone
 from cardan.questions.torsion.steady.torsion_response import (
     Progress,
@@ -273,7 +273,7 @@ def _least_loss(variants: _Variants) -> float:
 
     def stable(loss: Array) -> Array:
         viscous = model.damping + loss[:, None] * model.stiffness / (order * abs(speed[0]))
-        damped, speeds = replace(model, damping=viscous), np.full(len(loss), speed[0])
+        damped, speeds = sprung(replace(model, damping=viscous), train, speed[0]), np.full(len(loss), speed[0])
         damped = damped if model.free else replace(damped, input_speed=speeds)
         return np.asarray(floquet_map(parted(damped)[0], speed=speeds).floquet.verdict) <= Verdict.NEUTRAL
 

@@ -303,7 +303,7 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
     if np.any(found.train.model.loss_factor):
         text = _("Structural damping counts as viscous, equal at order {order} of the speed.")
         yield Remark(text=say(text, order=_order(main_order(found.train.model))))
-    yield from assumptions(found.train)
+    yield from assumptions(found.train, sprung=True)
     yield from left_out(drive)
     yield from yokes_estimated(drive)
     if np.any(steady.found):
@@ -410,7 +410,12 @@ def _checked(found: TorsionResponse) -> Iterator[Remark]:
     text = _(
         "Checked: between the points of the solution the torques balance {closely}, over a period the power {power}."
     )
-    poor = max(left) > SMALL
+    rubs = any(one.friction for _e, one in found.train.springs)
+    poor = (left[1] if rubs else max(left)) > SMALL
+    if rubs and not poor:
+        text = _(
+            "Checked: torques balance {closely} where dry friction begins to slip, over a period the power {power}."
+        )
     if poor:
         text = _("Warning: torques of the solution balance only {closely}, power {power}.")
     said = text.format(closely=closely(left[0]), power=closely(left[1]))

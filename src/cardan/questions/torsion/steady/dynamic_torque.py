@@ -23,6 +23,7 @@ from cardan.questions.torsion.model.torsional_modes import straight_waves
 from .orbit import Orbit
 from .several import stable_motions, widened
 from .steady import steady_orbits
+from .steady_result import read_off
 from .torsion_response import loaded_model, parted
 from .two_frequencies import grouped, side_bands
 
@@ -108,7 +109,7 @@ def _torques(asked: _Vibrating) -> DynamicTorque:
     q, rate, _acceleration = orbit.at(part.angle)
     drives = orbit.drives(np.arange(orbit.count))
     torque = np.moveaxis(element_torques(drives, q, rate), -1, -2)
-    alone = -peak(-torque), peak(torque)
+    alone = _kinked(orbit) if model.special else (-peak(-torque), peak(torque))
     lowest, highest = widened(*_with_bands(orbit, asked.loose, *alone), others)
     falls, rises = (_at_joints(model, one, shafts) for one in (alone[0] - lowest, highest - alone[1]))
     at_ends: Array = np.max([*falls, *rises], axis=0)
@@ -137,6 +138,12 @@ def steady_torque(drive: Drive) -> DynamicTorque | None:
     except InputError:
         return None
     return found if bool(found.found[0]) else None
+
+
+def _kinked(orbit: Orbit) -> tuple[Array, Array]:
+    """Return lowest and highest torques (s, E) of curves with kinks, which are not to be had from samples."""
+    found = read_off(orbit, 1)
+    return found.lowest, found.highest
 
 
 def _with_bands(orbit: Orbit, loose: tuple[Torque, ...], lowest: Array, highest: Array) -> tuple[Array, Array]:

@@ -320,9 +320,10 @@ def multipliers_in_pieces(orbit: Orbit, row: int) -> tuple[Array, Array, Array]:
 def linear_motion(orbit: Orbit, rows: Array) -> Coefficients:
     """Return mass, damping and stiffness of the free coordinates about motions, over the share of their period.
 
-    orbit (...); rows (b,) of int: which drives, counted through the leading axes.
+    orbit (...); rows (b,) of int: which drives, counted through the leading axes. Dry friction that slips damps no
+    disturbance; where it sticks a sum wriggles about its band, and nothing is counted on.
     """
-    drives, backward = orbit.drives(rows), (orbit.speed.reshape(-1)[rows] < 0.0)[:, None, None]
+    drives, backward = replace(orbit.drives(rows), friction=None), (orbit.speed.reshape(-1)[rows] < 0.0)[:, None, None]
     first = 0 if drives.free else 1
 
     def coefficients(share: Array) -> tuple[Array, Array, Array]:

@@ -37,7 +37,11 @@ JOINT_ANGLES = ((0.33, 0.0), (0.66, 0.0), (1.0, 0.0))
 """Shares of the joint angles on the way to a motion without play; no corners."""
 
 WAY = ((0.33, 1.0), (0.66, 1.0), (1.0, 1.0), (1.0, 0.55), (1.0, 0.3), (1.0, 0.17), (1.0, 0.09), (1.0, 0.05))
-"""Shares of the joint angles, radii of corners over half the backlash, on the way to a motion with open backlash."""
+"""Shares of the joint angles, radii of corners over half the backlash or over `WIDER` bands of friction, on the way to
+a motion with open backlash or dry friction."""
+
+RUBBED = (*WAY, (1.0, 0.02), (1.0, 0.005), (1.0, 0.0))
+"""The same on the way to a motion with dry friction."""
 
 CHUNK = 256
 """Drives solved at once: their matrices stay in the caches, and progress is told after each chunk."""
@@ -186,7 +190,7 @@ def _solved(
             else:
                 own[k] = found
             stopped = progress is not None and progress((int(rows[k]) + 1) / count) == "stop"
-        if lost and not isinstance(method, Shooting) and np.any(part.model.backlash > 0.0):
+        if lost and not isinstance(method, Shooting) and _kinked(part):
             waves = _put(waves, np.asarray(lost), _sharp(part.part(np.asarray(lost)), _some(near, np.asarray(lost))))
         parts.append(_with_pieces(waves, own))
         pieces |= {int(rows[k]): found for k, found in own.items()}
@@ -234,9 +238,9 @@ def _by_waves(part: Turning, method: HarmonicBalance | None) -> tuple[Waves, Wav
     lost = np.flatnonzero((found.status == Status.NO_CONVERGENCE) | ~stays_closed(part, found.coefficient))
     if not lost.size:
         return found, found
-    if np.any(part.model.backlash > 0.0):
+    if _kinked(part):
         kinked = HarmonicBalance(harmonics=KINKED * half_turns, most=KINKED * half_turns)
-        again = _along(part.part(lost), WAY, kinked)
+        again = _along(part.part(lost), RUBBED if part.model.rubs else WAY, kinked)
         again = replace(again, status=np.full(len(lost), int(Status.NO_CONVERGENCE)))  # corners are not that round
     else:
         again = _along(part.part(lost), JOINT_ANGLES, how)
@@ -245,8 +249,13 @@ def _by_waves(part: Turning, method: HarmonicBalance | None) -> tuple[Waves, Wav
     return _put(found, lost, known), _put(found, lost, again)
 
 
+def _kinked(part: Turning) -> bool:
+    """Tell whether motions have kinks: where backlash opens, or friction sticks."""
+    return part.model.rubs or bool(np.any(part.model.backlash > 0.0))
+
+
 def _sharp(part: Turning, near: Waves) -> Waves:
-    """Return what motions with open play are, at least coarsely, where no pieces were found."""
+    """Return what motions with kinks are, at least coarsely, where no pieces were found."""
     half_turns = round(part.period / np.pi)
     how = HarmonicBalance(harmonics=KINKED * half_turns, most=2 * KINKED * half_turns)
     found = sums_of(part, near.coefficient, how)

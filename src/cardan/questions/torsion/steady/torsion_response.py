@@ -18,7 +18,7 @@ from cardan.maths.periodic.switching_orbit import Shooting
 from cardan.questions.torsion.model.inputs import Swinging, base_period
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
 from cardan.questions.torsion.model.torsional_modes import base_order, main_order, straight_modes, straight_waves
-from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_time, torsional_train
+from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_time, sprung, torsional_train
 from cardan.texts import _
 
 from .run_stability import SECOND, Floquet, floquet, nearest_zone
@@ -244,6 +244,8 @@ def loaded_model(
 ) -> tuple[TorsionalTrain, TorsionalModel]:
     """Return the model of a drive under its duty at input speeds, one or (s,), and the train of the first of them.
 
+    Springs follow their tables, with dry friction.
+
     Structural damping counts as viscous, equal at the order at which the joints swing most, 2 of cross joints; for
     disturbances at that of the zone of parametric resonance nearest to the speed, at which they vibrate.
     """
@@ -265,7 +267,8 @@ def loaded_model(
     if not model.free:
         model = replace(model, input_speed=speeds)
     order = zone_order(train.model, speeds) if disturbed else main_order(model)
-    return train, in_time(model, order * np.abs(speeds))
+    model = in_time(model, order * np.abs(speeds))
+    return train, sprung(model, train, speeds)
 
 
 def zone_order(model: TorsionalModel, speeds: Array) -> Array:

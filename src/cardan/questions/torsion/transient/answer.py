@@ -165,7 +165,7 @@ def remarks(found: Transient) -> Iterator[Remark]:
     if np.any(found.train.model.loss_factor):
         text = _("Structural damping counts as viscous, equal at order {order} of the highest speed.")
         yield Remark(text=say(text, order=Quantity(main_order(found.train.model), trim=True)))
-    yield from assumptions(found.train, wide=True)
+    yield from assumptions(found.train, wide=True, sprung=True)
     yield _checked(found)
 
 

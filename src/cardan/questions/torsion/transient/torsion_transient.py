@@ -17,7 +17,7 @@ from cardan.questions.torsion.model.inputs import Constant, History, Law, SpeedC
 from cardan.questions.torsion.model.torsional_balance import gathered, places
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
 from cardan.questions.torsion.model.torsional_modes import main_order, straight_modes
-from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_full, in_time, torsional_train
+from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_full, in_time, sprung, torsional_train
 from cardan.questions.torsion.steady.steady import periodic_response
 from cardan.questions.torsion.steady.torsion_response import parted
 from cardan.texts import _
@@ -175,7 +175,7 @@ def transient(
     if start == "settled":
         check(_unsettled(chosen, model))
         swing = main_order(train.model) * abs(fastest or 1.0)
-        small = model if not train.pendulums else in_time(train.model, swing)
+        small = model if not train.pendulums else sprung(in_time(train.model, swing), train, first)
         steady = periodic_response(small, speed=first)
         if not bool(steady.found):
             raise refuse("start", _("no steady motion was found to start from; start uniform"))
@@ -389,8 +389,6 @@ def _unsettled(duty: Duty, model: TorsionalModel) -> Iterator[Problem]:
         yield Problem("duty.speed", _("missing; a settled start needs it"), "missing")
     if any(torque.law.order is None for torque in model.torques):
         yield Problem("duty", _("a torque runs in time; a settled start needs torques that follow angle or speed"))
-    elif model.special:
-        yield Problem("start", _("springs with tables and dry friction are followed in time alone; start uniform"))
     elif parted(model)[1]:
         yield Problem("duty", _("orders of the torques do not repeat within two turns; start uniform"))
 
