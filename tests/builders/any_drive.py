@@ -11,13 +11,13 @@ from cardan import Drive
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Case, Duty, Harmonic, Limits
 from cardan.drive.joint_parts import Needles
-from cardan.drive.joints import ConstantVelocity
 from cardan.drive.machine import RunUp
 from cardan.drive.material import Material
 from cardan.drive.movement import Body, Random, Spectrum
 from cardan.drive.shaft import PointMass, Shaft, Spline, Unbalance
 from cardan.drive.station import Station
 from cardan.drive.support import Support
+from cardan.joints import ConstantVelocity
 from cardan.units import deg, hour, mm, rpm
 
 Rng = np.random.Generator

@@ -14,20 +14,11 @@ from cardan.drive.cross import Cross
 from cardan.drive.described import Input
 from cardan.drive.duty import Block, Duty, Limits
 from cardan.drive.joint_parts import Needles, Rating
-from cardan.drive.joints import (
-    ConstantVelocity,
-    DoubleCardan,
-    ElasticHalfCardan,
-    Hooke,
-    PinCoupling,
-    Rzeppa,
-    Tracta,
-    Tripod,
-    Weiss,
-)
+from cardan.drive.joints import Hooke
 from cardan.drive.models.kinematics_model import alike, given_chain, turning, turning_chain
 from cardan.drive.shaft import Shaft
 from cardan.errors import InputError
+from cardan.joints import ConstantVelocity, DoubleCardan, ElasticHalfCardan, PinCoupling, Rzeppa, Tracta, Tripod, Weiss
 from cardan.questions.forces.turn_loads import across, turn_loads
 from cardan.units import deg, rpm
 

@@ -15,9 +15,9 @@ from cardan.choices.bearing_layouts import (
 )
 from cardan.choices.bearing_layouts_answer import answer, ask, otherwise, spelled
 from cardan.drive.duty import Duty
-from cardan.drive.joints import OffsetCross
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
+from cardan.joints import OffsetCross
 from cardan.mechanism.layouts import Layout
 from cardan.questions.forces.forces import forces
 from cardan.questions.mobility.drive_mechanism import mechanism_of

@@ -6,7 +6,9 @@ import io
 import numpy as np
 import pytest
 
-from cardan.drive.joints import JOINTS, Clemens, DoubleCardan, Profile
+from cardan.drive.joints import JOINTS
+from cardan.drive.joints.clemens import Profile
+from cardan.joints import Clemens, DoubleCardan
 from cardan.questions.motion.joint_law import joint_turn
 from cardan.units import deg, mm
 from tests.cli.test_forces import plain, widest

@@ -11,7 +11,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Case, Duty
 from cardan.drive.fields.keys import in_a_joint, written
 from cardan.drive.fields.paths import with_key
-from cardan.drive.joints import ConstantVelocity, Hooke
+from cardan.drive.joints import Hooke
 from cardan.drive.joints.clemens import Circle, course
 from cardan.drive.joints.common.laws import places
 from cardan.drive.joints.pin_coupling import wrapped
@@ -22,6 +22,7 @@ from cardan.drive.models.kinematics_model import as_hooke, mixed, refuse_kinds
 from cardan.drive.pose import Pose
 from cardan.drive.shaft import Layup, Ply, Shaft
 from cardan.drive.yokes import yoke_mass
+from cardan.joints import ConstantVelocity
 from cardan.units import deg
 
 

@@ -30,7 +30,7 @@ from cardan.figures.render_svg import inline_svg
 from cardan.io import example, example_names
 from cardan.questions.motion.articulation import articulation
 from cardan.questions.motion.equivalence import after_each_joint, equivalent_joint
-from cardan.questions.motion.figures.motion import orders_figure
+from cardan.questions.motion.figure import orders_figure
 from cardan.questions.motion.motion import motion
 from cardan.questions.phases.phases import phases
 from cardan.units import deg

@@ -2,8 +2,12 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
+
+import cardan
+from cardan.drive.joints import hooke
 
 from .imports import borrowed, circles, hidden, imports
 
@@ -34,3 +38,17 @@ def test_the_package_alone_loads_nothing_heavy():
     told = "import sys, cardan; sys.exit(', '.join({'numpy', 'typer'} & {*sys.modules}) or 0)"
     run = subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=False)
     assert not run.returncode, run.stderr
+
+
+@pytest.mark.slow
+def test_a_command_loads_the_kinds_of_joints_that_its_drive_has():
+    """What a command loads and does not need is time that everybody waits."""
+    file = Path(cardan.__file__).parents[2] / "examples" / "truck-printed-angles.toml"
+    asked = f"from cardan.cli.main import main; main(['motion', {str(file)!r}])"
+    told = f"import sys; {asked}; print(*sorted(sys.modules), file=sys.stderr)"
+    loaded = subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=True).stderr.split()
+    kinds = {f"cardan.drive.joints.{path.stem}" for path in Path(hooke.__file__).parent.glob("[!_]*.py")}
+    base = {"cardan.drive.joints.joint", "cardan.drive.joints.hooke"}
+    assert kinds & {*loaded} == base
+    assert "cardan.questions.motion.articulation" not in loaded
+    assert "rich.progress" not in loaded

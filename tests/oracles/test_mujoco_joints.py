@@ -11,18 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from cardan.drive.joints import (
-    Clemens,
-    DoubleCardan,
-    Hooke,
-    Joint,
-    OffsetCross,
-    PinCoupling,
-    Tracta,
-    Tripod,
-    Weiss,
-)
+from cardan.drive.joints import Hooke, Joint
 from cardan.drive.joints.clemens import Profile
+from cardan.joints import Clemens, DoubleCardan, OffsetCross, PinCoupling, Tracta, Tripod, Weiss
 from cardan.questions.motion.joint_mechanism import joint_carried
 
 mujoco = pytest.importorskip("mujoco")

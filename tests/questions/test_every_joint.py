@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError, articulation, check, example, forces, losses, moving_forces
-from cardan.drive.joints import JOINTS, Tripod
+from cardan.drive.joints import JOINTS
 from cardan.io.drive_file import loads
+from cardan.joints import Tripod
 from cardan.questions.accuracy.tolerance import tolerance
 from cardan.questions.forces.assembly import assembly
 from cardan.questions.life.life import life

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cardan import example
-from cardan.drive import joints as kinds
+from cardan import joints as kinds
 from cardan.drive.drive import Drive
 from cardan.scene.gltf import render
 from cardan.scene.scene import scene

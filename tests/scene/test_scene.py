@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from cardan import bending_speeds, check, example, forces, torsion_modes
+from cardan import joints as kinds
 from cardan.answers.reader import Reader, reading
-from cardan.drive import joints as kinds
 from cardan.drive.drive import Drive
+from cardan.drive.joints import JOINTS
 from cardan.drive.models.geometry import geometry
 from cardan.drive.movement import Harmonic
 from cardan.drive.pose import Pose
@@ -57,7 +58,7 @@ def test_every_example_has_a_sound_and_light_scene(name):
     assert shown["size"] > 0.0
 
 
-@pytest.mark.parametrize("kind", kinds.JOINTS.values())
+@pytest.mark.parametrize("kind", JOINTS.values())
 def test_joints_of_every_kind_can_be_described(kind):
     sizes = {kinds.OffsetCross: {"offset": 0.02, "reach": 0.4}}.get(kind, OWN.get(kind.kind, {}))
     joint = kind(joint_angle=min(0.3, 0.9 * kind.steepest), **sizes)

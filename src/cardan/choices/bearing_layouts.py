@@ -11,7 +11,10 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
-from cardan.drive.joints import ConstantVelocity, Joint, Tracta, Tripod
+from cardan.drive.joints import Joint
+from cardan.drive.joints.constant_velocity import ConstantVelocity
+from cardan.drive.joints.tracta import Tracta
+from cardan.drive.joints.tripod import Tripod
 from cardan.drive.models.geometry import geometry
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.support import Support

@@ -20,7 +20,7 @@ from cardan.checks.verdict_table import TONES
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, refuse
 from cardan.io.differences import differences
-from cardan.questions.motion.figures.motion import variants_figure
+from cardan.questions.motion.figure import variants_figure
 from cardan.questions.motion.motion import motion
 from cardan.register import QUESTIONS
 from cardan.texts import _, plural

@@ -11,7 +11,8 @@ from scipy.optimize import root
 from cardan import Drive, InputError, example, forces, losses, motion, phases
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
-from cardan.drive.joints import Hooke, MechanismJoint
+from cardan.drive.joints import Hooke
+from cardan.drive.joints.mechanism import MechanismJoint
 from cardan.io import dumps, load
 from cardan.io.drive_file import loads, loads_mechanism
 from cardan.io.examples import example_mechanism

@@ -12,27 +12,26 @@ from cardan import Drive, motion, phases
 from cardan.drive.bodies.solids import arms, solids
 from cardan.drive.described import Input
 from cardan.drive.drives import stack
-from cardan.drive.joints import (
-    JOINTS,
+from cardan.drive.joints import JOINTS, Hooke
+from cardan.drive.joints.clemens import Profile
+from cardan.drive.joints.mechanism import MechanismJoint
+from cardan.drive.models.geometry import geometry
+from cardan.drive.models.kinematics_model import NEGLIGIBLE, chain, given_chain, left_over, turning_chain
+from cardan.drive.shaft import Shaft
+from cardan.errors import InputError
+from cardan.joints import (
     Clemens,
     ConstantVelocity,
     DoubleCardan,
     ElasticHalfCardan,
     HalfCardan,
-    Hooke,
-    MechanismJoint,
     OffsetCross,
     PinCoupling,
-    Profile,
     Rzeppa,
     Tracta,
     Tripod,
     Weiss,
 )
-from cardan.drive.models.geometry import geometry
-from cardan.drive.models.kinematics_model import NEGLIGIBLE, chain, given_chain, left_over, turning_chain
-from cardan.drive.shaft import Shaft
-from cardan.errors import InputError
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.motion import followed
 from cardan.units import mm

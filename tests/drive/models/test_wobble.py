@@ -5,21 +5,14 @@ import pytest
 from scipy.optimize import least_squares
 
 from cardan import Drive, motion
-from cardan.drive.joints import (
-    ConstantVelocity,
-    Hooke,
-    OffsetCross,
-    PinCoupling,
-    Rzeppa,
-    Tracta,
-    Tripod,
-)
+from cardan.drive.joints import Hooke
 from cardan.drive.joints.tripod import orbit_radius, pivot_error
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.kinematics_model import turning_chain
 from cardan.drive.models.wobble import course, wobbles, wobbling
 from cardan.drive.shaft import Spline
 from cardan.errors import InputError
+from cardan.joints import ConstantVelocity, OffsetCross, PinCoupling, Rzeppa, Tracta, Tripod
 from cardan.mechanism.mechanism import Mechanism, Pair
 from cardan.questions.mobility.finite_mobility import finite_mobility
 from cardan.questions.motion.turning import each_shaft

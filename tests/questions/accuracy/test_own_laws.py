@@ -7,25 +7,24 @@ import numpy as np
 import pytest
 
 from cardan import Drive, allocate, tolerance
-from cardan.drive.joints import (
-    JOINTS,
+from cardan.drive.joints import JOINTS, Hooke
+from cardan.drive.joints.clemens import Profile
+from cardan.drive.joints.pin_coupling import missed_by_pins, missed_plane
+from cardan.errors import InputError
+from cardan.io.drive_file import dumps, loads
+from cardan.joints import (
     Clemens,
     ConstantVelocity,
     DoubleCardan,
     ElasticHalfCardan,
     HalfCardan,
-    Hooke,
     OffsetCross,
     PinCoupling,
-    Profile,
     Rzeppa,
     Tracta,
     Tripod,
     Weiss,
 )
-from cardan.drive.joints.pin_coupling import missed_by_pins, missed_plane
-from cardan.errors import InputError
-from cardan.io.drive_file import dumps, loads
 from cardan.methods import MonteCarlo, WorstCase
 from cardan.questions.accuracy import answer as told
 from cardan.questions.accuracy.accuracy import one_turn, sensitivity, transmission_error

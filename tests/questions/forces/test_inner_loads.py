@@ -9,21 +9,12 @@ import pytest
 
 from cardan import Drive, check, forces
 from cardan.drive.duty import Duty
-from cardan.drive.joints import (
-    Clemens,
-    HalfCardan,
-    Hooke,
-    PinCoupling,
-    Rzeppa,
-    Tracta,
-    Tripod,
-    Weiss,
-    half_cardan,
-)
+from cardan.drive.joints import Hooke, half_cardan
 from cardan.drive.joints.clemens import Profile
 from cardan.errors import InputError
 from cardan.formulas.hertz import point_contact
 from cardan.io.drive_file import loads
+from cardan.joints import Clemens, HalfCardan, PinCoupling, Rzeppa, Tracta, Tripod, Weiss
 from cardan.questions.forces import answer as forces_answer
 from cardan.questions.forces.inner_loads import inner_loads, thrusts, unit_loads, unit_thrust
 from cardan.questions.motion.joint_mechanism import joint_carried

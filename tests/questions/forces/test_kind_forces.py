@@ -10,23 +10,13 @@ import pytest
 from cardan import Drive, example, forces, motion
 from cardan.drive.described import Input, Output
 from cardan.drive.duty import Duty
-from cardan.drive.joints import (
-    JOINTS,
-    Clemens,
-    ConstantVelocity,
-    DoubleCardan,
-    HalfCardan,
-    Hooke,
-    PinCoupling,
-    Rzeppa,
-    Tracta,
-    Tripod,
-)
+from cardan.drive.joints import JOINTS, Hooke
 from cardan.drive.joints.clemens import Profile
 from cardan.drive.models.geometry import geometry
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 from cardan.errors import InputError
+from cardan.joints import Clemens, ConstantVelocity, DoubleCardan, HalfCardan, PinCoupling, Rzeppa, Tracta, Tripod
 from tests.fixtures.joint_keys import OWN
 
 DUTY = Duty(torque=400.0, speed=120.0, acceleration=30.0)

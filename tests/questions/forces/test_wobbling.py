@@ -10,11 +10,13 @@ import pytest
 from cardan import Drive, InputError, forces, losses, moving_forces
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
-from cardan.drive.joints import Hooke, MechanismJoint, OffsetCross
+from cardan.drive.joints import Hooke
+from cardan.drive.joints.mechanism import MechanismJoint
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.wobble import course
 from cardan.drive.support import Support
 from cardan.io.drive_file import loads
+from cardan.joints import OffsetCross
 from cardan.mechanism.load import LinkMass, Load
 from cardan.mechanism.mechanism import Mechanism, Pair
 from cardan.questions.forces.assembly import assembly

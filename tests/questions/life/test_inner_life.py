@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cardan.drive.joints import DoubleCardan, Tripod
 from cardan.drive.joints.double_cardan import even_share
 from cardan.formulas.joint_rating import POWER
 from cardan.io.drive_file import loads
+from cardan.joints import DoubleCardan, Tripod
 from cardan.questions.life import answer as life_answer
 from cardan.questions.life.bearing_life import MILLION, swing_damage
 from cardan.questions.life.inner_life import bearing_damage

@@ -5,18 +5,7 @@ import pytest
 
 from cardan import Drive, InputError, assembly, example
 from cardan.drive.cross import Cross
-from cardan.drive.joints import (
-    JOINTS,
-    Clemens,
-    DoubleCardan,
-    HalfCardan,
-    OffsetCross,
-    PinCoupling,
-    Rzeppa,
-    Tracta,
-    Tripod,
-    Weiss,
-)
+from cardan.drive.joints import JOINTS
 from cardan.drive.joints.clemens import Profile
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.kinematics_model import chain
@@ -25,6 +14,7 @@ from cardan.drive.models.wobble import course
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.support import Support
 from cardan.io import example_names
+from cardan.joints import Clemens, DoubleCardan, HalfCardan, OffsetCross, PinCoupling, Rzeppa, Tracta, Tripod, Weiss
 from cardan.questions.forces.kinetostatics import standing
 from cardan.questions.mobility.constraint_release import repairs
 from cardan.questions.mobility.drive_mechanism import joint_freedoms, mechanism_of, unheld

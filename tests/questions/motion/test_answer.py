@@ -7,8 +7,8 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
 from cardan.book import answer as classical
 from cardan.drive.drive import Drive
-from cardan.drive.joints import PinCoupling
 from cardan.io import example
+from cardan.joints import PinCoupling
 from cardan.questions.motion.answer import answer, ask
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.turning import swing

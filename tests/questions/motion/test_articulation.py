@@ -8,11 +8,11 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty, Limits
-from cardan.drive.joints import Tripod
 from cardan.drive.movement import Arm, Body, Harmonic, Hitch, Parallel, Random, Spectrum, Table
 from cardan.drive.shaft import Shaft, Spline
 from cardan.errors import InputError, JointAngleLimitError
 from cardan.io.drive_file import loads
+from cardan.joints import Tripod
 from cardan.questions.motion.articulation import articulation
 from cardan.questions.motion.instants import Position
 from cardan.questions.motion.moving_points import moving_path

@@ -5,7 +5,8 @@ import pytest
 from cardan.answers.data import data
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
-from cardan.drive.joints import JOINTS, DoubleCardan, Hooke, Tripod
+from cardan.drive.joints import JOINTS, Hooke
+from cardan.joints import DoubleCardan, Tripod
 from cardan.questions.motion.joint_answer import Named, answer, answer_of_kinds, ask
 from cardan.texts import speaking
 from cardan.units import deg, rpm

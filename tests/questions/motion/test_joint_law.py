@@ -6,16 +6,15 @@ import pytest
 from cardan import Drive, InputError, motion
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import JointType
-from cardan.drive.joints import (
-    JOINTS,
+from cardan.drive.joints import JOINTS, Hooke
+from cardan.drive.joints.clemens import Profile
+from cardan.joints import (
     Clemens,
     DoubleCardan,
     ElasticHalfCardan,
     HalfCardan,
-    Hooke,
     OffsetCross,
     PinCoupling,
-    Profile,
     Rzeppa,
     Tracta,
     Tripod,

@@ -10,14 +10,17 @@ import pytest
 from cardan import InputError
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
-from cardan.drive.joints import (
-    JOINTS,
+from cardan.drive.joints import JOINTS, Hooke
+from cardan.drive.joints.clemens import Profile
+from cardan.drive.joints.tripod import roller_reach, track_travel
+from cardan.drive.models.geometry import geometry
+from cardan.drive.models.kinematics_model import turning_chain
+from cardan.joints import (
     Clemens,
     ConstantVelocity,
     DoubleCardan,
     ElasticHalfCardan,
     HalfCardan,
-    Hooke,
     OffsetCross,
     PinCoupling,
     Rzeppa,
@@ -25,10 +28,6 @@ from cardan.drive.joints import (
     Tripod,
     Weiss,
 )
-from cardan.drive.joints.clemens import Profile
-from cardan.drive.joints.tripod import roller_reach, track_travel
-from cardan.drive.models.geometry import geometry
-from cardan.drive.models.kinematics_model import turning_chain
 from cardan.mechanism.kinetostatics import influence
 from cardan.questions.forces.kinetostatics import kind_arms
 from cardan.questions.losses.chain_friction import chain_friction

@@ -11,11 +11,13 @@ from cardan import Drive, articulation, motion
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.drive.duty import Duty
-from cardan.drive.joints import (
+from cardan.drive.joints import Hooke
+from cardan.drive.models.geometry import geometry
+from cardan.drive.movement import Harmonic
+from cardan.joints import (
     ConstantVelocity,
     DoubleCardan,
     HalfCardan,
-    Hooke,
     OffsetCross,
     PinCoupling,
     Rzeppa,
@@ -23,8 +25,6 @@ from cardan.drive.joints import (
     Tripod,
     Weiss,
 )
-from cardan.drive.models.geometry import geometry
-from cardan.drive.movement import Harmonic
 from cardan.questions.motion.instants import speed_range
 from cardan.questions.motion.moving_chain import law, moving_axes, moving_centres
 

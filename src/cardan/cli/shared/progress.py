@@ -10,13 +10,13 @@ from contextlib import contextmanager
 from threading import Lock, Timer
 from typing import Any
 
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
-
+from cardan.later import later
 from cardan.texts import _
 from cardan.units import thousands
 
 PATIENCE = 2.0  # seconds before the bar appears
+
+console, bars = later("rich.console"), later("rich.progress")
 
 
 @contextmanager
@@ -67,11 +67,18 @@ class _Bar:
             self.shown.update(self.task, completed=self.share, total=1.0, pace=told)
 
     def begin(self) -> None:
-        telling = (TextColumn("{task.fields[pace]}"),) if self.count else ()
         if self.ended:
             return
-        columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeElapsedColumn(), *telling)
-        shown = Progress(*columns, console=Console(file=sys.stderr), transient=True)
+        made = bars()
+        telling = (made.TextColumn("{task.fields[pace]}"),) if self.count else ()
+        columns = (
+            made.TextColumn("{task.description}"),
+            made.BarColumn(),
+            made.TaskProgressColumn(),
+            made.TimeElapsedColumn(),
+            *telling,
+        )
+        shown = made.Progress(*columns, console=console().Console(file=sys.stderr), transient=True)
         shown.start()
         self.task = shown.add_task(self.what, total=None, pace="")
         self.shown = shown

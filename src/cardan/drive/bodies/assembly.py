@@ -14,8 +14,8 @@ from cardan.answers.quantity import Text, say
 from cardan.drive.body import body_length, pieces
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
-from cardan.drive.joints import ConstantVelocity
 from cardan.drive.joints.common.site import length_text
+from cardan.drive.joints.constant_velocity import ConstantVelocity
 from cardan.drive.models.geometry import Geometry, geometry, geometry_from_points
 from cardan.drive.models.kinematics_model import given_chain
 from cardan.drive.models.wobble import Course, course

@@ -1,20 +1,31 @@
 """Kinds of joints: one file each, and its name in `JOINTS`. What a kind says stands in `joint`."""
 
-from .clemens import Clemens, Profile
-from .constant_velocity import ConstantVelocity
-from .double_cardan import DoubleCardan
-from .half_cardan import ElasticHalfCardan, HalfCardan
+from __future__ import annotations
+
+from cardan.later import Kinds, later
+
 from .hooke import Hooke
 from .joint import Joint
-from .mechanism import MechanismJoint
-from .offset_cross import OffsetCross
-from .pin_coupling import PinCoupling
-from .rzeppa import Rzeppa
-from .tracta import Tracta
-from .tripod import Tripod
-from .weiss import Weiss
 
-JOINTS: dict[str, type[Joint]] = {}  # value of the file key ``kind`` -> class
+JOINTS: Kinds[Joint] = Kinds(
+    {
+        "hooke": later("cardan.drive.joints.hooke", of="Hooke"),
+        "offset_cross": later("cardan.drive.joints.offset_cross", of="OffsetCross"),
+        "double_cardan": later("cardan.drive.joints.double_cardan", of="DoubleCardan"),
+        "constant_velocity": later("cardan.drive.joints.constant_velocity", of="ConstantVelocity"),
+        "tracta": later("cardan.drive.joints.tracta", of="Tracta"),
+        "rzeppa": later("cardan.drive.joints.rzeppa", of="Rzeppa"),
+        "weiss": later("cardan.drive.joints.weiss", of="Weiss"),
+        "tripod": later("cardan.drive.joints.tripod", of="Tripod"),
+        "half_cardan": later("cardan.drive.joints.half_cardan", of="HalfCardan"),
+        "elastic_half_cardan": later("cardan.drive.joints.half_cardan", of="ElasticHalfCardan"),
+        "pin_coupling": later("cardan.drive.joints.pin_coupling", of="PinCoupling"),
+        "clemens": later("cardan.drive.joints.clemens", of="Clemens"),
+        "mechanism": later("cardan.drive.joints.mechanism", of="MechanismJoint"),
+    }
+)
+"""Value of the file key ``kind`` -> class."""
+
 DEFAULT = Hooke.kind  # kind of a joint whose file does not name it
 
 
@@ -31,17 +42,9 @@ def other_kinds(joint: Joint, name: str) -> list[str]:
 
     A type that no kind names is anybody's, and an ideal joint of constant velocity may be any type.
     """
-    kinds = {kind.kind: kind.in_words() for kind in JOINTS.values() if name in kind.types}
-    return [] if joint.kind in kinds or joint.any_type else list(kinds.values())
+    if not name or joint.any_type or name in joint.types:
+        return []
+    return [kind.in_words() for kind in JOINTS.values() if name in kind.types]
 
 
-register(
-    Hooke, OffsetCross, DoubleCardan, ConstantVelocity, Tracta, Rzeppa, Weiss, Tripod, HalfCardan, ElasticHalfCardan,
-    PinCoupling, Clemens, MechanismJoint,
-)  # fmt: skip
-
-__all__ = [
-    "DEFAULT", "JOINTS", "Clemens", "ConstantVelocity", "DoubleCardan", "ElasticHalfCardan", "HalfCardan", "Hooke",
-    "Joint", "MechanismJoint", "OffsetCross", "PinCoupling", "Profile", "Rzeppa", "Tracta", "Tripod", "Weiss",
-    "other_kinds", "register",
-]  # fmt: skip
+__all__ = ["DEFAULT", "JOINTS", "Hooke", "Joint", "other_kinds", "register"]

@@ -27,7 +27,7 @@ LEAST = 0.01
 def seats(joints: Sequence[Joint]) -> list[tuple[str, ...]]:
     """Return the names of the errors of each joint that turn the output, as many of each, "" for a seat left empty.
 
-    >>> from cardan.drive.joints import Hooke, Tracta
+    >>> from cardan.joints import Hooke, Tracta
     >>> [row[-2:] for row in seats([Hooke(), Tracta(driving_distance=0.05, driven_distance=0.05)])]
     [('', ''), ('driving_distance', 'driven_distance')]
     """

@@ -24,7 +24,7 @@ from cardan.units import deg
 
 from .columns import COLUMNS
 from .equivalence import SYNCHRONOUS, EquivalentJoint, each_uniform, equivalent_joint, is_rounding
-from .figures.motion import FLOOR, motion_figure, orders_figure, speed_fluctuation_figure
+from .figure import FLOOR, motion_figure, orders_figure, speed_fluctuation_figure
 from .kinds import beside_turning, carried_on, steep_joints
 from .motion import Motion, motion
 from .standing import standing_chain

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from cardan.answers.reader import USUAL
-from cardan.drive.joints import DoubleCardan, Hooke, Tripod
+from cardan.drive.joints import Hooke
 from cardan.figures.figure import Curve
 from cardan.figures.for_reader import for_reader
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
+from cardan.joints import DoubleCardan, Tripod
 from cardan.questions.motion.figures.joint_law import joint_figure
 from cardan.questions.motion.joint_law import joint_over_angles, joint_turn
 from cardan.units import deg

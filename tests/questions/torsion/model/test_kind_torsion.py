@@ -10,10 +10,11 @@ import pytest
 
 from cardan import Drive, stability, torsion_modes, torsion_response
 from cardan.drive.duty import Duty
-from cardan.drive.joints import DoubleCardan, ElasticHalfCardan, Hooke, PinCoupling
+from cardan.drive.joints import Hooke
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
 from cardan.errors import InputError
+from cardan.joints import DoubleCardan, ElasticHalfCardan, PinCoupling
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.motion import motion
 

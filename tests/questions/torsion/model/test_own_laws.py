@@ -18,10 +18,11 @@ from scipy.optimize import brentq
 from cardan import Drive
 from cardan.book.mathieu_modes import mathieu_modes
 from cardan.drive.duty import Duty
-from cardan.drive.joints import Hooke, PinCoupling
+from cardan.drive.joints import Hooke
 from cardan.drive.movement import Harmonic
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
+from cardan.joints import PinCoupling
 from cardan.questions.torsion.model.torsion import torsion_modes
 from cardan.questions.torsion.model.torsional_balance import places
 from cardan.questions.torsion.model.torsional_modes import base_order, main_order

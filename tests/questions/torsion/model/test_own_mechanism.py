@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 
 from cardan import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.joints import MechanismJoint
+from cardan.drive.joints.mechanism import MechanismJoint
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
 from cardan.mechanism.mechanism import Mechanism, Pair

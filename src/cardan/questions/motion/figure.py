@@ -358,3 +358,7 @@ def _variants_sentence(angle_errors: Sequence[Array], names: Sequence[str]) -> S
 
 def _short(name: str) -> str:
     return name if len(name) <= LONG else name[: LONG - 1] + "…"
+
+
+FIGURES = {Motion: motion_figures, EquivalentJoint: equivalence_figures}
+"""Result -> what makes its figures."""
