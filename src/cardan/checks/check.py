@@ -48,6 +48,8 @@ class Check:
         Whether it judges a drive that moves at the instants of its movement, as all do whose use grows with the torque.
     slides : bool
         Whether it judges a drive that moves where its shafts are longest and shortest, too.
+    events : bool
+        Whether the largest torques of starts and other events count, which come now and then.
     gathers : str
         "worst" where each pose is judged by itself; "sum" where one verdict is over all of them by their shares.
     """
@@ -67,6 +69,7 @@ class Check:
     application: str = ""
     moves: bool = False
     slides: bool = False
+    events: bool = False
     gathers: Gathering = "worst"
 
     @property

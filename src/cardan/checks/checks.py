@@ -28,7 +28,7 @@ from .angles import (
 from .audit import answers_agree
 from .check import Check
 from .design import Design, design
-from .moving import stood, stopped, worst_of_poses
+from .moving import happening, stood, stopped, worst_of_poses
 from .practice import layout, length, lubrication, part_accuracy, plunge, pto_type, runout, spline_overlap
 from .speeds import (
     balance,
@@ -152,7 +152,7 @@ def check(
     -------
     tuple of Verdict
         A verdict that could not be reached names what is missing. A drive with poses is judged as drawn and in each
-        pose, and the worst counts.
+        pose, parts that must not break in starts and events too, and the worst counts.
 
     Raises
     ------
@@ -196,7 +196,7 @@ def passes(drive: Drive, name: str, title: str, *, known: Catalogue | None = Non
 
 
 def _everywhere(subject: Design, only: Sequence[str]) -> Iterator[tuple[Text, Sequence[Verdict]]]:
-    """Yield the verdicts as drawn, in every pose and at the worst instants of the movements, and which that is."""
+    """Yield the verdicts as drawn, in every pose and event and at the worst instants of movements, and which it is."""
     yield "", _judged(subject, only)
     each = [name for name in only or CHECKS if CHECKS[name].gathers == "worst"]
     moved = [name for name in each if CHECKS[name].instants]
@@ -204,6 +204,8 @@ def _everywhere(subject: Design, only: Sequence[str]) -> Iterator[tuple[Text, Se
     loads = [name for name in moved if name not in lines]
     if each:
         yield from ((said, _judged(one, each)) for said, one in stood(subject))
+    if sudden := [name for name in each if CHECKS[name].events]:
+        yield from ((said, _judged(one, sudden)) for said, one in happening(subject))
     if loads:
         yield from stopped(subject, lambda one: _judged(one, loads))
     if lines:

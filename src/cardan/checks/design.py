@@ -18,6 +18,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.fields.paths import bare_path, place
+from cardan.drive.machine import Event
 from cardan.drive.models.geometry import geometry, geometry_from_points, points_from_angles
 from cardan.drive.models.kinematics_model import Chain, given_chain, turning, unlike_hooke
 from cardan.drive.torsional_layout import has_torsion
@@ -30,6 +31,7 @@ from cardan.questions.forces.turn_loads import TurnLoads, at_joint_angle
 from cardan.questions.motion.turning import Swing, swing
 from cardan.texts import _
 
+from .event_loads import event_vibration
 from .load_case import Case, Vibration, largest, vibration
 from .movement_loads import Moved, largest_joint_angles, largest_of
 
@@ -68,6 +70,8 @@ class Design:
         Name of that pose.
     vibrates : bool
         Whether what torsional vibration adds to the loads counts.
+    event : int, optional
+        Which of its `events` it is in, so that the largest torques of that are its only loads; None while it runs.
     """
 
     drive: Drive
@@ -77,6 +81,7 @@ class Design:
     drawn: Design | None = None
     pose: str = ""
     vibrates: bool = True
+    event: int | None = None
 
     @cached_property
     def shape(self) -> tuple[int, ...]:
@@ -215,7 +220,26 @@ class Design:
         torque, unit = self.value("duty.torque"), dict[str, TurnLoads]()
         if not any(one.path == "duty" for one in own) and (torque is not None or speed is not None):
             own.insert(0, LoadCase(speed=duty.speed))  # a speed in use, and a torque only where it is varied
+        if self.event is not None:
+            return tuple(self._happening(one) for one in own if one.torque is not None)[:1]
         return tuple(self._case(one, unit, 0.0 if torque is None else torque) for one in own)
+
+    def _happening(self, one: LoadCase) -> Case:
+        """Return the event that a drive is in; followed in time, its shocks are its own."""
+        _k, event, _count = next(its for its in self.events if its[0] == self.event)
+        return replace(
+            self._case(one, {}, self.duty.torque or 0.0),
+            name="",
+            severity=1.0 / self.duty.shock_factor,
+            vibrating=lambda: event_vibration(self.drive, one, event) if self.vibrates else None,
+        )
+
+    @property
+    def events(self) -> tuple[tuple[int, Event | None, Array], ...]:
+        """What happens again and again with its number and its count in the life asked for; None, -1 for the run-up."""
+        starts = self.value("duty.starts")
+        own = ((k, one, self.value(f"duty.events[{k}].count")) for k, one in enumerate(self.duty.events))
+        return (*(() if starts is None else ((-1, None, starts),)), *own)
 
     def _case(self, one: LoadCase, unit: dict[str, TurnLoads], scale: Array | float) -> Case:
         """Return a way to run of these drives."""

@@ -1,4 +1,4 @@
-"""What the movements of a drive and its poses make of its joints."""
+"""What the movements of a drive, its poses, starts and other events make of its parts."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from cardan.drive.conditions import in_poses
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import bare_path
 from cardan.drive.models.geometry import in_form
+from cardan.drive.torsional_layout import has_torsion
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import tops
@@ -24,6 +25,7 @@ from cardan.questions.torsion.road.road import standing_torques
 from cardan.texts import _
 
 from .design import Design
+from .event_loads import event_name
 from .movement_loads import FEW, INSTANTS, moving_rows
 from .verdict import Verdict, joined
 
@@ -75,6 +77,15 @@ def posed(design: Design) -> list[tuple[str, Design]]:
 def stood(design: Design) -> list[tuple[Text, Design]]:
     """Return the design in every pose, and which that is."""
     return [(_("in the pose {name}").format(name=name), one) for name, one in posed(design)]
+
+
+def happening(design: Design) -> list[tuple[Text, Design]]:
+    """Return the design in every start and event that can be followed in time, as drawn, and which that is."""
+    if design.drawn is not None or not (design.loaded and has_torsion(design.drive)):
+        return []
+    every = [(event_name(event), replace(design, event=k)) for k, event, _count in design.events]
+    text = _("largest in time: {event}")
+    return [(text.format(event=name), one) for name, one in every if one.cases[0].vibration is not None]
 
 
 def stopped(

@@ -61,6 +61,12 @@ def borne():
     return replace(drive, supports=(replace(drive.supports[0], bore=None, bearing="6207-2RS"),))
 
 
+def started():
+    """Return a drive that runs up through its resonance, twelve thousand times."""
+    drive = example("pto-flywheel")
+    return replace(drive, duty=replace(drive.duty, starts=12000.0, life=1.8e7))
+
+
 WIDE = (
     "propshaft-with-rzeppa",
     "steering-column",
@@ -73,7 +79,8 @@ WIDE = (
 
 def test_every_pair_is_compared_somewhere():
     """A pair whose readings never meet would compare nothing."""
-    found = [one for drive in (*map(example, WIDE), turning_about(), borne()) for one in audit(design(drive))]
+    drives = (*map(example, WIDE), turning_about(), borne(), started())
+    found = [one for drive in drives for one in audit(design(drive))]
     found += audited(6) or ()
     assert {named(one) for one in PAIRS} == {named(one.pair) for one in found}
     assert contradictions(found) == []
@@ -96,6 +103,13 @@ def test_strength_that_leaves_torsional_vibration_out_contradicts_the_response(m
     found = contradictions(audit(design(example("pto-flywheel"))))
     assert found
     assert {name.partition(" of")[0] for name, *_rest in found} == {"largest torque"}
+
+
+@pytest.mark.slow
+def test_strength_that_leaves_the_torques_of_starts_out_contradicts_what_they_cost(monkeypatch):
+    monkeypatch.setattr(pairs, "happening", lambda _design: [])
+    found = contradictions(audit(design(started())))
+    assert {name.partition(":")[0] for name, *_rest in found} == {"largest torque of every shaft in starts and events"}
 
 
 def test_a_contradiction_fails_the_drive_and_is_told_with_both_values(monkeypatch):

@@ -13,19 +13,23 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.checks import check
 from cardan.checks.design import design
+from cardan.checks.moving import happening, stood
 from cardan.checks.strength.answer import answer, ask
 from cardan.checks.strength.event_damage import cheapest, event_damages, ramp_damages
 from cardan.checks.strength.shaft_life import start_damage
 from cardan.checks.strength.strength import strength
+from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
+from cardan.drive.joint_parts import Needles
 from cardan.drive.joints import Hooke
 from cardan.drive.machine import Event, RunUp
 from cardan.drive.material import Material
+from cardan.drive.pose import Pose
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
 from cardan.questions.life.rainflow import rainflow
 from cardan.questions.torsion.model.torsional_train import torsional_train
-from cardan.questions.torsion.transient.torsion_transient import _length, event_torque
+from cardan.questions.torsion.transient.torsion_transient import _length, event_torque, run_up_torque
 from cardan.texts import speaking
 from cardan.units import deg, mm, rpm
 
@@ -209,3 +213,48 @@ def test_an_event_that_cannot_be_followed_tells_why() -> None:
     assert any("half clutch" in told(one.text, USUAL) for one in answer(drive, ask(drive)).remarks)
     with speaking("ru"):
         assert ask(drive).lost[0][1] != why
+
+
+def test_a_start_that_yields_a_shaft_fails_it_although_it_hardly_tires_it() -> None:
+    """One run-up through resonance at 2,858 N·m: √(3T² + 4M²)/W past yield, where running uses two fifths of it."""
+    drive = tube(run_up=RunUp(end=540 * rpm, duration=4.0), starts=1.0)
+    (tired,) = check(drive, only=["start_fatigue"])
+    assert tired.utilisation < 0.01
+    (running,) = check(replace(drive, duty=replace(drive.duty, starts=None)), only=["tube_strength"])
+    assert running.utilisation < 0.5
+    (started,) = check(drive, only=["tube_strength"])
+    torque = float(np.max(np.abs(run_up_torque(drive)[0])))
+    case = design(drive).loaded[0]
+    couple = torque * float(case.end_bending[1] / case.shaft_torque[1])
+    modulus = math.pi * (0.046**4 - 0.038**4) / (16 * 0.046)
+    alone, both = (math.sqrt(3.0 * torque**2 + 4.0 * one**2) / modulus for one in (0.0, couple))
+    assert alone < started.value < both < 1.05 * alone  # torque and couple are largest at different angles
+    assert started.value > 355e6
+    assert "run-up" in str(started.note)
+    found = strength(drive)
+    assert found.enough is False
+    assert [one.value for one in found.of("shafts[1]") if one.check == "tube_strength"] == [started.value]
+    assert found.rated_torque == 0.0  # the joints alone shake it past that, whatever it carries
+
+
+def test_parts_of_joints_bear_an_event_without_the_factor_for_shocks() -> None:
+    """A load step to 160 N·m swings to 260 N·m: 100 N·m would turn the shaft evenly, 60 N·m it carries."""
+    joint = Hooke(joint_angle=0.0, cross=Cross(span=0.05), needles=Needles(static_capacity=20e3))
+    bare = replace(line(shock_factor=1.5), joints=(joint,))
+    (steady,) = [one for one in check(bare, only=["needle_static"]) if one.run and not one.advice]
+    assert steady.value == pytest.approx(1.5 * LOAD / 0.05)
+    drive = replace(bare, duty=replace(bare.duty, events=(replace(STEP, name="swath"),)))
+    (loaded,) = [one for one in check(drive, only=["needle_static"]) if one.run and not one.advice]
+    assert loaded.value == pytest.approx(260.0 / 0.05, rel=2e-3)
+    assert str(loaded.note).endswith("swath")
+    slight = replace(drive, duty=replace(drive.duty, events=(replace(STEP, torque=65.0),)))
+    (same,) = [one for one in check(slight, only=["needle_static"]) if one.run and not one.advice]
+    assert same.value == pytest.approx(steady.value)
+
+
+def test_events_load_a_drive_as_drawn_beside_its_poses() -> None:
+    pose = Pose(name="raised", set=(("joints[0].joint_angle_deg", 20.0),))
+    drive = replace(line(10 * deg, events=(STEP,)), poses=(pose,))
+    said = [name for name, _one in happening(design(drive))]
+    assert said == ["largest in time: load step"]
+    assert not [one for _name, stand in stood(design(drive)) for one in happening(stand)]

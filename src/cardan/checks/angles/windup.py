@@ -46,4 +46,5 @@ CHECK = Check(
     dimension="angle",
     unit="deg",
     power=1.0,
+    events=True,
 )

@@ -15,6 +15,9 @@ import numpy as np
 
 from cardan.checks.angles import acceleration, joint_angle, output_error, speed_fluctuation
 from cardan.checks.check import Check
+from cardan.checks.event_loads import followed
+from cardan.checks.load_case import largest
+from cardan.checks.moving import happening
 from cardan.checks.speeds import critical_speed
 from cardan.checks.speeds.whirl import whirls
 from cardan.checks.strength.joints import bearing_life
@@ -24,6 +27,7 @@ from cardan.checks.torsion.parametric_stability import CHECK as PARAMETRIC
 from cardan.checks.torsion.torque_reversal import CHECK as REVERSAL
 from cardan.drive.models.kinematics_model import mixed, unmapped
 from cardan.drive.models.wobble import wobbling
+from cardan.drive.torsional_layout import has_torsion
 from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import peak
 from cardan.mechanism.constraints import FRAME, constraints
@@ -376,6 +380,22 @@ def _torque_of_response(asked: Asked) -> Values:
     return told
 
 
+def _torque_in_events(asked: Asked) -> Values:
+    """Return the largest torque of every shaft in starts and other events, as they are followed in time."""
+    told: dict[str, float] = {}
+    for _k, event, _count in asked.here.events if has_torsion(asked.drive) else ():
+        courses = followed(asked.drive, event)
+        for k, one in courses.items() if isinstance(courses, dict) else ():
+            told[f"shafts[{k}]"] = max(told.get(f"shafts[{k}]", 0.0), one.largest)
+    return told
+
+
+def _torque_borne(asked: Asked) -> Values:
+    """Return the largest torque that strength counts for every shaft, running and in events."""
+    every = (*asked.here.loaded, *(one.cases[0] for _said, one in happening(asked.here)))
+    return of_parts("shafts", largest([one.shaft_torque for one in every])) if asked.here.loaded else {}
+
+
 def _steady_torque(asked: Asked) -> Values:
     """Return the mean torque that drives the input at the speed of the duty, as the vibration has it."""
     found, duty = asked.response, asked.drive.duty
@@ -716,6 +736,17 @@ PAIRS: tuple[Pair, ...] = (
         read=(_torque_of_response, _torque_counted),
         tolerance=FOUND,
         why=SEARCHED,
+        dimension="torque",
+        sense="at_most",
+        quick=False,
+    ),
+    Pair(
+        quantity=mark("largest torque of every shaft in starts and events"),
+        first="start_fatigue",
+        second="strength",
+        read=(_torque_in_events, _torque_borne),
+        tolerance=FOLLOWS,
+        why=EXACT,
         dimension="torque",
         sense="at_most",
         quick=False,

@@ -123,8 +123,8 @@ def _ending(drive: Drive, result: Strength, tired: Sequence[ShaftStrength]) -> S
     """Return that starts and events use up a shaft before the life asked for."""
     first = min(tired, key=lambda one: one.fatigue_life)
     text = _(
-        "shaft {number} lasts {life} of the {asked} asked, with its starts and events; torque rating without them "
-        "{rated}."
+        "shaft {number} lasts {life} of the {asked} asked, with its starts and events; torque rating without their "
+        "damage {rated}."
     )
     life, asked = Quantity(first.fatigue_life, "duration"), Quantity(drive.duty.life or 0.0, "duration")
     return say(text, number=first.number, life=life, asked=asked, rated=_torque(result.rated_torque))

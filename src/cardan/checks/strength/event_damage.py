@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cardan.checks.design import Design, design
+from cardan.checks.event_loads import event_name, followed
 from cardan.drive.drive import Drive
 from cardan.drive.machine import Event, RunUp
 from cardan.drive.torsional_layout import has_torsion
-from cardan.texts import _
 
 from .section import sections
-from .shaft_life import STRENGTHS, events_of, start_cycles, start_damage
+from .shaft_life import STRENGTHS, start_damage
 
 RAMPS = (0.25, 0.5, 1.0, 2.0, 4.0)
 """Times of run-ups that are compared, over that of the duty."""
@@ -39,15 +39,14 @@ class EventDamage:
 def event_damages(drive: Drive) -> tuple[EventDamage, ...]:
     """Return what every event of a duty costs; those that cannot be followed are left out, see `events_lost`."""
     subject = design(drive)
-    found = (_damage(subject, one, float(np.max(count))) for one, count in events_of(subject))
+    found = (_damage(subject, one, float(np.max(count))) for _k, one, count in subject.events)
     return tuple(one for one in found if one is not None)
 
 
 def events_lost(drive: Drive) -> tuple[tuple[str, str], ...]:
     """Return the events of a duty that cannot be followed, each with why."""
     subject = design(drive)
-    bare = replace(subject.drive, poses=())
-    every = [(one, start_cycles(bare, one)) for one, _count in events_of(subject)] if has_torsion(drive) else []
+    every = [(one, followed(subject.drive, one)) for _k, one, _count in subject.events] if has_torsion(drive) else []
     return tuple(
         (event_name(one), "; ".join(dict.fromkeys(map(str, found)))) for one, found in every if isinstance(found, tuple)
     )
@@ -69,16 +68,9 @@ def cheapest(ramps: tuple[EventDamage, ...]) -> int:
     return min(range(len(ramps)), key=lambda k: (ramps[k].damage, ramps[k].torque))
 
 
-def event_name(event: Event | RunUp | None) -> str:
-    """Return what to call an event."""
-    if not isinstance(event, Event):
-        return _("run-up")
-    return event.name or {"clutch": _("closing of the clutch"), "load_step": _("load step")}[event.kind]
-
-
 def _damage(subject: Design, event: Event | RunUp | None, count: float) -> EventDamage | None:
-    cycles = start_cycles(replace(subject.drive, poses=()), event) if has_torsion(subject.drive) else ()
-    if isinstance(cycles, tuple):
+    courses = followed(subject.drive, event) if has_torsion(subject.drive) else ()
+    if isinstance(courses, tuple):
         return None
     course = event if event is not None else subject.duty.run_up
     assert course is not None
@@ -88,10 +80,10 @@ def _damage(subject: Design, event: Event | RunUp | None, count: float) -> Event
             count=count,
             duration=course.duration,
             shaft=k + 1,
-            torque=float(np.max(np.abs(one.mean) + 0.5 * one.range, initial=0.0)),
+            torque=one.largest,
             damage=float(np.max(start_damage(subject, k, event))),
         )
-        for k, one in cycles.items()
+        for k, one in courses.items()
         if _judged(subject, k)
     ]
     return max(rows, key=lambda one: (one.damage, one.torque), default=None)

@@ -97,4 +97,5 @@ CHECK = Check(
     dimension="share",
     unit="percent",
     power=1.0,
+    events=True,
 )

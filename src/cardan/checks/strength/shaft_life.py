@@ -4,36 +4,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.event_loads import followed, sorted_into_classes
 from cardan.checks.load_case import Case
 from cardan.checks.verdict import Verdict
-from cardan.drive.drive import Drive
 from cardan.drive.duty import History
 from cardan.drive.machine import Event, RunUp
 from cardan.drive.shaft import Notch
-from cardan.errors import InputError, Problem
 from cardan.formulas.shaft_strength import Fatigue, fatigue_cycles, shaft_fatigue
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import foremost_of
 from cardan.questions.life.rainflow import Cycles, Levels, rainflow, speed_at_level, time_at_level
-from cardan.questions.torsion.transient.torsion_transient import event_torque, run_up_torque
-from cardan.texts import _, language, mark
+from cardan.texts import _, mark
 
 from .section import Section, sections
 
 STRENGTHS = ("ultimate_strength", "yield_strength")
-
-CLASSES = (200, 50)
-"""Classes of range and of mean into which more different cycles than these have are sorted."""
-
-SLOPE = 6.0
-"""Exponent by which the range of a class damages as much as the cycles in it, whose ranges differ by half a percent."""
 
 ROUNDS, REACH = 40, 100.0
 """Halvings in search of the factor on the torques, and how far above the least that damages it is looked for."""
@@ -138,26 +130,6 @@ def _duration(design: Design) -> float:
     return history.times[-1] - history.times[0]
 
 
-def sorted_into_classes(cycles: Cycles) -> Cycles:
-    """Return equal cycles as one, and very many different ones in classes that damage as much."""
-    most = max(float(np.max(cycles.range, initial=0.0)), 1e-300)
-    for fine in (1e-9, None):
-        steps = (most * fine, most * fine) if fine else (most / CLASSES[0], most / CLASSES[1])
-        keys = np.round(np.stack((cycles.range / steps[0], np.abs(cycles.mean) / steps[1]), axis=-1))
-        _classes, where = np.unique(keys, axis=0, return_inverse=True)
-        where = where.reshape(-1)
-        if np.max(where, initial=-1) < CLASSES[0] * 2:
-            break
-    count = np.bincount(where, cycles.count)
-    power, mean = (
-        np.bincount(where, cycles.count * one) / count for one in ((cycles.range / most) ** SLOPE, np.abs(cycles.mean))
-    )
-    first = np.unique(where, return_index=True)[1]
-    return Cycles(
-        range=most * power ** (1.0 / SLOPE), mean=mean, count=count, start=cycles.start[first], end=cycles.end[first]
-    )
-
-
 def lasting(design: Design) -> Sequence[Case]:
     """Return the ways of running that make up the time of a duty by themselves: none where a torque was measured."""
     history = design.duty.torque_history
@@ -188,40 +160,14 @@ def _of_start(design: Design, k: int, section: Section, event: Event | RunUp | N
 
     The couples are those of the larger torque of each cycle.
     """
-    found = start_cycles(replace(design.drive, poses=()), event)
+    found = followed(design.drive, event)
     if isinstance(found, tuple) or k not in found:
         return np.zeros(design.shape)
-    cycles, plain = found[k], design.loaded[0]
+    cycles, plain = found[k].cycles, design.loaded[0]
     bent = np.asarray(plain.end_bending[..., [k]] / plain.shaft_torque[..., [k]])
     swing, mean = 0.5 * cycles.range, np.abs(cycles.mean)
     loads = of_loads(design, k, section, mean, swing, bent * (mean + swing), spread=True)
     return np.asarray(np.sum(cycles.count / np.maximum(loads.cycles, 1.0), axis=-1))
-
-
-def start_cycles(drive: Drive, event: Event | RunUp | None = None) -> dict[int, Cycles] | tuple[Problem, ...]:
-    """Return the cycles of the torque of every shaft that can twist in one event; or why it cannot be followed.
-
-    event: a run-up is one in place of that of the duty, which counts when nothing is given.
-    """
-    return _cycles(drive, event, language())
-
-
-@lru_cache(maxsize=32)
-def _cycles(drive: Drive, event: Event | RunUp | None, _language: str) -> dict[int, Cycles] | tuple[Problem, ...]:
-    """Return the same; why not is told in a language."""
-    if isinstance(event, RunUp):
-        drive = replace(drive, duty=replace(drive.duty, run_up=event))
-    try:
-        torque, shafts = event_torque(drive, event) if isinstance(event, Event) else run_up_torque(drive)
-    except InputError as error:
-        return error.problems
-    if not np.all(np.isfinite(torque)):
-        path = "duty.events" if isinstance(event, Event) else "duty.run_up"
-        return (Problem(path, _("its torques could not be followed to the end")),)
-    worst = {
-        k: max((e for e, own in enumerate(shafts) if own == k), key=lambda e: np.ptp(torque[:, e])) for k in shafts
-    }
-    return {k: sorted_into_classes(rainflow(torque[:, e])) for k, e in worst.items()}
 
 
 def _of_starts(design: Design, k: int, section: Section) -> Array:
@@ -230,16 +176,9 @@ def _of_starts(design: Design, k: int, section: Section) -> Array:
     if life is None:
         return np.zeros(design.shape)
     return sum(
-        (np.asarray(count) / np.asarray(life) * _of_start(design, k, section, one) for one, count in events_of(design)),
+        (np.asarray(count) / np.asarray(life) * _of_start(design, k, section, one) for _k, one, count in design.events),
         np.zeros(design.shape),
     )
-
-
-def events_of(design: Design) -> tuple[tuple[Event | None, Array], ...]:
-    """Return what happens again and again with its count in the life asked for; None stands for the run-up."""
-    starts = design.value("duty.starts")
-    own = ((one, design.value(f"duty.events[{k}].count")) for k, one in enumerate(design.duty.events))
-    return (*(() if starts is None else ((None, starts),)), *own)
 
 
 def _of_turns(design: Design, k: int, section: Section) -> Array:

@@ -13,7 +13,7 @@ from cardan.catalogue import Catalogue
 from cardan.checks.check import Check
 from cardan.checks.design import Design, design
 from cardan.checks.load_case import Case
-from cardan.checks.moving import stood, stops, worst_of_poses
+from cardan.checks.moving import happening, stood, stops, worst_of_poses
 from cardan.checks.verdict import Verdict
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
@@ -284,11 +284,13 @@ def _judged(checks: Sequence[Check], subject: Design) -> list[Verdict]:
 
 
 def _stances(subject: Design) -> Iterator[_Stance]:
-    """Yield the design as drawn, in its poses, and at the instants of its movements at which its loads are worst."""
+    """Yield the design as drawn, in its poses, in events, and at the instants of its movements that load it most."""
     worst = [check for check in STRENGTH if check.gathers == "worst"]
     loads = [check for check in worst if check.instants]
     yield _Stance("", subject, STRENGTH)
     yield from (_Stance(said, stand, worst) for said, stand in stood(subject))
+    sudden = [check for check in worst if check.events]
+    yield from (_Stance(said, stand, sudden) for said, stand in happening(subject))
     yield from (_Stance(said, stand, loads) for said, stand in stops(subject, lambda at: _judged(loads, at)))
 
 
@@ -355,7 +357,7 @@ def left_out(drive: Drive, found: Strength) -> LeftOut:
     return LeftOut(
         journal=_journal(drive, found) if supported else None,
         supported=supported,
-        runs_up=drive.duty.run_up is not None,
+        runs_up=drive.duty.run_up is not None and drive.duty.starts is None,
     )
 
 

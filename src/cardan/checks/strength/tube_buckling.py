@@ -87,4 +87,5 @@ CHECK = Check(
     dimension="torque",
     unit="Nm",
     power=1.0,
+    events=True,
 )

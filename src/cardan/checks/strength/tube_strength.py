@@ -61,4 +61,5 @@ CHECK = Check(
     dimension="stress",
     unit="MPa",
     power=1.0,
+    events=True,
 )

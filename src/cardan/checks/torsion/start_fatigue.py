@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 
 from cardan.answers.quantity import Joined, Quantity, say
 from cardan.checks.check import Check
 from cardan.checks.design import Design
-from cardan.checks.strength.event_damage import event_name
+from cardan.checks.event_loads import event_name, followed
 from cardan.checks.strength.section import sections
 from cardan.checks.strength.shaft_life import (
     STRENGTHS,
-    events_of,
     fatigue_life,
     fatigue_variables,
-    start_cycles,
     start_damage,
 )
 from cardan.checks.verdict import Verdict
@@ -29,14 +26,14 @@ from .line import NO_MODEL
 
 def _judge(design: Design, k: int) -> Iterator[Verdict]:
     found = list(sections(design, k))
-    events = events_of(design)
+    events = design.events
     if not events or not found or design.drive.shafts[k].layup is not None:
         return
     strengths = [section.of_material(name) for section in found for name in STRENGTHS]
     lacking = (*design.missing("duty.life", *strengths), *design.unloaded)
     if not has_torsion(design.drive):
         lacking = (*NO_MODEL, *lacking)
-    every = [] if lacking else [start_cycles(replace(design.drive, poses=()), one) for one, _count in events]
+    every = [] if lacking else [followed(design.drive, one) for _k, one, _count in events]
     short = [one for cycles in every if isinstance(cycles, tuple) for one in cycles]
     absent = dict.fromkeys(one.field for one in short if one.code == "missing")
     if lacking or absent:
@@ -56,7 +53,7 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
             count=Quantity(float(np.max(count)), trim=True),
             event=event_name(one),
         )
-        for one, count in events
+        for _k, one, count in events
     ]
     yield Verdict(
         value=np.asarray(design.value("duty.life")) / fatigue_life(design, k),

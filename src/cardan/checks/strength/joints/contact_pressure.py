@@ -56,4 +56,5 @@ CHECK = Check(
     advice=True,
     power=0.5,
     crosses="each",
+    events=True,
 )

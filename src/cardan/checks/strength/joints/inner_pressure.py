@@ -75,4 +75,5 @@ CHECK = Check(
     unit="MPa",
     advice=True,
     power=1.0 / 3.0,
+    events=True,
 )

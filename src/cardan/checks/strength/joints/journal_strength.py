@@ -79,4 +79,5 @@ CHECK = Check(
     unit="MPa",
     power=1.0,
     crosses="each",
+    events=True,
 )

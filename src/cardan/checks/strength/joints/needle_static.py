@@ -48,7 +48,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         note=note,
     )
     turning = [case for case in design.loaded if case.speed is not None and np.all(np.asarray(case.speed) > 0.0)]
-    if design.missing(*sizes) or not turning:
+    if design.missing(*sizes) or not turning or design.event is not None:
         return
     count, diameter, length = (design.value(path) for path in sizes)
     allowed = [book_load(count, diameter, length, np.asarray(case.speed) / (2.0 * np.pi)) for case in turning]
@@ -74,4 +74,5 @@ CHECK = Check(
     unit="N",
     power=1.0,
     crosses="each",
+    events=True,
 )

@@ -62,4 +62,5 @@ CHECK = Check(
     unit="MPa",
     power=1.0,
     crosses="each",
+    events=True,
 )
