@@ -48,6 +48,8 @@ TEETH = "a yoke on a spline is turned from tooth to tooth, so that a remedy is a
 
 SOUGHT = "joints shake a line whatever it carries, so that the torque rating is sought and not found in proportion"
 
+EVEN = "a simulation starts with shafts that turn as rigid ones, not each part at the speed of the input"
+
 NUMBERS: tuple[tuple[str, str, str], ...] = (
     (r"catalogue$", r"tables\.rows", GUIDES),
     (r"catalogue (max_bends|max_joint_angles)", r"rows\.max_(bend|joint_angle)_deg", DIGITS),
@@ -59,6 +61,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
     ),
     (r"catalogue lubrication", r"rows\.(hours_h|years|distance_km)", GREASES),
     (r"torsion response examples/pto-flywheel\.toml --speeds", r".*", SEVERAL),
+    (r"torsion simulate (?!.*--settled)", r"(curves|elements|stations)\..*|steps|imbalance.*", EVEN),
     (r"torsion road examples/pto-baler", r"largest_torque_open_backlash_Nm", SEVERAL),
     (
         r"select examples/(pto-hitch|rolling-mill-(lower|upper)-spindle|truck-rear-axle)\.toml --torque-Nm",

@@ -29,9 +29,7 @@ def torsion_simulate(
         option("--span-s --span", "S", _("How long; behind the run-up or to the end of the history, else some turns.")),
     ] = None,
     samples: Annotated[int, option("--samples", "N", _("Samples of the curves."), min=2, max=MOST_SAMPLES)] = 2001,
-    settled: Annotated[
-        bool, flag("--settled", _("Start from the steady motion, not from uniform rotation with untwisted shafts."))
-    ] = False,
+    settled: Annotated[bool, flag("--settled", _("Start from the steady motion, not from untwisted shafts."))] = False,
     speed_rpm: SpeedRpm = None,
     torque: TorqueNm = None,
     pieces: Pieces = 1,

@@ -13,6 +13,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.machine import ConstantTorque, RunUp, TorqueHistory
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
+from cardan.questions.motion.motion import motion
 from cardan.questions.torsion.steady.torsion_response import torsion_response
 from cardan.questions.torsion.transient.torsion_transient import transient
 from cardan.questions.torsion.transient.transient import Adaptive
@@ -35,6 +36,19 @@ def test_a_settled_start_stays_settled(free: bool) -> None:
     assert found.complete
     assert found.motion.extremes.torque_high == pytest.approx(wanted.torque_highest, rel=1e-5)
     assert found.motion.extremes.torque_low == pytest.approx(wanted.torque_lowest, rel=1e-5)
+
+
+def test_an_even_start_turns_every_shaft_as_a_rigid_one() -> None:
+    """Ratios of the axes' own motion, found without torsion; no damper is pulled from the first moment on."""
+    shafts = tuple(Shaft(number=k, stiffness=4000.0, damping=5.0) for k in (1, 2, 3))
+    bent = Drive.from_angles([25 * deg, 18 * deg], plane_twists=[0.4], yoke_angles=[0.3], start_phase=0.3)
+    one = replace(bent, shafts=shafts, stations=(Station(shaft=3, inertia=0.4, end="end"),), duty=Duty(speed=50.0))
+    found = transient(one, span=0.01, method=ROUGH)
+    ratio = motion(one, angle=[0.0]).shaft_ratio[:, 0]
+    wanted = 50.0 * ratio[list(found.train.model.shaft)]
+    assert np.ptp(wanted) > 3.0
+    np.testing.assert_allclose(found.motion.speed[0], wanted, rtol=1e-12)
+    np.testing.assert_allclose(found.motion.torque[0], 0.0, atol=1e-9)
 
 
 def test_a_load_step_on_a_straight_shaft_swings_to_twice_its_torque() -> None:

@@ -102,6 +102,22 @@ def places(model: TorsionalModel, q: Array) -> Places:
     return Places(angle=angle, first=first, second=second, third=third)
 
 
+def even_rates(model: TorsionalModel, q: Array) -> Array:
+    """Return the speeds of the coordinates over that of the first one while no shaft twists, array (..., R).
+
+    q (..., R) [rad]: every shaft turns as one with the driven yoke of the joint before it.
+    """
+    first = places(model, q).first
+    before = {b: a for a, b in (*model.elements, *model.hinges)}
+    speed = [0.0 * first[..., 0] + 1.0 for _k in model.driven]
+    for k, source in enumerate(model.driven):
+        if source is not None:  # F' counts from its coordinate, which turns as the station that owns it
+            speed[k] = first[..., k] * speed[model.owner[model.coordinate[k]]]
+        elif k in before:
+            speed[k] = speed[before[k]]
+    return beside([speed[k] for k in model.owner])
+
+
 def beside(values: list[Array]) -> Array:
     """Return arrays (...) beside each other (..., k), each in one piece of memory: they are worked on one by one."""
     xp = namespace(*values)

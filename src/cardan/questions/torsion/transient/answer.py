@@ -157,8 +157,8 @@ def remarks(found: Transient) -> Iterator[Remark]:
         yield Remark(text=said, tone="warning")
     if found.start == "even":
         text = _(
-            "It starts from uniform rotation with untwisted shafts: all torques come on at once, which adds to the "
-            "peaks."
+            "It starts from untwisted shafts that turn as rigid ones would: all torques come on at once, which adds "
+            "to the peaks."
         )
         yield Remark(text=text)
     yield from _pendulums(found)

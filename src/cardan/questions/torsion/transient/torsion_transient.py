@@ -14,7 +14,7 @@ from cardan.drive.machine import Event, TorqueHistory
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.questions.torsion.model.inputs import Constant, History, Law, SpeedCourse, SpeedTable, Swinging
-from cardan.questions.torsion.model.torsional_balance import gathered, places
+from cardan.questions.torsion.model.torsional_balance import even_rates, gathered, places
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
 from cardan.questions.torsion.model.torsional_modes import main_order, straight_modes
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_full, in_time, sprung, torsional_train
@@ -65,8 +65,8 @@ class Transient:
     motion : Simulation
         Angles and speeds of the stations, torques of the elements, extremes, account of energy.
     start : str
-        "even" from even rotation with untwisted shafts, so that all torques come on at once; "settled" from the steady
-        motion.
+        "even" from untwisted shafts that turn as rigid ones would, so that all torques come on at once; "settled" from
+        the steady motion.
     """
 
     train: TorsionalTrain
@@ -116,7 +116,8 @@ def transient(
     times : int or array (t,) [s]
         How many samples, or when.
     start : {"even", "settled"}
-        From even rotation with untwisted shafts, so that all torques come on at once, or from the steady motion.
+        From untwisted shafts that turn as rigid ones would, so that all torques come on at once, or from the steady
+        motion.
     method : Adaptive or FixedStep, optional
         How to integrate; adaptive by default, but fixed steps where a drive without play swings fast to the end, as
         one without damping does.
@@ -171,14 +172,14 @@ def transient(
     elif not model.free:
         model = replace(model, input_speed=np.asarray(first))
     angle: Array | None = None
-    rate: Array = np.asarray(first)
+    rate: Array = first * even_rates(model, np.zeros(model.coordinates))
     if start == "settled":
         check(_unsettled(chosen, model))
         swing = main_order(train.model) * abs(fastest or 1.0)
         small = model if not train.pendulums else sprung(in_time(train.model, swing), train, first)
         steady = periodic_response(small, speed=first)
         if not bool(steady.found):
-            raise refuse("start", _("no steady motion was found to start from; start uniform"))
+            raise refuse("start", _("no steady motion was found to start from; start even"))
         angle, rate = (one[0, 0] for one in steady.orbit.of(np.asarray([0]), [0.0])[:2])
         if train.pendulums:
             angle, rate = _swung(train, angle, rate)
@@ -290,7 +291,7 @@ def _closing(
     Coulomb: it slips until both sides turn alike, holds the input at that speed as long as this takes no more torque
     than it passes on, and slips again where it would take more.
     """
-    now, angle, rate = 0.0, np.zeros(model.coordinates), np.full(model.coordinates, start)
+    now, angle, rate = 0.0, np.zeros(model.coordinates), start * even_rates(model, np.zeros(model.coordinates))
     stuck, way = False, float(np.sign(speed - start) or 1.0)
     parts: list[Array] = []
     for _switch in range(SWITCHES):
@@ -390,7 +391,7 @@ def _unsettled(duty: Duty, model: TorsionalModel) -> Iterator[Problem]:
     if any(torque.law.order is None for torque in model.torques):
         yield Problem("duty", _("a torque runs in time; a settled start needs torques that follow angle or speed"))
     elif parted(model)[1]:
-        yield Problem("duty", _("orders of the torques do not repeat within two turns; start uniform"))
+        yield Problem("duty", _("orders of the torques do not repeat within two turns; start even"))
 
 
 def _method(model: TorsionalModel, rate: Array, span: float) -> Method:
