@@ -273,14 +273,11 @@ def series_at(coefficient: Array, phase: ArrayLike) -> tuple[Array, Array, Array
     Returns three arrays (..., p, R).
     """
     order = np.arange(coefficient.shape[-1])
-    wave = np.exp(1j * np.asarray(phase, dtype=float)[:, None] * order)
-    factors = (wave, 1j * order * wave, -(order**2) * wave)
-    value, rate, joint_angle = (
-        np.matmul(factor.real, coefficient.real.swapaxes(-1, -2))
-        - np.matmul(factor.imag, coefficient.imag.swapaxes(-1, -2))
-        for factor in factors
-    )
-    return value, rate, joint_angle
+    angle = np.asarray(phase, dtype=float)[:, None] * order
+    # all three share the waves: their coefficients stand side by side
+    every = np.concatenate((coefficient, 1j * order * coefficient, -(order**2) * coefficient), axis=-2).swapaxes(-1, -2)
+    value, rate, second = np.split(np.cos(angle) @ every.real - np.sin(angle) @ every.imag, 3, axis=-1)
+    return value, rate, second
 
 
 def sampled_series(samples: Array) -> Array:

@@ -209,6 +209,19 @@ def test_where_no_ramp_settles_the_largest_motion_is_told_and_it_is_said_that_no
     assert "blow" not in others
 
 
+def test_a_ramp_of_a_drive_that_swings_far_faster_than_it_turns_is_not_followed() -> None:
+    """With a shaft so stiff that a turn takes some ten thousand steps, a ramp would take minutes."""
+    soft = lasting(0.02, 158.7)
+    damped = replace(soft, damping=soft.damping + 20.0)
+    stiff = replace(damped, stiffness=soft.stiffness * [1.0, 1.0, 1e5])
+    runs = {}
+    for name, model in (("soft", damped), ("stiff", stiff)):
+        orbit, _status = steady_orbits(model, speed=[158.7])
+        runs[name] = ramps_of(orbit.turning.part(np.asarray([0])))
+    assert runs["soft"]
+    assert runs["stiff"] == []
+
+
 def shaken(
     stand: TorsionalModel, speed: float, start: float, load: float, periods: int
 ) -> tuple[np.ndarray, np.ndarray]:

@@ -48,6 +48,9 @@ ALIKE = 0.03
 RAMPS, SLOW = (0.5, 1.5), 8
 """Shares of the speed from which it is run up and run down to, and in how many times the periods that are settled."""
 
+MOST = 1_000_000
+"""Steps of a ramp at most: they take seconds."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Run:
@@ -132,11 +135,13 @@ def settled(part: Turning, starts: Array) -> list[Run]:
 def ramped(part: Turning) -> list[Run]:
     """Return what a slow run-up from half the speed and a slow run-down from one and a half times it lead to.
 
-    Torques and dampers are those at the speed itself. Of a drive in which what it begins with takes longer to fade than
-    a ramp nothing is told: at its end it is still on the way.
+    Torques and dampers are those at the speed itself. Nothing is told of a drive in which what it begins with takes
+    longer to fade than a ramp, since at its end it is still on the way, nor of one that swings so much faster than it
+    turns that a ramp takes more than `MOST` steps.
     """
     line = _Line(part)
-    return _led(part, line, *line.ramped(part), reached=True) if line.fading <= SLOW * PERIODS[1] else []
+    lasting = line.fading > SLOW * PERIODS[1] or SLOW * line.periods * line.gross > MOST
+    return [] if lasting else _led(part, line, *line.ramped(part), reached=True)
 
 
 def _led(part: Turning, line: _Line, q: Array, v: Array, *, reached: bool) -> list[Run]:

@@ -62,7 +62,8 @@ def stable_motions(orbit: Orbit, status: Array) -> tuple[Orbit, Array, tuple[Bes
     (`cardan.questions.torsion.steady.settling`) the one with the largest swing of the torque. It is the motion that is
     told where it repeats with every period; else it runs beside one of one period, see `widened`. Others take a blow or
     an abrupt start: they stand beside it. Where neither leads to one that was found, too little damping lets no ramp
-    settle, or fixed steps do not follow the drive (`TorsionalModel.steppable`), the largest of one period counts.
+    settle, the drive is too stiff to be followed that long, or fixed steps do not follow it
+    (`TorsionalModel.steppable`), the largest of one period counts.
     """
     rows = np.flatnonzero(_several(orbit, status))
     coefficient = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])
