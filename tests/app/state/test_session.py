@@ -78,6 +78,8 @@ def test_what_is_wrong_is_told_in_the_users_language_whatever_brought_it(session
     assert session.document.problems == told
     session.open(session.document.text)
     assert session.document.problems == told
+    session.choose(language="en")
+    assert session.document.problems == read(session.document.text, session.workspace.enclosed).problems
 
 
 def test_undo_and_redo_walk_through_every_text(session: Session) -> None:

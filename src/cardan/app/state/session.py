@@ -328,14 +328,20 @@ class Session:
     def choose(self, **choices: Any) -> None:
         """Change how the user likes to see things; another language builds the page anew."""
         before, self.choices = self.choices, replace(self.choices, **choices)
+        if self.document.problems:  # they are told in the words and units of before
+            self.document = self._still(self.read(self.document.text))
+            self.tell("text")
         self.tell("choices")
         if self.choices.language != before.language:
             self.rebuild()
 
+    def _still(self, document: Document) -> Document:
+        """Return a document that is of what it was of: its text may be no TOML for a moment."""
+        return replace(document, of_mechanism=self.document.of_mechanism) if document.tree is None else document
+
     def _now(self, document: Document) -> None:
         """Show another document: first what the user waits for, then all the rest, for several edits in a row once."""
-        if document.tree is None:  # no TOML for a moment: what it is of stays
-            document = replace(document, of_mechanism=self.document.of_mechanism)
+        document = self._still(document)
         other = document.of_mechanism != self.document.of_mechanism
         self.document = document
         if other:
