@@ -77,7 +77,8 @@ def _followed(drive: Drive, event: Event | RunUp | None, _language: str) -> dict
     for k in shafts:
         own = torque[:, [e for e, shaft in enumerate(shafts) if shaft == k]]
         widest = own[:, np.argmax(np.ptp(own, axis=0))]
-        cycles = sorted_into_classes(rainflow(widest))
+        begun = np.roll(widest, -int(np.argmax(widest)))  # it comes again and again: all cycles close, ASTM E1049 5.4.5
+        cycles = sorted_into_classes(rainflow(np.append(begun, begun[0])))
         found[k] = Course(cycles=cycles, largest=float(np.max(np.abs(own))))
     return found
 

@@ -13,6 +13,7 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.checks import check
 from cardan.checks.design import design
+from cardan.checks.event_loads import followed
 from cardan.checks.moving import happening, stood
 from cardan.checks.strength.answer import answer, ask
 from cardan.checks.strength.event_damage import cheapest, event_damages, ramp_damages
@@ -54,6 +55,24 @@ def test_a_load_step_swings_by_as_much_as_it_comes_to() -> None:
     assert torque.max() == pytest.approx(260.0, rel=2e-3)  # 60 + 2 (160 - 60), 40 samples a period
     slow, _shafts = event_torque(line(), replace(STEP, duration=2.0 * math.pi / math.sqrt(STIFFNESS / SECOND)))
     assert slow.max() == pytest.approx(160.0, rel=1e-3)  # a ramp of one period leaves no vibration behind
+
+
+def again(torque: np.ndarray) -> np.ndarray:
+    """Return what an event of this torque [N·m] does each time, from its peak to the peak of the next one."""
+    twice = np.tile(torque, 2)
+    first = int(np.argmax(torque))
+    return twice[first : first + len(torque) + 1]
+
+
+def test_what_comes_again_and_again_leaves_no_cycle_half() -> None:
+    """A ramp of one period leaves no vibration behind: each step is one cycle from 60 to 160 N·m, and back."""
+    slow = replace(STEP, duration=2.0 * math.pi / math.sqrt(STIFFNESS / SECOND))
+    courses = followed(line(), slow)
+    assert isinstance(courses, dict)
+    cycles = courses[0].cycles
+    (largest,) = np.flatnonzero(cycles.range > 50.0)
+    assert (cycles.range[largest], cycles.count[largest]) == (pytest.approx(100.0, rel=3e-3), 1.0)
+    assert set(cycles.count) <= {float(one) for one in range(1, 1000)}
 
 
 def test_a_clutch_passes_on_what_it_can_and_then_all_that_is_asked() -> None:
@@ -154,7 +173,7 @@ def test_the_damage_of_an_event_cycle_by_cycle() -> None:
     """σ_a = √((2M/W)² + 3(T_a/W)²), σ_m = √3 T_m/W, N = (σ_r/A)^(1/B) where Goodman's safety is below 1."""
     step = Event(kind="load_step", count=2000.0, torque=1500.0)
     subject = design(tube(events=(step,)))
-    cycles = rainflow(event_torque(subject.drive, step)[0][:, 0])
+    cycles = rainflow(again(event_torque(subject.drive, step)[0][:, 0]))
     modulus = math.pi * (0.046**4 - 0.038**4) / (16 * 0.046)
     swing, mean = 0.5 * cycles.range / modulus, np.abs(cycles.mean) / modulus
     case = subject.loaded[0]
