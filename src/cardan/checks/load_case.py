@@ -41,9 +41,10 @@ class Vibration:
 
     @property
     def growth(self) -> Array:
-        """Largest torque over that without vibration, array (s, n+1); nan for a shaft that carries none."""
+        """Largest torque over that without vibration, array (s, n+1); inf where there is none, nan without either."""
         size = np.maximum(np.abs(self.low), np.abs(self.high))
-        found: Array = size / np.where(self.without > 0.0, self.without, np.nan)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found: Array = size / self.without
         return found
 
 

@@ -23,6 +23,7 @@ from cardan.drive.conditions import used_speeds
 from cardan.drive.cross import Cross
 from cardan.drive.joint_parts import Needles
 from cardan.drive.joints import Hooke
+from cardan.drive.pose import Pose
 from cardan.questions.life.life import life
 from cardan.questions.life.rainflow import rainflow
 from cardan.units import deg, mm, rpm
@@ -217,3 +218,20 @@ def test_command_line_and_first_page(tmp_path, capsys):
     assert main(["report", str(path), "-o", str(out)]) in (0, 1)
     page = out.read_text(encoding="utf-8")
     assert page.index("fatigue life of shaft 2") < page.index("safety, fatigue")  # before the chapter on strength
+
+
+@pytest.mark.parametrize("measured", [True, False])
+def test_a_shaft_tires_in_all_poses_by_their_shares(drive, measured):
+    """A quarter of the time at 25°: the damages a second add up, in the table of strength and in the verdict."""
+    if not measured:
+        drive = replace(drive, duty=replace(drive.duty, torque_history=None, torque=4500.0))
+    raised = replace(drive, joints=(drive.joints[0], replace(drive.joints[1], joint_angle=25 * deg)))
+    rates = [1.0 / strength(one).shafts[1].fatigue_life for one in (drive, raised)]
+    assert rates[1] > 1.5 * rates[0]
+    pose = Pose(name="raised", set=(("joints[1].joint_angle_deg", 25.0),), share=0.25)
+    found = strength(replace(drive, poses=(pose,)))
+    assert found.shafts[1].fatigue_life == pytest.approx(1.0 / (0.75 * rates[0] + 0.25 * rates[1]))
+    if measured:
+        verdict = one(check(replace(drive, poses=(pose,)), only=["shaft_life"]), "shaft_life")
+        assert verdict.value == pytest.approx(found.shafts[1].fatigue_life)
+        assert not verdict.note

@@ -277,3 +277,24 @@ def test_events_load_a_drive_as_drawn_beside_its_poses() -> None:
     said = [name for name, _one in happening(design(drive))]
     assert said == ["largest in time: load step"]
     assert not [one for _name, stand in stood(design(drive)) for one in happening(stand)]
+
+
+def test_without_torque_events_and_vibration_load_a_drive_alone() -> None:
+    """A clutch closes on a flywheel that nothing resists: its torque, its damage, and no times of none at all."""
+    drive = tube(events=(replace(CLUTCH, torque=900.0),))
+    free = replace(drive, duty=replace(drive.duty, torque=0.0))
+    (found,) = event_damages(free)
+    assert found.torque == pytest.approx(np.max(np.abs(event_torque(free, free.duty.events[0])[0])))
+    said = [told(one.text, USUAL) for one in answer(free, strength(free)).remarks]
+    (counted,) = [one for one in said if "Torsional vibration is counted" in one]
+    assert "times that without it" not in counted
+
+
+def test_starts_are_those_of_the_drive_as_drawn_and_running_that_of_all_poses() -> None:
+    drive = tube(run_up=RunUp(end=540 * rpm, duration=2.0), starts=1000.0)
+    pose = Pose(name="raised", set=(("joints[0].joint_angle_deg", 18.0),), share=0.3)
+    ((alone,), (posed,)) = (check(one, only=["start_fatigue"]) for one in (drive, replace(drive, poses=(pose,))))
+    assert posed.value == pytest.approx(alone.value)  # in neither does running tire it
+    assert strength(replace(drive, poses=(pose,))).shafts[1].fatigue_life == pytest.approx(
+        drive.duty.life / posed.value
+    )

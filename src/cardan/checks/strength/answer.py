@@ -428,6 +428,8 @@ def _vibrating(result: Strength, *, runs_up: bool) -> Iterator[Remark]:
         "Torsional vibration is counted: at {speed} the torque in {name} runs from {low:bare} to {high}, {more} times "
         "that without it."
     )
+    if math.isinf(found.factor):
+        text = _("Torsional vibration is counted: at {speed} the torque in {name} runs from {low:bare} to {high}.")
     torques = {"low": found.low, "high": found.high}
     told = {name: Quantity(value, "torque", 4) for name, value in torques.items()}
     more = Quantity(found.factor, digits=3)
@@ -480,7 +482,7 @@ def _vibration_facts(found: Vibration | None) -> dict[str, Any] | None:
         "speed": Quantity(found.speed, "angular_speed"),
         "low": Quantity(found.low, "torque"),
         "high": Quantity(found.high, "torque"),
-        "factor": found.factor,
+        "factor": found.factor if math.isfinite(found.factor) else None,
         "stable": found.stable,
     }
 

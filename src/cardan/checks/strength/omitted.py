@@ -51,7 +51,8 @@ def vibration(subject: Design) -> Vibration | None:
 
     The torque of a steady motion that grows is the least that the drive reaches.
     """
-    told = [(case, one) for case in subject.loaded if (one := case.vibration) is not None]
+    vibrating = [(case, one) for case in subject.loaded if (one := case.vibration) is not None]
+    told = [(case, one) for case, one in vibrating if not np.all(np.isnan(one.growth))]  # some torque
     if not told:
         return None
     _case, worst = foremost_of(told, lambda one: float(np.nanmax(one[1].growth)))

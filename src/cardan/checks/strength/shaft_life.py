@@ -13,6 +13,7 @@ from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.event_loads import followed, sorted_into_classes
 from cardan.checks.load_case import Case
+from cardan.checks.moving import stands
 from cardan.checks.verdict import Verdict
 from cardan.drive.duty import History
 from cardan.drive.machine import Event, RunUp
@@ -80,10 +81,28 @@ def measured(design: Design) -> bool:
 
 
 def spectrum(design: Design, k: int, section: Section) -> Spectrum:
-    """Return the stress cycles of a stretch of a shaft, counted from 0, under a measured torque.
+    """Return the stress cycles of a stretch of a shaft, counted from 0, under a measured torque, over all poses.
 
     Cycles of the torque itself by rainflow, and the turns of the shaft in the time at its levels.
     """
+    found = [(fatigue, share * rate) for share, one in stands(design) for fatigue, rate in _measured(one, k, section)]
+    outer = np.broadcast_shapes(*(np.shape(one)[:-1] for its, rate in found for one in (its.alternating, rate)))
+
+    def whole(rows: Sequence[Array]) -> Array:
+        return np.concatenate([np.broadcast_to(one, (*outer, np.shape(one)[-1])) for one in rows], axis=-1)
+
+    ultimate = np.asarray(design.value(section.of_material("ultimate_strength")), dtype=float)[..., None]
+    return Spectrum(
+        alternating=whole([one.alternating for one, _rate in found]),
+        mean=whole([one.mean for one, _rate in found]),
+        rate=whole([rate for _one, rate in found]),
+        endurance=found[0][0].endurance,
+        ultimate=ultimate,
+    )
+
+
+def _measured(design: Design, k: int, section: Section) -> Iterator[tuple[Fatigue, Array]]:
+    """Yield cycles and turns of a drive that stands in one way, with how often they come [1/s]."""
     history = design.duty.torque_history
     assert history is not None
     peak, most = design.loaded[-1], max(abs(one) for one in history.torques) or 1.0
@@ -98,24 +117,11 @@ def spectrum(design: Design, k: int, section: Section) -> Spectrum:
         turns = speed / (2.0 * math.pi)
     else:
         turns = np.abs(np.asarray(0.0 if speed is None else speed))[..., None] / (2.0 * math.pi)
-    parts = (
+    for mean, swing, bent, rate in (
         (high * np.abs(counted.mean), 0.5 * high * counted.range, 0.0 * bending, counted.count / _duration(design)),
         (0.5 * (high + low) * size, 0.5 * (high - low) * size, bending * size, turns * levels.share[spent]),
-    )
-    found = [of_loads(design, k, section, *loads, spread=True) for *loads, _rate in parts]
-    outer = np.broadcast_shapes(*(one.alternating.shape[:-1] for one in found), np.shape(turns)[:-1])
-
-    def whole(rows: Sequence[Array]) -> Array:
-        return np.concatenate([np.broadcast_to(one, (*outer, np.shape(one)[-1])) for one in rows], axis=-1)
-
-    ultimate = np.asarray(design.value(section.of_material("ultimate_strength")), dtype=float)[..., None]
-    return Spectrum(
-        alternating=whole([one.alternating for one in found]),
-        mean=whole([one.mean for one in found]),
-        rate=whole([rate for *_loads, rate in parts]),
-        endurance=found[0].endurance,
-        ultimate=ultimate,
-    )
+    ):
+        yield of_loads(design, k, section, mean, swing, bent, spread=True), rate
 
 
 @lru_cache(maxsize=8)
@@ -182,11 +188,12 @@ def _of_starts(design: Design, k: int, section: Section) -> Array:
 
 
 def _of_turns(design: Design, k: int, section: Section) -> Array:
-    """Return the damage a second of every turn."""
+    """Return the damage a second of every turn, in all poses by their shares."""
     rate: Array = np.zeros(design.shape)
-    for case in lasting(design):
-        turns = np.asarray(case.share) * np.abs(case.speed or 0.0) / (2.0 * math.pi)
-        rate = rate + turns / np.maximum(fatigue(design, k, section, case).cycles, 1.0)
+    for share, one in stands(design):
+        for case in lasting(one):
+            turns = share * np.asarray(case.share) * np.abs(case.speed or 0.0) / (2.0 * math.pi)
+            rate = rate + turns / np.maximum(fatigue(one, k, section, case).cycles, 1.0)
     return rate
 
 
@@ -304,4 +311,5 @@ CHECK = Check(
     unit="h",
     sense="at_least",
     power=1.0,
+    gathers="sum",
 )

@@ -74,4 +74,5 @@ CHECK = Check(
     doc=mark("fatigue damage of every shaft by the starts of its life and by running"),
     shaft=_judge,
     title=mark("fatigue damage of shaft {number} by starts and running"),
+    gathers="sum",
 )
