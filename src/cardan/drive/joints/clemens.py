@@ -20,7 +20,7 @@ from cardan.units import KEY, Key, plain, quantity
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
 from .common.laws import contact_push
 from .common.site import Site
-from .joint import CROSS_ONLY, REFUSALS, Joint, both_or_none
+from .joint import CROSS_ONLY, FREE, REFUSALS, Joint, both_or_none
 from .pin_coupling import wrapped
 
 
@@ -54,6 +54,7 @@ class Clemens(Joint):
         **REFUSALS,
         "forces": mark("without its profile it is open where its arms touch, and so with what force"),
     }
+    stays: ClassVar[str] = FREE
 
     driving: Profile | None = plain(None, doc="profile of the driving shaft; without it the coupling counts as uniform")
     driven: Profile | None = plain(None, doc="profile of the driven shaft; as that of the driving one when not given")

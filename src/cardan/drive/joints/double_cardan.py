@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from .common import laws as tilted_plane
 from .common import site as drawn
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
 from .common.site import BACK, Site
-from .joint import CROSS_ONLY, Inside, Joint, both_or_none
+from .joint import CROSS_ONLY, EXACT, Inside, Joint, both_or_none
 
 APART = 0.1  # distance of both joint centres over the length of the shaft behind, where nobody says it
 
@@ -38,6 +38,8 @@ class DoubleCardan(Joint):
     rated: ClassVar[tuple[str, ...]] = (*rubbing, "bearing_capacity")
     fixed: ClassVar[bool] = True
     law_sizes: ClassVar[tuple[str, ...]] = ("centring_ratio",)
+    place_sizes: ClassVar[tuple[str, ...]] = ("centring_ratio",)
+    stays: ClassVar[str] = mark("without centre_distance it is open how far its ball stands off")
     steepest: ClassVar[float] = 0.5 * math.pi
 
     centring_ratio: float | None = plain(
@@ -158,6 +160,24 @@ class DoubleCardan(Joint):
         text = _("way of the ball along the other shaft, over the distance of both joint centres")
         way = float(slide(joint_angle, ratio) - slide(0.0, ratio))
         yield Inside(key="ball_way", meaning=text, value=way, dimension=None)
+
+    def placing(self) -> tuple[str, ...]:
+        """Return its centring ratio, where the distance of both centres tells how far that moves the ball."""
+        return () if self.centre_distance is None else super(DoubleCardan, self).placing()
+
+    def head(self, stance: Stance, off: Mapping[str, Any] = EXACT) -> Array:
+        """Return where its ball stands, the driving yoke in its place: on the driving shaft, farther on by the error.
+
+        Of a ball on the driven shaft the triangle of both centres and the ball tells how far.
+        """
+        error, ratio = off.get("centring_ratio"), self.centring_ratio
+        if error is None or ratio is None or self.centre_distance is None:
+            return stance.centre
+        drawn_angle = stance.joint_angle if stance.drawn_angle is None else stance.drawn_angle
+        far = slide(stance.joint_angle, ratio + error) - slide(drawn_angle, ratio)
+        far = error if self.ball_on == "driving" else far
+        found: Array = stance.centre + np.asarray(self.centre_distance * far)[..., None] * stance.before
+        return found
 
     def half_length(self, apart: float) -> float:
         """Return how far either cross stands off the centre [m]."""

@@ -19,6 +19,9 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``loose``            no: it holds its shafts in its centre, but for sliding
 ``twist_spring``     none: it does not give under torque
 ``law_sizes``        none: its law follows none of its sizes, so that errors of them do nothing to it
+``place_sizes``      none: its driven shaft stays where it is, whatever its sizes
+``placing``          those of ``place_sizes`` that it gives
+``stays``            it holds both shafts in one centre
 ``stuck``            its kind and the joint angle at which it does not turn
 ``inside``           nothing else moves in it
 ``rubbing``          no: what rubs in it is not counted
@@ -95,6 +98,14 @@ REFUSALS: Mapping[str, str] = MappingProxyType(
 """Question -> why a joint that is no cross joint does not answer it, marked for translation."""
 
 
+EXACT: Mapping[str, Any] = MappingProxyType({})
+"""Errors of a joint made as drawn."""
+
+
+FREE = mark("it holds nothing of its shafts but the turn: their bearings keep them, and only the contact moves")
+"""Why sizes of a joint with a contact move no shaft."""
+
+
 NO_BEARING = mark("its balls slide as they roll in their grooves, for which ISO 281 has no life")
 """Why a joint with balls has no life by ISO 281."""
 
@@ -156,6 +167,12 @@ class Joint:
 
     law_sizes: ClassVar[tuple[str, ...]] = ()
     """Keys of its sizes that its law follows: what of them is off, or may be, is told beside them."""
+
+    place_sizes: ClassVar[tuple[str, ...]] = ()
+    """Keys of its sizes, or of the errors of its cross, that the place of its driven shaft follows."""
+
+    stays: ClassVar[str] = mark("it holds both shafts in one centre, whatever its sizes")
+    """Why errors inside it do not move its driven shaft where none is `placing`, marked for translation."""
 
     slides: ClassVar[bool] = False
     """Whether it lets its shafts slide along each other."""
@@ -256,19 +273,28 @@ class Joint:
 
     @classmethod
     def size_keys(cls) -> dict[str, Key]:
-        """Return what the sizes mean that its law follows."""
+        """Return what the sizes mean that its law or the place of its driven shaft follows."""
         given = {one.name: one.metadata[KEY] for one in fields(cls) if KEY in one.metadata}
-        return {name: given[name] for name in cls.law_sizes}
+        return {name: given[name] for name in cls._counting()}
+
+    @classmethod
+    def _counting(cls) -> tuple[str, ...]:
+        """Return the keys of the sizes that its law or the place of its driven shaft follows."""
+        return () if cls.single_cross else tuple(dict.fromkeys((*cls.law_sizes, *cls.place_sizes)))
 
     @classmethod
     def tables(cls) -> Mapping[str, Any]:
         """Return the classes of its keys `error` and `tolerance`, where they are not those of a cross joint."""
-        alike: Any = cls if cls.law_sizes else Joint
+        alike: Any = cls if cls.size_keys() else Joint
         return {} if cls.single_cross else departures.tables(alike)
 
     def sizes(self) -> dict[str, float | None]:
-        """Return the sizes that its law follows, None where one is not given."""
-        return {name: getattr(self, name) for name in self.law_sizes}
+        """Return the sizes that its law or the place of its driven shaft follows, None where one is not given."""
+        return {name: getattr(self, name) for name in self._counting()}
+
+    def placing(self) -> tuple[str, ...]:
+        """Return the keys of the errors by which its driven shaft leaves its place, as far as its sizes are given."""
+        return tuple(name for name in self.place_sizes if getattr(self, name) is not None)
 
     def sized(self, sizes: Mapping[str, Any]) -> Joint:
         """Return it with other sizes of those that its law follows."""
@@ -394,14 +420,17 @@ class Joint:
         """Whether its driven shaft wobbles while it turns, by the sizes given."""
         return False
 
-    def head(self, stance: Stance) -> Array:
-        """Return where its driven shaft starts, array (..., 3) [m]."""
+    def head(self, stance: Stance, off: Mapping[str, Any] = EXACT) -> Array:
+        """Return where its driven shaft starts, array (..., 3) [m].
+
+        off: key of its errors -> error (...) [SI], as far as its driven shaft leaves its place by them.
+        """
         return stance.centre
 
-    def held(self, length: float | None) -> float | None:
+    def held(self, length: float | None, off: Mapping[str, Any] = EXACT) -> float | Array | None:
         """Return how far from the joint centre its driven shaft is held and swivels [m]; None where nobody says.
 
-        length [m]: of that shaft up to the next joint; None where it is not known or there is none.
+        length [m]: of that shaft up to the next joint; None where it is not known or there is none. off: as `head`.
         """
         return length
 

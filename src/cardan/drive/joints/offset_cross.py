@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from cardan.units import plain, quantity
 from .common import site as drawn
 from .common.inner import DRIVEN, FRAME, InnerPair, Stance, carried, crossed
 from .common.site import Site
-from .joint import CROSS_ONLY, REFUSALS, Inside, Joint, both_or_none
+from .joint import CROSS_ONLY, EXACT, Inside, Joint, both_or_none
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -33,10 +33,7 @@ class OffsetCross(Joint):
     types: ClassVar[tuple[str, ...]] = ("hooke_offset_cross",)
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("journal_span", "journal_diameter")
-    refusals: ClassVar[Mapping[str, str]] = {
-        **REFUSALS,
-        "tolerance": mark("it turns by the law of a Hooke joint for any offset, which makes its shaft wobble alone"),
-    }
+    place_sizes: ClassVar[tuple[str, ...]] = ("offset", "reach")
     crossed: ClassVar[bool] = True
     fixed: ClassVar[bool] = True
 
@@ -104,14 +101,15 @@ class OffsetCross(Joint):
         """Whether its pins stand apart."""
         return self.offset > 0.0
 
-    def head(self, stance: Stance) -> Array:
+    def head(self, stance: Stance, off: Mapping[str, Any] = EXACT) -> Array:
         """Return where its driven pin meets the driven shaft."""
-        found: Array = stance.centre + self._aside * frames.cross(stance.driving, stance.driven)
+        aside = np.asarray(self._aside + math.copysign(1.0, self._aside) * off.get("offset", 0.0))
+        found: Array = stance.centre + aside[..., None] * frames.cross(stance.driving, stance.driven)
         return found
 
-    def held(self, length: float | None) -> float:
+    def held(self, length: float | None, off: Mapping[str, Any] = EXACT) -> float | Array:
         """Return where its sliding ball stands."""
-        return self.reach
+        return self.reach + off.get("reach", 0.0)
 
     @property
     def ball(self) -> float:

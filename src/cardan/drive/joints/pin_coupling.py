@@ -19,7 +19,7 @@ from cardan.units import deg, quantity
 from .common.inner import DRIVEN, DRIVING, Contact, InnerPair, Stance
 from .common.laws import contact_push
 from .common.site import Site, about
-from .joint import CROSS_ONLY, REFUSALS, Inside, Joint, both_or_none
+from .joint import CROSS_ONLY, FREE, REFUSALS, Inside, Joint, both_or_none
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -40,6 +40,7 @@ class PinCoupling(Joint):
         **REFUSALS,
         "forces": mark("without the distances of its pins it is open where they touch, and so with what force"),
     }
+    stays: ClassVar[str] = FREE
 
     driving_slant: float = quantity(
         "angle", math.pi / 4, doc="angle of the driving pin with its shaft's axis", above=0.0, below=math.pi / 2

@@ -47,6 +47,9 @@ class Rzeppa(Joint):
     rubbing: ClassVar[tuple[str, ...]] = GROOVES
     pressed: ClassVar[tuple[str, ...]] = (*GROOVES, "ball_diameter", "groove_conformity", "pressure_angle")
     refusals: ClassVar[Mapping[str, str]] = {**REFUSALS, "life": NO_BEARING}
+    stays: ClassVar[str] = mark(
+        "both races hold the centre by the spheres of its cage; lever and grooves move cage and balls alone"
+    )
     fixed: ClassVar[bool] = True
     law_sizes: ClassVar[tuple[str, ...]] = (*LEVER, *GROOVES)
     steepest: ClassVar[float] = math.radians(47.0)

@@ -37,6 +37,7 @@ class Tracta(Joint):
     law_sizes: ClassVar[tuple[str, ...]] = ("driving_distance", "driven_distance")
     centred: ClassVar[bool] = True
     steepest: ClassVar[float] = math.radians(50.0)
+    stays: ClassVar[str] = mark("its halves slide on each other, so that both shafts stay in their bearings")
 
     driving_distance: float | None = quantity(
         "length", None, doc="from the joint centre to the middle of the groove of the driving fork", above=0.0

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from cardan.units import quantity
 
 from .common.inner import DRIVEN, DRIVING, Contact, InnerPair, Stance
 from .common.site import Side, Site, about
-from .joint import CROSS_ONLY, Inside, Joint
+from .joint import CROSS_ONLY, EXACT, Inside, Joint
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -36,6 +36,7 @@ class Tripod(Joint):
     rated: ClassVar[tuple[str, ...]] = ("track_radius", "roller_diameter", "bearing_capacity")
     fixed: ClassVar[bool] = True
     slides: ClassVar[bool] = True
+    place_sizes: ClassVar[tuple[str, ...]] = ("track_radius", "pivot")
     steepest: ClassVar[float] = math.radians(26.0)
 
     track_radius: float | None = quantity(
@@ -130,16 +131,17 @@ class Tripod(Joint):
         """Whether it is known how far its spider orbits."""
         return self.track_radius is not None
 
-    def head(self, stance: Stance) -> Array:
+    def head(self, stance: Stance, off: Mapping[str, Any] = EXACT) -> Array:
         """Return the centre of its spider, which moves in its own plane."""
-        x, y = spider_centre(stance.theta, stance.joint_angle, self.track_radius or 0.0)
+        radius = (self.track_radius or 0.0) + off.get("track_radius", 0.0)
+        x, y = spider_centre(stance.theta, stance.joint_angle, radius)
         up = frames.cross(stance.normal, stance.after)
         found: Array = stance.centre + x[..., None] * up + y[..., None] * stance.normal
         return found
 
-    def held(self, length: float | None) -> float | None:
+    def held(self, length: float | None, off: Mapping[str, Any] = EXACT) -> float | Array | None:
         """Return where its shaft pivots."""
-        return length if self.pivot is None else self.pivot
+        return length if self.pivot is None else self.pivot + off.get("pivot", 0.0)
 
     @property
     def own_span(self) -> float | None:

@@ -133,6 +133,9 @@ class Weiss(Joint):
     rubbing: ClassVar[tuple[str, ...]] = ("driving_offset", "driven_offset", "groove_radius")
     pressed: ClassVar[tuple[str, ...]] = (*rubbing, "ball_diameter", "groove_conformity")
     refusals: ClassVar[Mapping[str, str]] = {**REFUSALS, "life": NO_BEARING}
+    stays: ClassVar[str] = mark(
+        "a centre ball holds its shafts; what is off in its grooves is play of the balls, or strain"
+    )
     fixed: ClassVar[bool] = True
     law_sizes: ClassVar[tuple[str, ...]] = ("driving_offset", "driven_offset", "groove_radius")
     centred: ClassVar[bool] = True

@@ -7,8 +7,8 @@ moves: its law holds at every instant with the joint angle and the plane of that
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.joints import Joint
 from cardan.drive.joints.common.inner import Stance
+from cardan.drive.joints.joint import EXACT
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 
@@ -50,12 +51,19 @@ class Course:
 
 
 def course(
-    drive: Drive, angle: Array, place: Geometry | None = None, *, phase: float | None = None, still: bool = False
+    drive: Drive,
+    angle: Array,
+    place: Geometry | None = None,
+    *,
+    phase: float | None = None,
+    still: bool = False,
+    off: Sequence[Mapping[str, Array]] = (),
 ) -> Course:
-    """Return where the shafts of a drive are at input angles (p,) [rad] from the start position.
+    """Return where the shafts of a drive are at input angles (p,), or (..., p), [rad] from the start position.
 
     place: where its joints are; as drawn when not given. phase [rad]: ψ_1; as the drive says when not given.
     still: whether a joint that does not turn at its joint angle passes on its mark as one of constant velocity would.
+    off: errors of each joint by which its driven shaft leaves its place, see `Joint.head`, as wide as the angles.
     A shaft that starts off the centre of its joint swivels where it is held: in the ball of an offset cross, in its
     next joint otherwise. An end shaft that nothing holds keeps its direction. Beyond its ball a shaft carries the
     next joint around: at its length from where it starts, or, where it slides in a spline, as far along as drawn. Where
@@ -73,10 +81,12 @@ def course(
     for i, joint in enumerate(drive.joints):
         rest, here = place.axis[i + 1], place.points[i + 1]
         length = float(place.length[i + 1]) if i + 2 in known else None
-        held = joint.held(length)
-        stop = None if held is None else here + held * rest
-        stance = _settled(joint, centre, before, rest, stop, mark, float(place.length[i + 1]), still)
-        head = joint.head(stance)
+        held, own = joint.held(length), off[i] if off else EXACT
+        made = held if held == length else joint.held(length, own)
+        stop = None if made is None else here + np.asarray(made)[..., None] * rest
+        drawn_angle, far = float(place.joint_angle[i]), float(place.length[i + 1])
+        stance = _settled(joint, centre, before, rest, stop, mark, far, still, own, drawn_angle)
+        head = joint.head(stance, own)
         rows.append(stance)
         starts.append(head)
         zero = frames.cross(place.normal[i], rest)
@@ -84,11 +94,11 @@ def course(
         turned.append(frames.angle_about(rest, zero, upright) - (0.5 * np.pi if joint.crossed else 0.0))
         if i + 1 == count:
             break
-        far = place.points[i + 2]
+        there = place.points[i + 2]
         if stop is None or length is None or held == length:
-            centre = np.broadcast_to(far, before.shape)
+            centre = np.broadcast_to(there, before.shape)
         elif drive.shafts[i + 1].spline is not None:
-            centre = stop + (((far - stop) @ rest) / (stance.after @ rest))[..., None] * stance.after
+            centre = stop + (((there - stop) @ rest) / (stance.after @ rest))[..., None] * stance.after
         else:
             centre = head + (length - _ahead(joint, place, i)) * stance.after
         before = stance.after
@@ -106,20 +116,29 @@ def course(
 
 
 def _settled(
-    joint: Joint, centre: Array, before: Array, rest: Array, stop: Array | None, mark: Array, length: float, still: bool
+    joint: Joint,
+    centre: Array,
+    before: Array,
+    rest: Array,
+    stop: Array | None,
+    mark: Array,
+    length: float,
+    still: bool,
+    off: Mapping[str, Array],
+    drawn_angle: float,
 ) -> Stance:
     """Return how a joint stands once its driven shaft points from its start to where it is held."""
     after = np.broadcast_to(rest, before.shape) if stop is None else frames.unit(stop - centre)
     for _round in range(ROUNDS):
-        stance = _stance(joint, centre, before, after, mark, length, still)
+        stance = replace(_stance(joint, centre, before, after, mark, length, still), drawn_angle=drawn_angle)
         if stop is None:
             return stance
-        turned = frames.unit(stop - joint.head(stance))
+        turned = frames.unit(stop - joint.head(stance, off))
         moved = float(np.max(np.abs(turned - after)))
         after = turned
         if moved <= CLOSE:
             break
-    return _stance(joint, centre, before, after, mark, length, still)
+    return replace(_stance(joint, centre, before, after, mark, length, still), drawn_angle=drawn_angle)
 
 
 def _stance(
@@ -153,13 +172,14 @@ def _stance(
 
 
 def _ahead_of(joint: Joint, theta: Array, joint_angle: Array) -> Array:
-    """Return how far a joint runs ahead at angles (p,) [rad], each with a joint angle of its own."""
+    """Return how far a joint runs ahead at angles (...) [rad], each with a joint angle of its own."""
+    shape, theta, joint_angle = np.shape(theta), np.ravel(theta), np.ravel(joint_angle)
     low, high = float(np.min(joint_angle)), float(np.max(joint_angle))
     with np.errstate(invalid="ignore", divide="ignore"):
         if joint.has_map:
-            return np.asarray(joint.deviation(theta, joint_angle)[0], dtype=float)
+            return np.reshape(np.asarray(joint.deviation(theta, joint_angle)[0], dtype=float), shape)
         if high - low <= STRAIGHT:
-            return np.asarray(joint.deviation(theta, np.asarray(high))[0], dtype=float)
+            return np.reshape(np.asarray(joint.deviation(theta, np.asarray(high))[0], dtype=float), shape)
         nodes = np.cos(np.pi * np.arange(NODES) / (NODES - 1))
         places = 0.5 * (low + high) + 0.5 * (high - low) * nodes
         each = np.asarray([joint.deviation(theta, np.asarray(one))[0] for one in places])
@@ -169,7 +189,8 @@ def _ahead_of(joint: Joint, theta: Array, joint_angle: Array) -> Array:
     near = np.abs(apart) <= STRAIGHT
     share = weight[:, None] / np.where(near, 1.0, apart)
     found = np.sum(share * each, axis=0) / np.sum(share, axis=0)
-    return np.where(np.any(near, axis=0), np.sum(near * each, axis=0) / np.maximum(np.sum(near, axis=0), 1), found)
+    found = np.where(np.any(near, axis=0), np.sum(near * each, axis=0) / np.maximum(np.sum(near, axis=0), 1), found)
+    return np.reshape(found, shape)
 
 
 def _carried(mark: Array, axis: Array, rest: Array) -> Array:

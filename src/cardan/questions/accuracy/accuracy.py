@@ -20,7 +20,7 @@ from cardan.maths.kernel import loops
 from cardan.questions.motion.motion import Motion, followed, motion
 from cardan.texts import _
 
-from . import own_laws
+from . import own_laws, places
 from .own_laws import TURNS, seats
 
 WAYS = ("s1", "a1", "a2", "a3", "a4")
@@ -118,7 +118,7 @@ def sensitivity(drive: Drive | Drives | Chain, angle: ArrayLike, *, located: Seq
 
     For joint j the row of φ_4 of `loops.influence`, with the sign of θ' = π/2 - φ_4, times the speed
     ratios of all joints behind it; the same numbers for shifts, because lengths are to angles as the dual parts of
-    dual numbers.
+    dual numbers. A size by which a shaft lies elsewhere adds what its joints then turn.
     """
     moved = still(drive, angle)
     xp = namespace(moved.joint_angle)
@@ -128,7 +128,12 @@ def sensitivity(drive: Drive | Drives | Chain, angle: ArrayLike, *, located: Seq
         row = own[..., j, :, :] if weight is None else weight[..., None] * own[..., j, :, :]
         rows.append(row)
         weight = row[..., 0] * (0.0 if j + 1 in located else 1.0)
-    return xp.stack(rows[::-1], axis=-2)
+    table = xp.stack(rows[::-1], axis=-2)
+    if isinstance(drive, Drive):
+        names = seats(drive.joints)
+        for (j, key), found in places.influences(drive, np.atleast_1d(np.asarray(angle, dtype=float)), names).items():
+            table[..., j, names[j].index(key)] += found.angle
+    return table
 
 
 def still(drive: Drive | Drives | Chain, angle: ArrayLike) -> Motion:
@@ -224,7 +229,8 @@ def transmission_error(
     errors. The phase turns its driving yoke on; θ' = π/2 - φ_4. A shaft that floats passes the shift on,
     u_j = -s_4 with s_1 = u_{j-1} + its own. To first order Book (171), (180), chained. Joints of other kinds turn by
     their law with their joint angle, the place of their driving mark and the sizes that it follows off by the errors;
-    they pass on a shift as they pass on the turn, one that slides none.
+    they pass on a shift as they pass on the turn, one that slides none. A size by which a shaft lies elsewhere adds
+    what the joints turn as they then stand.
 
     Examples
     --------
@@ -246,7 +252,13 @@ def transmission_error(
     start = xp.cos(mu[..., :1] + phi), xp.sin(mu[..., :1] + phi)
     ideal, linear = walk(chain, None, start, own=own, carry=((turned, ()), (shifted, held)))
     actual, exact = walk(chain, turned, start, own=own, carry=((shifted, held),))
-    error = ahead(actual, ideal)
+    error, more = ahead(actual, ideal), linear[-1][0]
+    if isinstance(drive, Drive):
+        names = seats(drive.joints)
+        if off := places.of_errors(drive, names, turned):
+            error = error + places.moved(drive, phi, off).angle
+            for (j, key), found in places.influences(drive, phi, names).items():
+                more = more + turned[..., j, names[j].index(key), None] * found.angle
     shape = (error + exact[-1][0]).shape
 
     def curves(rows: list[Array]) -> Array:
@@ -256,7 +268,7 @@ def transmission_error(
     return TransmissionError(
         angle=phi,
         error=error,
-        error_linear=xp.broadcast_to(linear[-1][0], shape),
+        error_linear=xp.broadcast_to(more, shape),
         shift=curves([row[0] for row in exact]),
         shift_linear=curves([row[1] for row in linear]),
         closes=xp.all(xp.isfinite(error), axis=-1),

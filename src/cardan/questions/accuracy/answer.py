@@ -19,7 +19,7 @@ from cardan.drive.fields.keys import in_a_joint
 from cardan.drive.models.wobble import wobbling
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost, largest
-from cardan.texts import _, mark
+from cardan.texts import _, mark, plural
 from cardan.units import arcmin, deg, mm
 
 from .accuracy import TransmissionError, course, transmission_error
@@ -40,6 +40,7 @@ from .figure import (
 )
 from .own_laws import table_of
 from .sampling import MonteCarlo
+from .shaft_places import PlaceShare, ShaftPlace, Ways, alone, largest_way, shaft_places, still_joints
 from .tolerance import Band, Contribution, Linear, Method, ToleranceBand, WorstCase, tolerance
 
 CURVED = 0.02
@@ -53,6 +54,9 @@ NONE = 1e-9
 
 DIGITS = 3
 """Digits of the tolerances that are written into a file, rounded down so that the target holds."""
+
+TOLD = 0.1
+"""Share of all that moves a shaft below which a tolerance has no row of its own."""
 
 MOST_ANGLES = 6
 """More angles than this at which the target is reached are counted."""
@@ -70,6 +74,7 @@ class Accuracy:
     band: ToleranceBand | None = None
     worst: ToleranceBand | None = None  # the same in the worst case
     crosses: tuple[CrossPlay, ...] = ()  # how the cross of each joint moves; empty without errors of length
+    shafts: tuple[ShaftPlace, ...] = ()  # how far shafts lie off; empty where no error moves one
 
     @property
     def closes(self) -> bool:
@@ -100,12 +105,14 @@ def ask(
     if not found.closes:
         return found
     if not any(joint.tolerance is not None for joint in drive.joints):
-        shifts, moves = _shifts(drive), cross_play(drive, None)
-        acts = moves or any(_largest(_curve(known, side)) > 0.0 for side in (ANGLE, SHIFT)[: 1 + shifts])
-        return replace(found, crosses=moves) if acts else None
+        shifts, moves, shafts = _shifts(drive), cross_play(drive, None), shaft_places(drive, None)
+        acts = moves or shafts or any(_largest(_curve(known, side)) > 0.0 for side in (ANGLE, SHIFT)[: 1 + shifts])
+        return replace(found, crosses=moves, shafts=shafts) if acts else None
     band = tolerance(drive, method=method, progress=progress)
     worst = band if isinstance(method, WorstCase) else tolerance(drive, method=WorstCase())
-    return Accuracy(known=known, band=band, worst=worst, crosses=cross_play(drive, band))
+    return Accuracy(
+        known=known, band=band, worst=worst, crosses=cross_play(drive, band), shafts=shaft_places(drive, band)
+    )
 
 
 def otherwise(_drive: Drive) -> str:
@@ -132,7 +139,7 @@ def answer(drive: Drive, result: Accuracy) -> Answer:
         title=title,
         sentence=_sentence(drive, result),
         tables=tuple(_tables(drive, result)),
-        remarks=(*_as_drawn(drive), *_remarks(drive, result)),
+        remarks=(*_as_drawn(drive), *_unmoved(drive), *_remarks(drive, result)),
         keys=(*_keys(drive, result), *_cross_key(result)),
         figures=lambda: _figures(drive, result),
         facts=_facts(result),
@@ -174,7 +181,9 @@ def _figures(drive: Drive, result: Accuracy) -> tuple[Any, ...]:
     angle = np.asarray(result.known.angle if result.band is None else result.band.angle)
     moves = (cross_figure(angle, result.crosses),) if result.crosses else ()
     if result.band is not None:
-        return band_figure(result.band, shifts=shifts), pareto_figure(result.band, shifts=shifts), *moves
+        some = _open(drive, result.band)
+        bands = (band_figure(result.band, shifts=shifts), pareto_figure(result.band, shifts=shifts)) if some else ()
+        return *bands, *moves
     return (*((error_figure(result.known, shifts=shifts),) if _shown(drive, result) else ()), *moves)
 
 
@@ -188,6 +197,8 @@ def _way(method: Method) -> str:
 def _sentence(drive: Drive, result: Accuracy) -> Say:
     if result.band is None or result.worst is None:
         if not (shown := _shown(drive, result)):
+            if not result.crosses:
+                return _moved(result)
             way = max(result.crosses, key=lambda one: one.play)
             text = _(
                 "known errors do nothing to the output; over a turn they move the cross of joint {number} by {way} in "
@@ -200,7 +211,9 @@ def _sentence(drive: Drive, result: Accuracy) -> Say:
         if side is SHIFT:
             text = _("known errors shift the output by up to {size}; over a turn that changes by {change}.")
         return say(text, size=side.quantity(_largest(curve)), change=side.quantity(float(np.ptp(curve))))
-    side, band = _open(drive, result.band)[0]
+    if not (some := _open(drive, result.band)):
+        return _moved(result)
+    side, band = some[0]
     first = band.contributions[0]
     alike = [band.contributions[k] for k in largest([one.share for one in band.contributions])]
     parts = Joined([tolerance_name(one.joint, one.key) for one in alike], last=_(" and "))
@@ -219,6 +232,15 @@ def _sentence(drive: Drive, result: Accuracy) -> Say:
     return say(text, bounds=bounds, parts=parts, share=Quantity(first.share, "share", 2))
 
 
+def _moved(result: Accuracy) -> Say:
+    """Return what errors do that turn nothing: by how much they move which shaft."""
+    if not result.shafts:
+        return say(_("the tolerances do nothing to the output."))
+    most = max(result.shafts, key=lambda one: max(one.largest[:2]))
+    text = _("errors inside the joints do not turn the output; they move shaft {number} across itself by up to {way}.")
+    return say(text, number=most.shaft, way=SHIFT.quantity(max(most.largest[:2])))
+
+
 def _tables(drive: Drive, result: Accuracy) -> Iterator[Table]:
     text = _(
         "95 %: of the drives; 1× and 2×: once and twice a turn. Setting the output up once takes the constant part "
@@ -228,10 +250,12 @@ def _tables(drive: Drive, result: Accuracy) -> Iterator[Table]:
     yield from (replace(one, note=text if one is effects[-1] else "") for one in effects)
     if result.crosses:
         yield _moves(result)
-    if result.band is not None:
-        *first, last = (_parts(side, one) for side, one in _open(drive, result.band))
+    if result.band is not None and (some := _open(drive, result.band)):
+        *first, last = (_parts(side, one) for side, one in some)
         yield from first
         yield replace(last, note=_("Shares are of the variance over a turn."))
+    if result.shafts:
+        yield _lying(result)
     yield checks(list(_checks(drive, result)))
 
 
@@ -258,6 +282,42 @@ def _moves(result: Accuracy) -> Table:
             _column(SHIFT, "play", [one.play for one in rows], _("play needed")),
         ),
         note=_("Known errors and tolerances together; the play is the change over a turn, with the cross set once."),
+    )
+
+
+def _lying(result: Accuracy) -> Table:
+    """Return the table of how far errors inside the joints move the shafts."""
+    rows: list[tuple[int, Any, PlaceShare | None, Ways]] = []
+    for one in result.shafts:
+        ways = [(_("known errors"), one.known)]
+        if result.band is not None and len(one.shares) > 1:
+            ways.append((_way(result.band.method), one.reach))
+            ways += [] if isinstance(result.band.method, WorstCase) else [(_("worst case"), one.worst)]
+        rows += [(one.shaft, how, None, way) for how, way in ways if any(way)]
+        for part in one.shares:
+            if any(own > TOLD * most for own, most in zip(part.ways, one.worst, strict=True)):
+                rows.append((one.shaft, tolerance_name(part.joint, part.key), part, part.ways))
+    kinds = dict.fromkeys(part.dimension for _shaft, _how, part, _ways in rows if part is not None)
+    given = {
+        kind: [part.tolerance if part and part.dimension == kind else None for *_, part, _w in rows] for kind in kinds
+    }
+    headings = _("at its joint ±"), _("at its far end ±"), _("lean ±")
+    return Table(
+        title=_("How far errors inside the joints move the shafts"),
+        columns=(
+            Column(key="", heading=_("shaft"), values=[shaft for shaft, *_rest in rows]),
+            Column(key="", heading=_("how"), values=[how for _shaft, how, *_rest in rows], left=True),
+            *(_column(measure(kind), "", values, _("given ±")) for kind, values in given.items()),
+            *(
+                _column(side, "", [way[k] or None for *_rest, way in rows], heading)
+                for k, (side, heading) in enumerate(zip((SHIFT, SHIFT, ANGLE), headings, strict=True))
+                if any(way[k] for *_rest, way in rows)
+            ),
+        ),
+        note=_(
+            "Across the shaft, from where it lies as drawn, without play inside the joints; it swivels in its next "
+            "joint, or in a ball of its own."
+        ),
     )
 
 
@@ -339,16 +399,30 @@ def _parts(side: Side, band: Band) -> Table:
 def _as_drawn(drive: Drive) -> Iterator[Remark]:
     """Yield of which joints no inner size counts, and why, and how a shaft that wobbles counts."""
     if wobbling(drive):
-        yield Remark(text=_("Shafts that wobble count as drawn: what errors do to a wobble is not told."))
+        text = _("Errors of joint angles and yokes act as on shafts that lie in the mean of their wobble.")
+        yield Remark(text=text)
     for number, joint in enumerate(drive.joints, start=1):
         sizes = joint.sizes()
         if joint.single_cross or any(size is not None for size in sizes.values()):
             continue
         why = joint.refusal("tolerance")
         if sizes:
-            why = _("the file gives none of the sizes that its law follows, {keys}").format(keys=", ".join(sizes))
+            why = _("the file gives none of its sizes that count, {keys}").format(keys=", ".join(sizes))
         text = _("Of joint {number} only alpha4, its joint angle, and phase, the place of its yoke, can be off: {why}.")
         yield Remark(text=say(text, number=number, why=why), code="made_true")
+
+
+def _unmoved(drive: Drive) -> Iterator[Remark]:
+    """Yield of which joints no error inside moves a shaft, and why, one sentence for all with the same reason."""
+    found = list(still_joints(drive))
+    for why in dict.fromkeys(why for _number, why in found):
+        which = [str(number) for number, other in found if other == why]
+        text = plural(
+            "Errors inside joint {which} move no shaft: {why}.",
+            "Errors inside joints {which} move no shaft: {why}.",
+            len(which),
+        )
+        yield Remark(text=say(text, which=Joined(which, last=_(" and ")), why=why), code="shafts_stay")
 
 
 def _remarks(drive: Drive, result: Accuracy) -> Iterator[Remark]:
@@ -382,7 +456,9 @@ def _remarks(drive: Drive, result: Accuracy) -> Iterator[Remark]:
             yield Remark(text=say(text, count=int(band.convergence.lost)), tone="warning")
     if band.cancelled:
         yield Remark(text=_("Warning: the sampling was stopped; this is of what was drawn."), tone="warning")
-    side, one = _open(drive, band)[0]
+    if not (some := _open(drive, band)):
+        return
+    side, one = some[0]
     half = float(f"{0.5 * one.largest / side.size:.2g}") * side.size
     text = _("Find the cheapest tolerances for half of that:")
     yield Remark(text=text, command=("cardan", "accuracy", FILE, "--allocate", goal(half, side)), tone="next")
@@ -453,6 +529,15 @@ def _checks(drive: Drive, result: Accuracy) -> Iterator[Checked]:
             left=_largest(loop_slides(drive)[:, 2] + shifts) / _largest(shifts),
             allowed=1e-9,
         )
+    if parts := [(one.shaft, part) for one in result.shafts for part in one.shares]:
+        shaft, part = max(parts, key=lambda one: max(one[1].ways[:2]))
+        exact, told = (max(one[:2]) for one in (alone(drive, part)[shaft], part.ways))
+        yield Checked(
+            what=_("way of shaft {number} by {name}").format(number=shaft, name=tolerance_name(part.joint, part.key)),
+            how=_("exact loops with that error alone, over what the influence gives"),
+            left=abs(exact / told - 1.0),
+            allowed=CURVED,
+        )
     if band is None or result.worst is None or not band.output.contributions:
         return
     most = band.output.contributions[0]
@@ -478,6 +563,8 @@ def _checks(drive: Drive, result: Accuracy) -> Iterator[Checked]:
 def _facts(result: Accuracy) -> dict[str, Any]:
     known = {side.key: _course(_curve(result.known, side), side) for side in (ANGLE, SHIFT)}
     facts: dict[str, Any] = {"closes": True, "known": {key: one for key, one in known.items() if one}}
+    if result.shafts:
+        facts["shafts"] = [_shaft_facts(one) for one in result.shafts]
     band = result.band
     if band is None or result.worst is None:
         return facts
@@ -490,6 +577,27 @@ def _facts(result: Accuracy) -> dict[str, Any]:
         "lost_samples": None if drawn is None else drawn.lost,
         "standard_error": None if drawn is None else drawn.standard_error,
         "seed": band.method.seed if isinstance(band.method, MonteCarlo) else None,
+    }
+
+
+def _shaft_facts(one: ShaftPlace) -> dict[str, Any]:
+    """Return how far errors move a shaft, and its influence by one of each error in SI."""
+    keys, kinds = ("at_joint", "at_far_end", "lean"), (SHIFT, SHIFT, ANGLE)
+
+    def told(ways: Ways) -> dict[str, Any]:
+        return {key: side.quantity(way) for key, side, way in zip(keys, kinds, ways, strict=True)}
+
+    rows = [
+        {
+            "field": part.field,
+            "tolerance": measure(part.dimension).quantity(part.tolerance),
+            **told(part.ways),
+            **{f"{key}_per_unit": way / part.tolerance for key, way in zip(keys, part.ways, strict=True)},
+        }
+        for part in one.shares
+    ]
+    return {"shaft": one.shaft, "known": told(one.known), "reach": told(one.reach), "worst": told(one.worst)} | {
+        "contributions": rows
     }
 
 
@@ -668,9 +776,10 @@ def _options(found: Allocation) -> list[str]:
     return options + [word for one in found.rows if one.kept for word in ("--keep", one.field)]
 
 
-def _column_values(drive: Drive) -> tuple[float, float, float]:
+def _column_values(drive: Drive) -> tuple[float, float, float, float]:
     found = tolerance(drive)
-    return (found.output.largest, found.output.peak_to_peak, found.shift.largest)
+    way = largest_way(shaft_places(drive, found))
+    return (found.output.largest, found.output.peak_to_peak, found.shift.largest, way)
 
 
 COLUMNS = (
@@ -686,6 +795,9 @@ COLUMNS = (
             ),
             OutputColumn(
                 name="shift_mm", dimension="length", unit="mm", text=mark("largest shift of the output along itself")
+            ),
+            OutputColumn(
+                name="shaft_off_mm", dimension="length", unit="mm", text=mark("largest way of a shaft across itself")
             ),
         ),
         of_one=_column_values,

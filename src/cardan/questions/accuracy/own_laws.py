@@ -59,7 +59,9 @@ def influence(joint: Joint, joint_angle: float, theta: Array, count: int) -> Arr
     widest = max((abs(size) for size in given.values()), default=0.0)
     steps = {4: STEP}
     steps |= {
-        5 + k: STEP * max(abs(given[name]), LEAST * widest) for k, name in enumerate(joint.sizes()) if name in given
+        5 + k: STEP * max(abs(given[name]), LEAST * widest)
+        for k, name in enumerate(joint.sizes())
+        if name in given and name in joint.law_sizes
     }
     for seat, step in steps.items():
         for place, weight in WEIGHTS:

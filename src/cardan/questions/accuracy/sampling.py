@@ -17,6 +17,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.compiled.method import Compiled, Method, chosen, share
 from cardan.texts import _
 
+from . import places
 from .accuracy import (
     WAYS,
     TransmissionError,
@@ -30,7 +31,9 @@ from .accuracy import (
     transmission_error,
     walk,
     walked,
+    way_names,
 )
+from .own_laws import seats
 
 SIGMA = {"normal": 1.0 / 3.0, "uniform": 1.0 / math.sqrt(3.0), "triangular": 1.0 / math.sqrt(6.0)}
 """Standard deviation of each distribution, as a share of the tolerance."""
@@ -116,6 +119,7 @@ class Draw:
     samples: tuple[Sample, Sample]
     convergence: Convergence
     cancelled: bool
+    places: Array  # (n, 3) [m, m, rad]: 99.7 % quantiles of the ways of shafts, `places.sizes_of`, by the tolerances
 
 
 def drawn(limits: Array, distributions: Sequence[str], count: int, *, seed: int, points: str) -> Iterator[Array]:
@@ -177,14 +181,18 @@ def sampled(
     """
     limits = np.concatenate(error_arrays(spreads, drive.joints), axis=-1)
     laws = [law for row in spreads for law in ["normal" if row is None else row.distribution] * limits.shape[-1]]
-    seats = np.flatnonzero(limits)
+    drawn_seats = np.flatnonzero(limits)
     known = np.concatenate(error_arrays([joint.error for joint in drive.joints], drive.joints), axis=-1)
     phi = one_turn(method.positions)
     centre = transmission_error(drive, phi)
     sums = (Sums(centre.error), Sums(centre.output_shift))
     exact = Exact(drive, phi, known=known, limits=limits, centre=centre, samples=method.samples, method=method.compute)
     batches = drawn(
-        limits.reshape(-1)[seats], [laws[k] for k in seats], method.samples, seed=method.seed, points=method.points
+        limits.reshape(-1)[drawn_seats],
+        [laws[k] for k in drawn_seats],
+        method.samples,
+        seed=method.seed,
+        points=method.points,
     )
     lost, cancelled = 0, False
     for k, errors in enumerate(batches):
@@ -193,7 +201,12 @@ def sampled(
             cancelled = k + 1 < BATCHES
             break
     leading = sums[0] if np.any(limits[:, : -len(WAYS)]) else sums[1]
-    return Draw(samples=(_sample(sums[0]), _sample(sums[1])), convergence=_settled(leading, lost), cancelled=cancelled)
+    return Draw(
+        samples=(_sample(sums[0]), _sample(sums[1])),
+        convergence=_settled(leading, lost),
+        cancelled=cancelled,
+        places=exact.places(),
+    )
 
 
 def _sample(sums: Sums) -> Sample:
@@ -234,6 +247,9 @@ LANES = 8
 
 KEPT = 65_536
 """Samples whose values at every position are kept for quantiles."""
+
+STANDING = 8192
+"""Samples of which it is looked at where the shafts lie."""
 
 LARGE = 10_000_000
 """Positions of samples that are worth loading the kernel: half a second in a new process, two when first compiled."""
@@ -331,6 +347,11 @@ class Exact:
         self.mu = self.whole.turn_before
         self.known, self.seats = known, np.flatnonzero(limits)
         self.shifts = bool(np.any(limits[:, -len(WAYS) :]) or np.any(known[:, -len(WAYS) :]))
+        self.drive, self.phi = drive, phi
+        self.turning = seats(drive.joints)
+        self.names = [(*one, *ways) for one, ways in zip(self.turning, way_names(drive.joints), strict=True)]
+        self.moves = bool(places.of_errors(drive, self.names, limits))
+        self.standing: list[Array] = []
         self.start = np.cos(self.mu[:1] + phi), np.sin(self.mu[:1] + phi)
         self.ideal = walk(self.whole, None, self.start, own=self.own)[0]
         reach = np.sum(np.abs(sensitivity(drive, phi)) * limits[:, : -len(WAYS)], axis=(-2, -1))
@@ -348,6 +369,7 @@ class Exact:
             table = np.broadcast_to(self.known, (len(part), *self.known.shape)).copy()
             table.reshape(len(part), -1)[:, self.seats] += part
             found = self(table)
+            self._stand(table)
             good = np.isfinite(found[0]).all(axis=-1) & np.isfinite(found[1]).all(axis=-1)
             lost += int(len(good) - good.sum())
             for one, values in zip(sums, found, strict=True):
@@ -360,7 +382,23 @@ class Exact:
         carry = ((shifted, self.held),) if self.shifts else ()
         direction, carried = walk(self.whole, turned, self.start, own=self.own, carry=carry)
         error = ahead(direction, self.ideal)
+        if off := places.of_errors(self.drive, self.turning, turned):
+            error = error + places.moved(self.drive, self.phi, off).angle
         return error, carried[-1][0] if carry else np.zeros_like(error)
+
+    def _stand(self, errors: Array) -> None:
+        """Keep how far shafts lie off by errors (m, n, c) beside the known ones, of the first samples."""
+        room = STANDING - sum(map(len, self.standing))
+        if self.moves and room > 0:
+            off = places.of_errors(self.drive, self.names, np.concatenate((self.known[None], errors[:room])))
+            ways = places.moved(self.drive, self.phi, off).ways
+            self.standing.append(places.sizes_of(ways[1:] - ways[:1]))
+
+    def places(self) -> Array:
+        """Return the 99.7 % quantiles of the ways of shafts, array (n, 3)."""
+        if not self.standing:
+            return np.zeros((self.whole.joints, 3))
+        return np.asarray(np.quantile(np.concatenate(self.standing), 0.997, axis=0))
 
     def _compiled(self, errors: Array, sums: tuple[Sums, Sums], room: int, method: Compiled) -> bool:
         """Add a batch by the kernel; false, and nothing added, where a joint cannot be assembled."""

@@ -27,6 +27,7 @@ class Stance:
     after: Array  # (3,)
     normal: Array  # (3,): normal of the plane of both
     joint_angle: float | Array  # [rad]: angle between them
+    drawn_angle: float | None = None  # [rad]: the same as drawn, where errors move the shafts
     # driving, driven (..., 3): directions of its marks: the arms of its cross in the driving and the driven yoke, where
     # it has one
     driving: Array
