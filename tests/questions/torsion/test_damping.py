@@ -141,3 +141,41 @@ def test_one_answer_never_says_both(off):
 
 def test_a_drive_stable_with_its_own_dampers_needs_no_more():
     assert stability(drive(5 * deg, damping=3.0)).least_loss == 0.0
+
+
+@pytest.mark.slow
+def test_friction_of_a_joint_damps_nothing_while_torques_keep_their_sign() -> None:
+    """What the answers say of friction that they leave out: two masses, a joint of 20° whose journals rub, by SciPy."""
+    bend, speed, load, spring, damper, first, mill = 20 * deg, 150.0, 300.0, 6000.0, 1.0, 0.05, 0.4
+
+    def joint(a: float) -> tuple[float, float, float]:
+        """Return ratio and slope of the driven shaft, and by how much both journals turn for the driving yoke."""
+        below = 1.0 - np.sin(bend) ** 2 * np.cos(a) ** 2
+        ratio = np.cos(bend) / below
+        leans = np.tan(bend) * np.cos(a), np.tan(bend) * np.sin(a) / np.hypot(np.sin(a), np.cos(a) * np.cos(bend))
+        ways = (
+            np.tan(bend) * np.sin(a),
+            np.tan(bend) * np.cos(a) * np.cos(bend) / np.hypot(np.sin(a), np.cos(a) * np.cos(bend)),
+        )
+        rubs = abs(ways[0]) / (1.0 + leans[0] ** 2) + abs(ways[1]) / (1.0 + leans[1] ** 2) * ratio
+        return ratio, -np.cos(bend) * np.sin(bend) ** 2 * np.sin(2.0 * a) / below**2, rubs
+
+    def twist(kappa: float, kick: float) -> np.ndarray:
+        def slope(t: float, y: np.ndarray) -> list[float]:
+            ratio, bending, rubs = joint(y[0])
+            carried = spring * (speed * t - y[0]) + damper * (speed - y[1])
+            pushed = carried - kappa * abs(carried) * rubs
+            return [y[1], (pushed - ratio * load - mill * ratio * bending * y[1] ** 2) / (first + mill * ratio**2)]
+
+        times = np.arange(72 * 80) * (2.0 * np.pi / speed / 80)  # whole turns
+        start = [-load / spring, speed + kick]
+        return solve_ivp(slope, (0.0, times[-1]), start, rtol=1e-9, atol=1e-11, t_eval=times).y[0]
+
+    def decay(kappa: float) -> float:
+        apart = (twist(kappa, 1e-2) - twist(kappa, 0.0)).reshape(72, 80)
+        return float(0.5 * np.log(np.sum(apart[4:28] ** 2) / np.sum(apart[44:68] ** 2)))
+
+    free = decay(0.0)
+    assert free > 1.5  # from the damper alone
+    for kappa in (0.0125, 0.05):
+        assert decay(kappa) == pytest.approx(free, rel=0.05)  # beats with the turning do not quite average out
