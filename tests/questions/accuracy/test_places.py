@@ -243,6 +243,8 @@ def test_the_answer_tells_how_far_shafts_are_moved():
     alone = Drive(joints=(with_tolerances(MOVING["far"], offset=0.05 * mm),))
     sentence = told.answer(alone, told.ask(alone)).sentence
     assert "do not turn the output" in sentence.text
+    drawn = told.ask(alone, method=MonteCarlo(samples=1024, positions=12))
+    assert not [one for one in told.answer(alone, drawn).remarks if "drives drawn" in str(one.text)]
     assert sentence.values["way"].value == pytest.approx(np.sin(BEND) * 0.05 * mm, rel=0.1)
 
 

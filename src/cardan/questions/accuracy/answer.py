@@ -446,7 +446,7 @@ def _remarks(drive: Drive, result: Accuracy) -> Iterator[Remark]:
     if band.output.largest > FIRST_ORDER and not isinstance(band.method, MonteCarlo):
         text = _("Warning: errors this large are beyond first order; --method samples counts the exact loops.")
         yield Remark(text=text, tone="warning")
-    if band.convergence is not None and isinstance(band.method, MonteCarlo):
+    if band.convergence is not None and isinstance(band.method, MonteCarlo) and _open(drive, band):
         text = _("{count} drives drawn, seed {seed}: the standard deviation is known to {error}.")
         error = Quantity(band.convergence.standard_error, "share", 1)
         drawn = int(band.convergence.samples[-1])
