@@ -451,9 +451,9 @@ def _remarks(drive: Drive, result: Accuracy) -> Iterator[Remark]:
         error = Quantity(band.convergence.standard_error, "share", 1)
         drawn = int(band.convergence.samples[-1])
         yield Remark(text=say(text, count=drawn, seed=band.method.seed, error=error))
-        if band.convergence.lost:
-            text = _("Warning: {count} of them could not be assembled and are left out.")
-            yield Remark(text=say(text, count=int(band.convergence.lost)), tone="warning")
+    if band.convergence is not None and band.convergence.lost:
+        text = _("Warning: {count} of them could not be assembled and are left out.")
+        yield Remark(text=say(text, count=int(band.convergence.lost)), tone="warning")
     if band.cancelled:
         yield Remark(text=_("Warning: the sampling was stopped; this is of what was drawn."), tone="warning")
     if not (some := _open(drive, band)):
