@@ -20,6 +20,7 @@ from cardan.io.drive_file import loads
 from cardan.questions.mobility.drive_mechanism import unheld
 from cardan.register import QUESTIONS
 from tests.fixtures.joint_keys import KEYS
+from tests.fixtures.own_joints import cross
 
 from .test_conditions import BEARING, FIRST, SLOW, WHOLE
 
@@ -74,6 +75,18 @@ def test_the_page_has_its_head():
 def test_every_cell_is_answered(kind):
     assert {name: reason for name, reason in answered(kind).items() if reason} == {}
     assert row(kind) in PAGE.read_text(encoding="utf8").splitlines()
+
+
+@pytest.mark.slow
+def test_a_joint_that_holds_one_way_alone_answers_every_question():
+    """A cross as a mechanism file, both of whose pins slide: it passes on its torque and a force along its normal."""
+    made = drive_with("mechanism")
+    own = replace(
+        made.joints[0], drawing=cross("driving pin", "driven pin", diameter=0.01, bearing_distance=0.03).drawing
+    )
+    drive = replace(loads(WHOLE.replace("@", FIRST) + BEARING), joints=(replace(own, friction=0.05), *made.joints[1:]))
+    assert own.free_ways == 2
+    assert {name: told(name, drive) for name in ASKED} == dict.fromkeys(ASKED, "")
 
 
 if __name__ == "__main__":

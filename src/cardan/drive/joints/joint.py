@@ -33,6 +33,8 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``pressed``          no keys: no contact in it is judged
 ``strained``         nothing: nothing in it is strained but by the torque
 ``carried``          a driven shaft that keeps its direction, of a loose joint one in a bearing
+``free_ways``        one, along its driving shaft, where it slides; all three where it is loose
+``freed``            which these are
 ``push``             no force goes with its couple
 ``bend_spring``      nought: nothing in it holds against the joint angle
 ``sprung``           no force goes with its stiffness
@@ -403,11 +405,24 @@ class Joint:
         """
         return None
 
-    def push(self, angle: Array, joint_angle: Array) -> Array | None:
-        """Return the force of a loose joint on its driven shaft over the torque of this, array (..., 3) [1/m].
+    @property
+    def free_ways(self) -> int:
+        """In how many directions its shafts can shift against each other in its centre."""
+        return 3 if self.loose else int(self.slides)
+
+    def freed(self, angle: Array, joint_angle: Array) -> Array:
+        """Return these directions, array (..., `free_ways`, 3).
 
         angle, joint_angle (...) [rad]: θ of its driving mark from the plane of the shafts, and α. Along the driving
-        shaft e, N × e and the normal N of the plane; None where no force goes with its couple.
+        shaft e, N × e and the normal N of the plane. In them it passes on what `push` tells and nothing else, across
+        them any force.
+        """
+        return 0.0 * (np.asarray(angle) + joint_angle)[..., None, None] + np.eye(3)[: self.free_ways]
+
+    def push(self, angle: Array, joint_angle: Array) -> Array | None:
+        """Return the force of the joint on its driven shaft over the torque of this, array (..., 3) [1/m].
+
+        As `freed` has it, of which the parts in those directions count; None where no force goes with its couple.
         """
         return None
 

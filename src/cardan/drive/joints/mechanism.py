@@ -5,22 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import ClassVar
 
 import numpy as np
 
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array, unit_complex
-from cardan.maths.kernel import frames, mobius, screws
+from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import Surface, ball, joined, placed, revolved
-from cardan.mechanism.closing import CLOSED, Linkage, by_rounding, open_by, turn_about
-from cardan.mechanism.kinetostatics import Placed, carried
+from cardan.mechanism.closing import CLOSED, LEFT, Linkage, by_rounding, open_by, turn_about
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.rounding import exactly, fitted
 from cardan.texts import _, mark, plural
 from cardan.units import deg, mm, plain
 
+from .common import inner
 from .common import site as drawn
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
 from .common.site import Site
@@ -88,7 +88,6 @@ class MechanismJoint(Joint):
     refusals: ClassVar[Mapping[str, str]] = {
         **REFUSALS,
         "tolerance": mark("tolerances of its pairs stand in its mechanism file, and `cardan motion` tells them of it"),
-        "forces": mark("its shafts can shift across each other one way and not another, so that both take forces"),
     }
 
     file: str = plain("", doc="mechanism file beside the drive file, or a shipped mechanism by its name")
@@ -127,27 +126,40 @@ class MechanismJoint(Joint):
         return inside_of(self.drawing, self.driving, self.driven)
 
     @property
+    def free_ways(self) -> int:
+        """In how many directions its mechanism lets its shafts shift in their centre."""
+        return 0 if self.drawing is None else max(0, self._inside().freedom - 2)
+
+    def freed(self, angle: Array, joint_angle: Array) -> Array:
+        """Return these directions."""
+        if self.free_ways in (0, 3):
+            return super(MechanismJoint, self).freed(angle, joint_angle)
+        return self._passed(angle, joint_angle)[1]
+
+    @property
     def slides(self) -> bool:  # type: ignore[override]
-        """Whether its mechanism lets its shafts slide along each other, and holds the rest."""
-        return self.drawing is not None and self._inside().holds == "across"
+        """Whether its mechanism lets its shafts slide along each other, and holds more than the turn."""
+        return self.drawing is not None and self._inside().slides
 
     @property
     def loose(self) -> bool:  # type: ignore[override]
         """Whether its mechanism holds nothing but the turn."""
-        return self.drawing is not None and self._inside().holds == "turn"
+        return self.free_ways == 3
 
     @property
     def fixed(self) -> bool:  # type: ignore[override]
-        """Whether it passes on forces in its centre alone."""
-        return self.drawing is not None and self._inside().holds in ("centre", "across")
+        """Whether it passes on a couple as it turns, and forces in its centre."""
+        return self.drawing is not None and not self.loose and self.told
 
     @property
     def told(self) -> bool:
-        """Whether what it passes on is known: not where it holds its shafts one way across and not another."""
-        return self.fixed or self.loose
+        """Whether the couple that it passes on follows from its torque alone."""
+        return self.drawing is not None and self._inside().sliding is None
 
     def refusal(self, question: str) -> str:
         """Return in a sentence why it does not answer a question: friction needs the sizes of all that turns."""
+        if question == "forces" and self.drawing is not None and not self.told:
+            return self._inside().carrying()
         frame = self.drawing.frame if self.drawing else ""
         joints = self.drawing.joints if self.drawing else ()
         bare = [one.id for one in joints if not one.rubs and frame not in one.links]
@@ -218,13 +230,27 @@ class MechanismJoint(Joint):
             yield from self.mechanism(stance)
 
     def push(self, angle: Array, joint_angle: Array) -> Array | None:
-        """Return the force of what touches between its shafts."""
-        if not self.loose:
-            return None
+        """Return the force that goes with its couple where its shafts can shift."""
+        return self._passed(angle, joint_angle)[0] if self.free_ways else None
+
+    def _passed(self, angle: Array, joint_angle: Array) -> tuple[Array, Array]:
+        """Return the force that goes with its torque (..., 3) and the directions in which it is free (..., k, 3)."""
         theta, alpha = np.broadcast_arrays(np.asarray(angle, dtype=float), np.asarray(joint_angle, dtype=float))
-        shape = theta.shape
-        found = self._inside().push(np.ravel(theta), np.ravel(alpha))
-        return np.reshape(found, (*shape, 3))
+        push, ways = self._inside().passed(np.ravel(theta), np.ravel(alpha))
+        return np.reshape(push, (*theta.shape, 3)), np.reshape(ways, (*theta.shape, *ways.shape[1:]))
+
+    def carried(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield what holds both its shafts: the driven one where it is free, guides along what the joint holds."""
+        if self.free_ways not in (1, 2):
+            yield from super(MechanismJoint, self).carried(stance)
+            return
+        theta = stance.theta
+        ways = self._passed(theta, np.asarray(stance.joint_angle) + 0.0 * theta)[1]
+        basis = np.stack(
+            np.broadcast_arrays(stance.before, frames.cross(stance.normal, stance.before), stance.normal), axis=-2
+        )
+        held = np.linalg.svd(ways)[2][..., self.free_ways :, :] @ basis
+        yield from inner.guided(stance, held)
 
     @property
     def own_span(self) -> float | None:
@@ -274,11 +300,17 @@ class Inside:
     start: float = 0.0
     lead: float = 0.0  # [rad]: how far the driven mark runs ahead in the mean, as drawn
     blur: float = 0.0  # [rad]: what the rounding of its numbers may make of a law
-    holds: str = "centre"  # what it holds beside the turn: the centre, the centre but for sliding, nothing, or some
+    freedom: int = 2  # in how many ways the driven link can move against the driving one, neither in its bearing
+    idle: int = 0  # in how many ways inner links can move by themselves
+    slides: bool = False  # whether its shafts can slide along each other, and it holds more than the turn
+    # [m]: how far the driven shaft slides along its axis as drawn, where it turns or bends only so; None elsewhere
+    sliding: float | None = None
     # joint angle -> poses over a turn (p, n, 4, 4), of the drawing and of those at even steps
     known: dict[float, Array] = field(default_factory=dict)
     recent: dict[float, Array] = field(default_factory=dict)  # the same, of those asked last
     laws: dict[float, Array] = field(default_factory=dict)  # joint angle -> leads over a turn (p,) [rad]
+    # angles asked last of `passed` -> what it found
+    split: dict[bytes, tuple[Array, Array]] = field(default_factory=dict)
 
     @property
     def moving(self) -> list[int]:
@@ -451,32 +483,66 @@ class Inside:
         moved[..., 3, 3] = 1.0
         return self.linkage.placed(moved)
 
-    def push(self, theta: Array, joint_angle: Array) -> Array:
-        """Return the force on the driven shaft for a torque of 1 N·m on it, in the axes of the joint, array (p, 3)."""
-        linkage, index = self.linkage, self.linkage.links.index
-        poses = self.at(theta, joint_angle)
-        point, axis, second = linkage.placed(poses)
-        order = [index(self.driving), index(self.driven), *(k for k in self.moving if k != index(self.driven))]
-        number = {link: k for k, link in enumerate(order)}
-        placed_ = Placed(
-            links=len(order),
-            ends=tuple(
-                (number.get(int(a), -1), number.get(int(b), -1))
-                for a, b in zip(linkage.first, linkage.second, strict=True)
-            ),
-            kinds=tuple(pair.kind for pair in linkage.joints),
-            point=point - self.centre,
-            axis=axis,
-            second=second,
-        )
+    @cached_property
+    def _among(self) -> Linkage:
+        """The pairs between the shafts."""
+        return Linkage([pair for k, pair in enumerate(self.linkage.joints) if k not in self.bearings])
+
+    def _left(self, poses: Array) -> tuple[Array, int]:
+        """Return what the pairs between the shafts hold, (..., s, 6 m), and which of the m links is the driven one."""
+        among = self._among
+        there = np.stack([poses[..., self.linkage.links.index(link), :, :] for link in among.links], axis=-3)
+        moving = [k for k, link in enumerate(among.links) if link != self.driving]
+        matrix = among.matrix(among.scaled(there, 1.0))[0][..., moving, :]
+        return np.reshape(matrix, (*matrix.shape[:-2], -1)), moving.index(among.links.index(self.driven))
+
+    def wrenches(self, poses: Array) -> Array:
+        """Return what the joint can pass on where its links stand, array (..., 6 - `freedom`, 6).
+
+        Wrenches (couple over the size; force) about the centre, square to each other: those that work on no motion of
+        the driven against the driving link that the pairs between them leave.
+        """
+        matrix, driven = self._left(poses)
+        twists = _null(matrix, self.freedom + self.idle)[..., 6 * driven : 6 * driven + 6]
+        turning, arm = twists[..., :3], (self.centre - self._among.middle) / self._among.size
+        twists = np.concatenate((turning, twists[..., 3:] + frames.cross(turning, arm + 0.0 * turning)), axis=-1)
+        return np.linalg.svd(twists)[2][..., self.freedom :, :]
+
+    def passed(self, theta: Array, joint_angle: Array) -> tuple[Array, Array]:
+        """Return what force goes with a torque of 1 N·m on the driven shaft, and where none else can.
+
+        theta, joint_angle (p,) [rad]. Returns the force on the driven shaft (p, 3) [1/m], and directions (p, k, 3) in
+        which the joint passes on no other, both in the axes of the joint.
+
+        Of the wrenches that the joint can pass on, those without a torque about the driven shaft are forces in the
+        centre alone: their couples work on no turn and no bending about it. Across these forces that of the torque
+        stands.
+        """
+        asked = theta.tobytes() + joint_angle.tobytes()
+        if asked not in self.split:
+            self.split.clear()
+            self.split[asked] = self._passed(theta, joint_angle)
+        return self.split[asked]
+
+    def _passed(self, theta: Array, joint_angle: Array) -> tuple[Array, Array]:
+        """Return the same, found anew."""
+        found = self.wrenches(self.at(theta, joint_angle))
         bent = frames.rotate(np.broadcast_to(self.basis[0], (*theta.shape, 3)), self.basis[2], joint_angle)
-        load = np.zeros((*theta.shape, len(order), 6))
-        load[..., 1, :3] = -bent
-        about = np.concatenate((self.basis[0], np.zeros(3)))
-        found = carried(placed_, input_link=0, about=about, load=load)
-        k = self.bearings[1]
-        sign = 1.0 if placed_.ends[k][1] == 1 else -1.0
-        return -sign * found.reaction[..., k, 3:] @ self.basis.T
+        about = (found[..., :3] @ bent[..., None])[..., 0]
+        whole = (about[..., None, :] @ found)[..., 0, 3:] / (self._among.size * np.sum(about * about, axis=-1))[:, None]
+        forces = (_null(about[..., None, :], about.shape[-1] - 1) @ found)[..., 3:]
+        free = _null(forces, self.freedom - 2)
+        push = (np.swapaxes(free, -1, -2) @ (free @ whole[..., None]))[..., 0]
+        return push @ self.basis.T, free @ self.basis.T
+
+    def carrying(self) -> str:
+        """Return in a sentence which shaft slides along itself, and how far."""
+        text = _(
+            "{link} slides along its axis as it turns, by {way:.3g} mm at a joint angle of {angle:.4g}°, or as the "
+            "joint angle changes; a shaft that is held cannot"
+        )
+        way = (self.sliding or 0.0) / mm
+        return text.format(link=repr(self.driven), way=way, angle=self.drawn_angle / deg)
 
     def stuck(self, joint_angle: float) -> str:
         """Return which pair opens first, at which angle and how far, over a turn at a joint angle [rad]; "" if none."""
@@ -648,9 +714,7 @@ def _turned(drawn_: Inside) -> Inside:
         start = 0.5 * (float(np.angle(wave)) - 0.5 * np.pi)
         start = (start + 0.25 * np.pi) % (0.5 * np.pi) - 0.25 * np.pi
     known = {drawn_.drawn_angle: poses[:-1]}
-    return replace(
-        drawn_, start=start, lead=float(np.mean(leads)), holds=_held(drawn_, poses[5]), known=known, recent={}, laws={}
-    )
+    return replace(_held(drawn_), start=start, lead=float(np.mean(leads)), known=known, recent={}, laws={}, split={})
 
 
 def _rank(motions: Array) -> int:
@@ -658,30 +722,29 @@ def _rank(motions: Array) -> int:
     return int(np.linalg.matrix_rank(motions, tol=MOVES)) if len(motions) else 0
 
 
-def _held(inside: Inside, poses: Array) -> str:
-    """Return what the pairs between the shafts hold beside the turn.
+def _held(inside: Inside) -> Inside:
+    """Return the loops with what the pairs between the shafts hold, told by some places of the turn drawn."""
+    theta, alpha = np.arange(PLACES)[3::17] * (2.0 * np.pi / PLACES), inside.drawn_angle
+    every = inside.known[alpha]
+    matrix, driven = inside._left(every[3::17])
+    size = np.linalg.svd(matrix)[1]
+    idle = matrix.shape[-1] - int(np.max(np.sum(size > LEFT * size[..., :1], axis=-1)))
+    freedom = max(_rank(one) for one in _null(matrix, idle)[..., 6 * driven : 6 * driven + 6])
+    found = replace(inside, freedom=freedom, idle=idle - freedom)
+    couples = np.linalg.svd(found.wrenches(every[3::17])[..., :3])[1]
+    if np.max(np.sum(couples > MOVES, axis=-1)) > 1:
+        pose = every[:, inside.linkage.links.index(inside.driven)]
+        way = np.ptp((pose[:, :3, :3] @ inside.centre + pose[:, :3, 3]) @ inside.after)
+        return replace(found, sliding=float(way))
+    ways = found.passed(theta, np.full(theta.shape, alpha))[1]
+    middle = np.asarray([math.cos(0.5 * alpha), math.sin(0.5 * alpha), 0.0])
+    along = np.min(frames.norm(ways @ middle)) > math.cos(0.5 * alpha) - MOVES  # some way between both shafts
+    return replace(found, slides=bool(along) and 2 < freedom < 5)
 
-    Of what the driven shaft can do against the driving one: whether its centre, at rest in the bend, can shift along
-    it, across it, or not at all.
-    """
-    links = inside.linkage.links
-    own = [k for k in range(len(inside.linkage.joints)) if k not in inside.bearings]
-    joints = [inside.linkage.joints[k] for k in own]
-    among = Linkage(joints)
-    there = np.stack([poses[links.index(link)] for link in among.links])
-    fast = among.links.index(inside.driving)
-    moving = [k for k in range(len(among.links)) if k != fast]
-    twists = among.motions(there, moving)[:, moving.index(among.links.index(inside.driven))]
-    centre = (inside.centre - among.middle) / among.size
-    turning = twists[:, :3]
-    moving_centre = twists[:, 3:] + frames.cross(turning, centre + 0.0 * turning)
-    shifts = screws.null_spaces(turning.T)[2] @ moving_centre  # what can shift while no shaft turns
-    free, ways = _rank(np.concatenate((turning, moving_centre), axis=-1)), _rank(shifts)
-    if free == 5:
-        return "turn"
-    if (free, ways) == (2, 0) and np.max(np.abs(moving_centre)) < MOVES:
-        return "centre"
-    return "across" if (free, ways) == (3, 1) else "some"
+
+def _null(rows: Array, count: int) -> Array:
+    """Return directions that rows (..., s, d) leave, as many as are asked for, array (..., count, d)."""
+    return np.linalg.svd(rows)[2][..., rows.shape[-1] - count :, :]
 
 
 # The picture: every link as bars between its pairs, with its pins and balls.

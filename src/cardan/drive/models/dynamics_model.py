@@ -63,9 +63,9 @@ class Train:
     # (..., k) [m]: places of the supports from the beginning of their shafts; they may lie beyond the ends
     position: Array | None = None
     # per joint, whether no force acts along each of three directions: of a cross its driving and driven journals and
-    # its normal, of any other joint its driving shaft and two directions across it
+    # its normal, of any other joint those in which it is free, `Joint.freed`
     slides: tuple[tuple[bool, ...], ...] = ()
-    kinds: tuple[Joint, ...] = ()  # the joints, where one of them pushes its shafts
+    kinds: tuple[Joint, ...] = ()  # the joints; all of them crosses when empty
     crossed: tuple[bool, ...] = ()  # which joints are crosses of Hooke joints; all of them when empty
     splines: tuple[int, ...] = ()  # shafts with a spline, counted from 0
     cut: Array | None = None  # (..., number of splines) [m]: places of the splines from the beginning of their shafts
@@ -230,7 +230,7 @@ def _unless_zero(values: Array) -> Array | None:
 
 def _slides(joint: Joint) -> tuple[bool, bool, bool]:
     if not joint.single_cross:
-        return joint.loose or joint.slides, joint.loose, joint.loose
+        return joint.free_ways > 0, joint.free_ways > 1, joint.free_ways > 2
     along = joint.cross.slides if joint.cross else False
     return along is True or along == "driving", along is True or along == "driven", False
 

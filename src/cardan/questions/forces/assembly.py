@@ -214,7 +214,7 @@ class _Question:
         """Return forces and gaps at the angles (p,), and the frame they belong to."""
         stand = standing(self.whole.chain, self.place.axis, self.place.normal, angle, speed=1.0)
         held = frame(self.whole, stand, self.whole.points[None])
-        arms = arms_of(self.whole, stand)
+        arms = arms_of(self.whole, stand, rates=True)
         gap = gaps(self.whole, held, arms)
         if not self.strained:
             none = np.zeros(angle.shape)

@@ -33,7 +33,6 @@ from .reactions import (
     Load,
     forces_of,
     frame,
-    pushes,
     right_side,
     shoves,
     solved,
@@ -520,8 +519,9 @@ def forces_from(
     if whole.bearings:
         held = frame(whole, stand, points)
         equations, unknowns = held.equations, held.unknowns
-        loads = [*pushes(whole, held, stand, found), *weights(whole, held, stand, acceleration)]
-        known = right_side(held, found.secondary, loads, push, shoves(whole, held, stand, found.pushed))
+        loads = weights(whole, held, stand, acceleration)
+        shoved = shoves(whole, held, stand, found.shaft_torque[..., 1:], found.pushed)
+        known = right_side(held, found.secondary, loads, push, shoved)
         amounts, status = _amounts(
             whole, held, known, field, lambda: elastic(whole, held, stand, found, loads, push, known)
         )

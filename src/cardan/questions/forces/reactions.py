@@ -22,6 +22,9 @@ from cardan.maths.linear.systems import RANK, broadcast_shapes, solve_regular, s
 from .kinetostatics import Couples, KinematicState, seen_by, standing, swing_need
 from .support_statics import Actions, Crosses, Layout, actions, balance, crosses, sliding
 
+STEP = 1e-3
+"""Step [rad] of the differences by which directions are derived: what they leave out is 1e-12 of them."""
+
 
 class Determinacy(IntEnum):
     """Whether the supports hold a drive just enough."""
@@ -51,6 +54,8 @@ class Frame:
     points: Array  # (..., p or 1, n+2, 3) [m]: B_0 … B_{n+1}
     starts: Array  # (..., p or 1, n+1, 3) [m]: where the shafts begin
     place: Array  # (..., p or 1, k) [m]: places of the supports, from there on
+    # (..., n, 3): first, second and third direction in which each joint is free; none where no joint is
+    ways: tuple[Array | None, ...] = ()
 
     @property
     def slides(self) -> int:
@@ -91,14 +96,16 @@ def frame(train: Train, stand: KinematicState, points: Array) -> Frame:
     levered = None if stand.head is None else stand.levered
     acting = actions(stand.axis, length, layout, place, _cut(train), levered)
     rows = balance(acting)
-    free = sliding(layout, arms_of(train, stand)) if any(map(any, layout.slides)) else None
+    arms = arms_of(train, stand) if any(map(any, layout.slides)) else None
+    free = None if arms is None else sliding(layout, arms)
+    ways = () if arms is None else (arms.driving, arms.driven, arms.across)
     if free is not None:
         outer = broadcast_shapes(rows.shape[:-2], free.shape[:-2])
         rows = xp.concat(
             (xp.broadcast_to(rows, (*outer, *rows.shape[-2:])), xp.broadcast_to(free, (*outer, *free.shape[-2:]))),
             axis=-2,
         )
-    return Frame(layout=layout, acting=acting, matrix=rows, points=points, starts=starts, place=place)
+    return Frame(layout=layout, acting=acting, matrix=rows, points=points, starts=starts, place=place, ways=ways)
 
 
 def _standing_places(train: Train, stand: KinematicState, drawn: Array) -> Array:
@@ -115,15 +122,55 @@ def _standing_places(train: Train, stand: KinematicState, drawn: Array) -> Array
     return np.stack(rows, axis=-1)
 
 
-def arms_of(train: Train, stand: KinematicState) -> Crosses:
-    """Return the arms of the crosses of a train, of other joints the directions in which they may slide."""
-    return crosses(
-        stand.axis,
-        stand.driving_arm,
-        stand.driven_arm,
-        crossed=train.crossed,
-        speed=stand.speed / stand.speed[..., :1],
+def arms_of(train: Train, stand: KinematicState, *, rates: bool = False) -> Crosses:
+    """Return the arms of the crosses of a train, of other joints the directions in which they are free.
+
+    rates: with the derivatives of these directions, the axes at rest; else they are left out.
+    """
+    if all(train.crossed):
+        return crosses(stand.axis, stand.driving_arm, stand.driven_arm)
+    speed = stand.speed / stand.speed[..., :1]
+    found = crosses(stand.axis, stand.driving_arm, stand.driven_arm, speed=speed)
+    none = 0.0 * found.driving
+    ways = [np.array(found.driving), np.array(found.driven), none.copy()]
+    turned = [np.array(found.driving_rate), np.array(found.driven_rate), none.copy()]
+    for i, joint in enumerate(train.kinds):
+        if train.crossed[i]:
+            continue
+        free = _freed(train, stand, i, 0.0)
+        change = _freed_rate(train, stand, i) * speed[..., i, None, None] if rates and joint.free_ways else 0.0 * free
+        for k in range(3):
+            held = k >= joint.free_ways
+            ways[k][..., i, :] = 0.0 if held else free[..., k, :]
+            turned[k][..., i, :] = 0.0 if held else change[..., k, :]
+    return Crosses(
+        driving=ways[0],
+        driven=ways[1],
+        driving_rate=turned[0],
+        driven_rate=turned[1],
+        across=ways[2],
+        across_rate=turned[2],
     )
+
+
+def _freed(train: Train, stand: KinematicState, i: int, ahead: float) -> Array:
+    """Return the directions in which joint i is free with its driving mark turned ahead [rad], (..., p, k, 3)."""
+    normal, aside, theta, alpha, before = seen_by(train, stand, i)
+    found = train.kinds[i].freed(theta + ahead, alpha)
+    basis = np.stack(np.broadcast_arrays(before, aside, normal), axis=-2)
+    return np.asarray(found @ basis)
+
+
+def _freed_rate(train: Train, stand: KinematicState, i: int) -> Array:
+    """Return how they change with the angle of the mark, (..., p, k, 3) [1/rad], but for turns among themselves.
+
+    By differences of the projector P on them, of fourth order: v' = P' v.
+    """
+    two, one, other, far = (
+        np.swapaxes(ways, -1, -2) @ ways for ways in (_freed(train, stand, i, k * STEP) for k in (2, 1, -1, -2))
+    )
+    change = (8.0 * (one - other) - (two - far)) / (12.0 * STEP)
+    return np.asarray(_freed(train, stand, i, 0.0) @ change)
 
 
 def _cut(train: Train) -> Array | None:
@@ -177,53 +224,34 @@ def weights(train: Train, frame: Frame, stand: KinematicState, acceleration: Arr
     return loads
 
 
-def pushes(train: Train, frame: Frame, stand: KinematicState, couples: Couples) -> list[Load]:
-    """Return the forces that loose joints put on their shafts with their couples, at the joints."""
-    return [
-        load
-        for i in range(train.joints)
-        for load in push_of(train, frame, stand, i, couples.shaft_torque[..., i + 1], couples.pushed[i])
-    ]
-
-
-def shoves(train: Train, frame: Frame, stand: KinematicState, forces: Sequence[Array | None]) -> list[Array]:
+def shoves(
+    train: Train, frame: Frame, stand: KinematicState, torque: Array, forces: Sequence[Array | None]
+) -> list[Array]:
     """Return the known forces along all that slides, each (..., p) [N], in the order of `support_statics.sliding`.
 
-    forces: what friction within each joint puts on its driven shaft, (..., p, 3) [N]; None without any. Along its
-    driving shaft a joint that slides passes on nothing else; what a loose joint passes on stands among the loads.
+    torque (..., p, n) [N·m]: of the driven shaft of each joint, with which a joint pushes it.
+    forces: what friction within each joint and its stiffness add to that, (..., p, 3) [N]; None without any.
     """
     rows: list[Array] = []
     for i, free in enumerate(frame.layout.slides):
-        force = None if not train.kinds or train.kinds[i].loose else forces[i]
-        for k, slides in enumerate(free):
+        known = _known_force(train, stand, i, torque[..., i], forces[i]) if any(free) else None
+        for slides, way in zip(free, frame.ways, strict=False):
             if slides:
-                along = 0.0 * stand.speed[..., i] if force is None or k else frames.dot(force, stand.axis[..., i, :])
-                rows.append(along)
+                still = 0.0 * stand.speed[..., i]
+                rows.append(still if known is None or way is None else frames.dot(known, way[..., i, :]))
     return rows
 
 
-def push_of(
-    train: Train, frame: Frame, stand: KinematicState, i: int, torque: Array, added: Array | None = None
-) -> list[Load]:
-    """Return the forces that joint i puts on its shafts with a torque on the driven one; none where it is not loose.
-
-    torque (..., p) [N·m]; added (..., p, 3) [N]: what its friction and stiffness add to the force on the driven shaft.
-    """
-    if not train.kinds or not train.kinds[i].loose:
-        return []
+def _known_force(train: Train, stand: KinematicState, i: int, torque: Array, added: Array | None) -> Array | None:
+    """Return the force (..., p, 3) [N] that joint i puts on its driven shaft by itself; None where it puts none."""
+    if not train.kinds or train.crossed[i]:
+        return None
     normal, aside, theta, alpha, before = seen_by(train, stand, i)
     size = train.kinds[i].push(theta, alpha)
-    if size is None and added is None:
-        return []
-    force = 0.0 * torque[..., None] if added is None else added
-    if size is not None:
-        ways = (before, aside, normal)
-        force = force + torque[..., None] * sum(size[..., k, None] * way for k, way in enumerate(ways))
-    length = frame.acting.length[..., i]
-    return [
-        Load(shaft=i, force=-force, place=length, behind=True),
-        Load(shaft=i + 1, force=force, place=0.0 * length, behind=False),
-    ]
+    if size is None:
+        return added
+    pushed = torque[..., None] * sum(size[..., k, None] * way for k, way in enumerate((before, aside, normal)))
+    return pushed if added is None else pushed + added
 
 
 def thrusts(train: Train, stand: KinematicState, couples: Couples, sense: Array | None = None) -> Array:

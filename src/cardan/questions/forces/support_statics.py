@@ -6,7 +6,7 @@ couples across. Each is an action: a force and a couple on one shaft or, in a jo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -184,11 +184,12 @@ def stretches(
 class Crosses:
     """Where the crosses stand, and how they turn with the input; the axes (...) are those of drives and positions."""
 
-    driving: Array  # driving, driven (..., n, 3): arms u_i and v_{i+1}
+    # driving, driven (..., n, 3): arms u_i and v_{i+1}; of other joints two directions in which they are free
+    driving: Array
     driven: Array  # (..., n, 3)
     driving_rate: Array  # driving_rate, driven_rate (..., n, 3) [1/rad]: their derivatives by φ_1
     driven_rate: Array  # (..., n, 3) [1/rad]
-    # (..., n, 3): a direction across both, and its derivative [1/rad], where a joint is loose there
+    # (..., n, 3): a third direction in which a joint is free, and its derivative [1/rad]; None with crosses alone
     across: Array | None = None
     across_rate: Array | None = None
 
@@ -207,13 +208,11 @@ def crosses(
     driving: Array,
     driven: Array,
     *,
-    crossed: Sequence[bool] = (),
     speed: Array | None = None,
 ) -> Crosses:
     """Return the arms of the crosses with their rates.
 
     axis (..., n+1, 3): directions e_i of the shafts; driving, driven (..., n, 3): arms u_i and v_{i+1}.
-    crossed (n): which joints are crosses; all of them when empty. Others slide along e_i, u_i and e_i×u_i.
     speed (..., n+1): ω_i/ω_1, where a joint is none.
     An arm turns with its shaft: u_i' = (ω_i/ω_1) e_i×u_i; ω_{i+1}/ω_i = (e_i·e_{i+1})/|e_{i+1}×u_i|².
     """
@@ -225,21 +224,10 @@ def crosses(
     ratio = [xp.ones_like(step[..., 0])]
     for i in range(step.shape[-1]):
         ratio.append(ratio[-1] * step[..., i])
-    turned = xp.stack(ratio, axis=-1)[..., None] if all(crossed) or speed is None else speed[..., None]
+    turned = xp.stack(ratio, axis=-1)[..., None] if speed is None else speed[..., None]
     swept = turned[..., :-1, :] * frames.cross(before, driving)
     behind = turned[..., 1:, :] * frames.cross(after, driven)
-    if all(crossed):
-        return Crosses(driving=driving, driven=driven, driving_rate=swept, driven_rate=behind)
-    cross = xp.asarray(crossed)[:, None]
-    third, turning = frames.cross(before, driving), frames.cross(before, swept)
-    return Crosses(
-        driving=xp.where(cross, driving, before),
-        driven=xp.where(cross, driven, driving),
-        driving_rate=xp.where(cross, swept, 0.0),
-        driven_rate=xp.where(cross, behind, swept),
-        across=third,
-        across_rate=turning,
-    )
+    return Crosses(driving=driving, driven=driven, driving_rate=swept, driven_rate=behind)
 
 
 def joint_gap(axis: Array, normal: Array, arms: Crosses, error: Array) -> tuple[Array, Array]:

@@ -21,7 +21,6 @@ from cardan.questions.forces.reactions import (
     Load,
     forces_of,
     frame,
-    push_of,
     right_side,
     shoves,
     solved,
@@ -280,8 +279,8 @@ def response(train: Train, drag: Array, angle: Array) -> Response:
     def solved_joint(i: int, couple: Array, torque: Array, force: Array | None) -> Array:
         """Return the forces for a couple of joint i alone, with the torque and force it puts on its driven shaft."""
         forces = [force if k == i else None for k in range(n)]
-        loads = push_of(train, held, stand, i, torque, force)
-        return solved_for(_across(e, couple, i), loads, shoves(train, held, stand, forces))
+        torques = torque[..., None] * (np.arange(n) == i)
+        return solved_for(_across(e, couple, i), [], shoves(train, held, stand, torques, forces))
 
     pull, rub = [], []
     for i in range(n):
@@ -296,13 +295,13 @@ def response(train: Train, drag: Array, angle: Array) -> Response:
         both = [torque[..., None] * whole, torque, torque[..., None] * inside.force]
         pull.append(solved_joint(i, *(0.5 * (one[0] + one[1]) for one in both)))
         rub.append(solved_joint(i, *(0.5 * (one[0] - one[1]) for one in both)))
-    still, always = np.zeros((angle.size, n + 1, 3)), weights(train, held, stand, None)
-    for i in range(n):
-        spring = sprung(train, stand, i)
+    still, springs = np.zeros((angle.size, n + 1, 3)), [sprung(train, stand, i) for i in range(n)]
+    for i, spring in enumerate(springs):
         if spring is not None:
             still = still + _across(e, spring[0], i)
-            always = [*push_of(train, held, stand, i, 0.0 * stand.speed[..., i], spring[1]), *always]
-    weight = solved_for(still, always)
+    forces = [None if spring is None else spring[1] for spring in springs]
+    always = shoves(train, held, stand, np.zeros((angle.size, n)), forces)
+    weight = solved_for(still, weights(train, held, stand, None), always)
     return Response(weight=weight, pull=np.stack(pull, axis=-3), rub=np.stack(rub, axis=-3))
 
 

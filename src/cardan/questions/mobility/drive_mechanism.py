@@ -196,14 +196,22 @@ def _inside(drive: Drive, place: Geometry, known: Course, i: int, ends: Mapping[
 
 
 def unheld(drive: Drive) -> tuple[int, ...]:
-    """Return the joints, from 0, that let their driven shaft move across their driving one without turning it.
+    """Return the joints, from 0, that let their driven shaft move across their driving one, turned about itself alone.
 
-    Such a shaft stands where its own bearings hold it, not where the joint is.
+    Such a shaft stands where its own bearings hold it, not where the joint is. Shafts that slide along one of them, or
+    along a direction between both, are held across.
     """
     found = []
-    for i, (twists, along) in enumerate(_freed(drive)):
-        shifts = screws.null_spaces(twists[:, :3].T)[2] @ twists[:, 3:]
-        if np.any(frames.norm(shifts - (shifts @ along)[:, None] * along) > ACROSS):
+    centres = geometry(drive).points[1:-1]
+    for i, (twists, axes) in enumerate(_freed(drive)):
+        turning = twists[:, :3]
+        aside = frames.perpendicular(axes[1])
+        still = screws.null_spaces(np.stack((turning @ aside, turning @ frames.cross(axes[1], aside))))[2]
+        shifts = twists[:, 3:] + frames.cross(turning, centres[i] + 0.0 * turning)
+        _left, size, ways = np.linalg.svd(still @ shifts)
+        middle = frames.unit(np.sum(axes, axis=0))
+        count = int(np.sum(size > ACROSS))
+        if count > 1 or (count and abs(ways[0] @ middle) < axes[0] @ middle - ACROSS):
             found.append(i)
     return tuple(found)
 
@@ -214,13 +222,13 @@ def joint_freedoms(drive: Drive) -> tuple[int, ...]:
 
 
 def _freed(drive: Drive) -> Iterator[tuple[Array, Array]]:
-    """Yield the motions (m, 6) of its driven against its driving shaft that each joint leaves, and this one's axis."""
+    """Yield the motions (m, 6) of its driven against its driving shaft that each joint leaves, and both axes (2, 3)."""
     place, known = geometry(drive), course(drive, np.zeros(1), still=True)
     for i in range(len(drive.joints)):
         pairs = tuple(_inside(drive, place, known, i, {DRIVING: DRIVING, DRIVEN: DRIVEN}))
         inner = Mechanism(frame=DRIVING, output_link=DRIVEN, joints=pairs)
         motions = screws.null_spaces(constraints(inner).matrix())[2]
-        yield motions.reshape(len(motions), -1, 6)[:, inner.links.index(DRIVEN)], known.axis[i, 0]
+        yield motions.reshape(len(motions), -1, 6)[:, inner.links.index(DRIVEN)], known.axis[i : i + 2, 0]
 
 
 def _support(drive: Drive, place: Geometry, lying: Sequence[_Line], support: Support, index: int) -> Iterator[Pair]:

@@ -143,6 +143,20 @@ def carried(stance: Stance, *, loose: bool = False, slides: bool = False) -> Ite
     yield InnerPair(name="driven face", type="E", links=(guide, DRIVEN), point=at, axis=axis)
 
 
+def guided(stance: Stance, held: Array) -> Iterator[InnerPair]:
+    """Yield what holds both shafts of a joint that holds its driven shaft in some directions alone, (..., k, 3).
+
+    It stands in a bearing that can shift along each of them.
+    """
+    yield InnerPair(name="driving bearing", type="R", links=(FRAME, DRIVING), point=stance.centre, axis=stance.before)
+    link = FRAME
+    for k in range(held.shape[-2]):
+        guide = f"guide {k + 1}"
+        yield InnerPair(name="driven guide", type="P", links=(link, guide), point=stance.centre, axis=held[..., k, :])
+        link = guide
+    yield InnerPair(name="driven bearing", type="R", links=(link, DRIVEN), point=stance.centre, axis=stance.after)
+
+
 def crossed(
     stance: Stance, *, slides: bool | str = False, offset: float = 0.0, journal: float = 0.0, span: float = math.inf
 ) -> Iterator[InnerPair]:
