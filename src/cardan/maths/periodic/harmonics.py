@@ -229,16 +229,19 @@ def _steps(
 
 def _matrix(here: Linearised, bases: Array, back: Array, omega: Array, chosen: Array) -> dict[tuple[int, int], Array]:
     """Return Newton's matrix of the chosen rows in blocks, as `solve_blocks` takes them."""
-    rate = omega[chosen, None, None]
-    damping, stiffness, mass = here.damping[chosen], here.stiffness[chosen], here.mass[chosen]
+    rows = slice(None) if chosen.all() else chosen  # most often all of them, which need no copy
+    rate = omega[rows, None, None]
+    damping, stiffness, mass = here.damping[rows], here.stiffness[rows], here.mass[rows]
     coupled = np.any((damping != 0.0) | (stiffness != 0.0), axis=(0, 1))
     blocks: dict[tuple[int, int], Array] = {}
+    inner, part = (np.empty((*stiffness.shape[:2], back.shape[0])) for _one in range(2))  # new ones cost as much
     for r, s in np.ndindex(coupled.shape):
         if not (coupled[r, s] or r == s):
             continue
-        inner = stiffness[:, :, r, s, None] * bases[0] + rate * damping[:, :, r, s, None] * bases[1]
+        np.multiply(stiffness[:, :, r, s, None], bases[0], out=inner)
+        inner += np.multiply(rate * damping[:, :, r, s, None], bases[1], out=part)
         if r == s:
-            inner = inner + rate**2 * mass[:, :, r, None] * bases[2]
+            inner += np.multiply(rate**2 * mass[:, :, r, None], bases[2], out=part)
         blocks[r, s] = np.matmul(back, inner)
     return blocks
 

@@ -312,8 +312,9 @@ def damped_zone(q: ArrayLike, n: ArrayLike, zone: int = 1) -> tuple[Array, Array
 
     def over(share: Array) -> Array:
         """Return \\|cos πβ\\| - cosh πn at shares (..., p) of the zone."""
-        found = exponents(low[..., None] + wide[..., None] * share, q[..., None])
-        return -(found.above if zone % 2 else found.below) - aim[..., None]
+        a, beside = np.broadcast_arrays(low[..., None] + wide[..., None] * share, q[..., None])
+        check_range(a, beside, np.asarray(0.0), np)
+        return -_half(a, beside, zone % 2, np) - aim[..., None]
 
     place = np.linspace(0.0, 1.0, PLACES)
     peak, step = np.full(q.shape, 0.5), np.ones(q.shape)

@@ -127,7 +127,8 @@ def beside(values: list[Array]) -> Array:
 def square(rows: list[list[Array]]) -> Array:
     """Return rows of arrays (...) as matrices (..., R, R), each entry in one piece of memory."""
     xp = namespace(*rows[0])
-    return xp.moveaxis(xp.stack([xp.stack(row) for row in rows]), (0, 1), (-2, -1))
+    whole = xp.stack([one for row in rows for one in row])
+    return xp.moveaxis(xp.reshape(whole, (len(rows), len(rows), *whole.shape[1:])), (0, 1), (-2, -1))
 
 
 def _wide(values: Array, like: Array) -> Array:
@@ -415,25 +416,26 @@ def linearised(
         - f1**2 * along,
     )
     rank = model.coordinates
-    c = [[xp.zeros_like(like) for _s in range(rank)] for _r in range(rank)]
-    k = [[xp.zeros_like(like) for _s in range(rank)] for _r in range(rank)]
-    for r in range(rank):
-        c[r][r], k[r][r] = damping[..., r], stiffness[..., r]
+    nothing = xp.zeros_like(like)
+    c = [[damping[..., r] if r == s else nothing for s in range(rank)] for r in range(rank)]
+    k = [[stiffness[..., r] if r == s else nothing for s in range(rank)] for r in range(rank)]
     _over, touching = _contact(model, _twist(model, place.angle), like)
     spring = _each(model.stiffness, like) * touching
     damper = _each(model.damping, like) * touching
+    curving = f2 * own
     if model.special:
         spring = spring + _springs(model, _twist(model, place.angle))[1]
         damper = damper + _rubbing(model, _twist(model, speed), like)[1]
     for e, (a, b) in enumerate(model.elements):
         ends = (
-            (model.coordinate[a], f1[..., a], (f2 * own)[..., a]),
-            (model.coordinate[b], -f1[..., b], -(f2 * own)[..., b]),
+            (model.coordinate[a], f1[..., a], curving[..., a]),
+            (model.coordinate[b], -f1[..., b], -curving[..., b]),
         )
         for r, g, _h in ends:
+            damped, sprung = damper[..., e] * g, spring[..., e] * g
             for s, along_g, along_h in ends:
-                c[r][s] = c[r][s] + damper[..., e] * g * along_g
-                k[r][s] = k[r][s] + spring[..., e] * g * along_g + damper[..., e] * g * along_h
+                c[r][s] = c[r][s] + damped * along_g
+                k[r][s] = k[r][s] + sprung * along_g + damped * along_h
     coupled = None
     if model.hinges:
         left = left + _hinge_torques(model, place, rate, acceleration)
