@@ -66,12 +66,12 @@ def vibration(drive: Drive, case: LoadCase) -> Vibration | None:
     At the speed of the duty backlash opens; over a range of speeds it counts as closed.
     """
     run = under(drive, case)
-    if not has_torsion(run) or not (case.speed or case.speed_range):
+    if not has_torsion(run) or not (case.speed or run.duty.speed_range):
         return None
     try:
         found = [dynamic_torque(run, speed=[case.speed])] if case.speed else []
-        if case.speed_range is not None:
-            found += _over_range(run, *case.speed_range)
+        if run.duty.speed_range is not None:
+            found += _over_range(run, *run.duty.speed_range)
     except InputError:
         return None
     found = [one for one in found if np.any(one.found)]

@@ -19,8 +19,9 @@ from cardan.checks.strength.answer import answer, ask
 from cardan.checks.strength.event_damage import cheapest, event_damages, ramp_damages
 from cardan.checks.strength.shaft_life import start_damage
 from cardan.checks.strength.strength import strength
+from cardan.drive.conditions import conditions
 from cardan.drive.cross import Cross
-from cardan.drive.duty import Duty
+from cardan.drive.duty import Case, Duty
 from cardan.drive.joint_parts import Needles
 from cardan.drive.joints import Hooke
 from cardan.drive.machine import Event, RunUp
@@ -298,3 +299,17 @@ def test_starts_are_those_of_the_drive_as_drawn_and_running_that_of_all_poses() 
     assert strength(replace(drive, poses=(pose,))).shafts[1].fatigue_life == pytest.approx(
         drive.duty.life / posed.value
     )
+
+
+@pytest.mark.slow
+def test_a_load_case_vibrates_over_the_speeds_of_the_duty_as_it_does_alone() -> None:
+    """A peak without a speed of its own meets the resonance at 307 rpm, which the range of the duty holds."""
+    case = Case(name="peak", torque=900.0, share=0.1)
+    drive = tube(speed_range=(200 * rpm, 600 * rpm), cases=(case,))
+    whole, fixed = (
+        float(check(one, only=["tube_strength"])[0].value)
+        for one in (drive, replace(drive, duty=replace(drive.duty, speed_range=None)))
+    )
+    alone = [float(check(one.drive, only=["tube_strength"])[0].value) for one in conditions(drive)]
+    assert whole == pytest.approx(max(alone), rel=1e-6)
+    assert alone[1] > max(alone[0], 1.5 * fixed)
