@@ -14,9 +14,11 @@ from cardan.checks.audit.pairs import PAIRS
 from cardan.checks.design import Design
 from cardan.choices.check_answer import answer, checked
 from cardan.drive.duty import Limits
+from cardan.drive.joints import JOINTS
 from cardan.io.examples import example_names
 from cardan.questions.motion.turning import each_shaft
 from tests.audit.running import audited
+from tests.house.test_kinds import drive_with
 
 QUICK, WHOLE = 120, 12
 """Drives at random whose quick pairs are compared, and those of them all whose pairs are; `python -m tests.audit` asks
@@ -35,6 +37,14 @@ def contradictions(found):
 @pytest.mark.parametrize("name", example_names())
 def test_nothing_about_an_example_contradicts_itself(name):
     found = audit(design(example(name)))
+    assert found
+    assert contradictions(found) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", JOINTS)
+def test_nothing_about_a_joint_of_any_kind_contradicts_itself(kind):
+    found = audit(design(drive_with(kind)))
     assert found
     assert contradictions(found) == []
 

@@ -268,8 +268,8 @@ def _rubs(asked: Asked) -> bool:
     found, whole = asked.losses, asked.train
     if found is None or found.each or found.locked or not abs(found.input_power) > 0.0:
         return False
-    if whole is None or whole.cross_inertia is not None:
-        return False
+    if whole is None or whole.cross_inertia is not None or wobbling(asked.drive):
+        return False  # losses leave the wobble of shafts out, and say so
     return float(np.sum(found.supports) + np.sum(found.splines)) <= RUBBING * SAMPLED * abs(found.input_power)
 
 
@@ -306,7 +306,7 @@ def _held_up(asked: Asked) -> Values:
     if found is None or found.reaction is None:
         return {}
     largest = float(np.max(np.abs(found.reaction)))
-    total = np.mean(np.sum(found.reaction, axis=0), axis=0)
+    total = np.mean(np.sum(found.reaction[:, :-1], axis=0), axis=0)
     return of_parts("axes", total / largest) if largest > 0.0 else {}
 
 
@@ -507,10 +507,19 @@ def _adrift(asked: Asked) -> Values:
     return {} if found is None or found.parasitic is None or not found.certain else {"": float(found.parasitic > 0)}
 
 
+def _housed(asked: Asked) -> bool:
+    """Tell whether statics takes a housing to centre the shafts of a joint, and says so."""
+    return any(joint.centred for joint in asked.drive.joints)
+
+
 def _loose(asked: Asked) -> Values:
     """Return whether statics finds a shaft that nothing holds."""
     found = asked.forces
-    return {} if found is None or found.reaction is None else {"": float(np.any(found.status == Determinacy.LOOSE))}
+    return (
+        {}
+        if found is None or found.reaction is None or _housed(asked)
+        else {"": float(np.any(found.status == Determinacy.LOOSE))}
+    )
 
 
 def _standing_fast(asked: Asked) -> Values:
@@ -539,13 +548,13 @@ def _twice(asked: Asked) -> Values:
 
 def _degree(asked: Asked) -> Values:
     found = asked.assembly
-    return {} if found is None else {"": float(found.degree)}
+    return {} if found is None or _housed(asked) else {"": float(found.degree)}
 
 
 def _surplus(asked: Asked) -> Values:
     """Return whether the balance of the shafts does not tell the forces of all supports."""
     found = asked.forces
-    if found is None or found.reaction is None:
+    if found is None or found.reaction is None or _housed(asked):
         return {}
     return {"": float(np.any(found.status == Determinacy.INDETERMINATE))}
 

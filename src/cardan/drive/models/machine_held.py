@@ -108,6 +108,19 @@ def held_by_machines(machines: tuple[int, ...]) -> Iterator[Remark]:
         yield Remark(text=say(text, which=which, key=Written("[[supports]]", _("supports"))), code="held_by_machines")
 
 
+def centred_by_housings(drive: Drive) -> Iterator[Remark]:
+    """Yield which joints count as if a housing centred their shafts."""
+    if centred := [str(i) for i, joint in enumerate(drive.joints, start=1) if joint.centred]:
+        text = plural(
+            "Joint {which} counts with its couple alone, as where a housing centres both shafts; between rigid "
+            "bearings its parts would push the shafts aside too.",
+            "Joints {which} count with their couples alone, as where a housing centres both shafts; between rigid "
+            "bearings their parts would push the shafts aside too.",
+            len(centred),
+        )
+        yield Remark(text=say(text, which=Joined(centred, last=_(" and "))), code="centred")
+
+
 def proposed(drive: Drive) -> tuple[Support, ...]:
     """Return supports that would hold a drive just enough, beside those it has.
 

@@ -17,7 +17,14 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.paths import written
 from cardan.drive.models.kinematics_model import Chain
-from cardan.drive.models.machine_held import held_by_machines, machine_held, machines_of, proposed, tables_of
+from cardan.drive.models.machine_held import (
+    centred_by_housings,
+    held_by_machines,
+    machine_held,
+    machines_of,
+    proposed,
+    tables_of,
+)
 from cardan.drive.yokes import yokes_estimated
 from cardan.errors import InputError, Problem
 from cardan.figures.figure import Figure
@@ -271,15 +278,7 @@ def _remarks(drive: Drive, result: Carried, machines: tuple[int, ...]) -> Iterat
     yield from steep_joints(drive)
     yield from without_vibration(drive)
     yield from yokes_estimated(drive)
-    if centred := [str(i) for i, joint in enumerate(drive.joints, start=1) if joint.centred]:
-        text = plural(
-            "Joint {which} counts with its couple alone, as where a housing centres both shafts; between rigid "
-            "bearings its parts would push the shafts aside too.",
-            "Joints {which} count with their couples alone, as where a housing centres both shafts; between rigid "
-            "bearings their parts would push the shafts aside too.",
-            len(centred),
-        )
-        yield Remark(text=say(text, which=Joined(centred, last=_(" and "))), code="centred")
+    yield from centred_by_housings(drive)
     yield from held_by_machines(machines if found.reaction is not None else ())
     surplus = int(found.status == Determinacy.INDETERMINATE) and found.unknowns - found.equations
     if surplus:

@@ -13,7 +13,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import key_text
-from cardan.drive.models.machine_held import held_by_machines, machine_held, machines_of
+from cardan.drive.models.machine_held import centred_by_housings, held_by_machines, machine_held, machines_of
 from cardan.errors import InputError
 from cardan.figures.figure import Figure
 from cardan.maths.ties import foremost, largest
@@ -192,6 +192,7 @@ def _joints(drive: Drive, result: AssemblyForces, *, loaded: bool) -> Table:
 def _remarks(drive: Drive, result: AssemblyForces) -> Iterator[Remark]:
     if result.degree:
         yield _strain(result)
+        yield from centred_by_housings(drive)
         if result.rigid:
             text = plural(
                 "Shaft {numbers} counts as rigid, as {key} is not given: real forces are smaller.",

@@ -17,6 +17,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
 from cardan.drive.fields.paths import in_words, written
 from cardan.drive.models.machine_held import held_by_machines, machines_of
+from cardan.drive.models.wobble import wobbling
 from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.figures.figure import Figure
@@ -216,6 +217,9 @@ def _map_tables(over: LossMap) -> Iterator[Table]:
 
 
 def _remarks(drive: Drive, result: Losses, over: LossMap | None) -> Iterator[Remark]:
+    if unsteady := wobbling(drive):
+        text = _("Joint angles count as drawn: that the shaft behind joint {which} wobbles is not in the power loss.")
+        yield Remark(text=say(text, which=listed([i + 1 for i in unsteady])), code="wobble")
     if len(result.each) > 1 and not result.worst and result.heat > 0.0:
         parts = [(one.share or 0.0) * one.heat for one in result.each]
         one, part = result.each[int(foremost(parts))], max(parts) / sum(parts)
