@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from cardan import Drive, InputError
 from cardan.book.straight_line import line_response
 from cardan.drive.duty import Duty
-from cardan.drive.machine import ConstantTorque, Engine, HarmonicTorque, LinearTorque, TorqueHistory
+from cardan.drive.machine import ConstantTorque, Engine, EngineHarmonic, HarmonicTorque, LinearTorque, TorqueHistory
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Pendulum, Station
 from cardan.questions.torsion.model.inputs import Constant, Swinging
@@ -336,3 +336,29 @@ def test_a_peak_between_the_speeds_is_found():
     assert most[k] == pytest.approx(np.nanmax(dense.swing), rel=2e-3)
     rising = torsion_response(LINE, speed=[20.0, 30.0])
     assert peak_refined(LINE, rising) is rising
+
+
+def test_high_multiples_of_an_engine_s_own_order_count() -> None:
+    """Orders 1.052 and 1.315 of an engine behind a gear are the 4th and 5th of one that is no order of the engine."""
+    motor, mill, spring, damper, speed = 1.0, 0.4, 2000.0, 2.0, 73.0
+    line = replace(
+        Drive.from_angles([0.0]),
+        shafts=(Shaft(number=1, stiffness=spring, damping=damper),),
+        stations=(Station(shaft=1, end="start", inertia=motor), Station(shaft=2, inertia=mill)),
+    )
+    pushes = ((2.0, 30.0), (2.5, 20.0))
+    engine = Engine(
+        mean_torque=80.0,
+        speed_ratio=0.526,
+        harmonics=tuple(EngineHarmonic(order=order, torque=torque) for order, torque in pushes),
+    )
+    found = torsion_response(line, Duty(speed=speed, torque=80.0, engine=engine))
+    assert [one.order for one in found.apart] == pytest.approx([1.052, 1.315])
+    sizes = []
+    for (order, torque), one in zip(pushes, found.apart, strict=True):
+        omega, both = 0.526 * order * speed, 1.0 / motor + 1.0 / mill
+        carried = spring + 1j * omega * damper
+        sizes.append(abs(carried * torque / motor / (carried * both - omega**2)))
+        assert abs(one.torque[0]) == pytest.approx(sizes[-1], rel=5e-4)  # the torque follows the swinging crank
+        assert one.exact
+    assert found.torque_highest[0] == pytest.approx(80.0 + sum(sizes), rel=0.02)  # together within ten turns

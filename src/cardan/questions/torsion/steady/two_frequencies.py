@@ -29,6 +29,9 @@ HARMONICS = (4, 6)
 OTHERS = (2, 3)
 """Harmonics of the torques, and those with which motions are sought again whose last ones are not small."""
 
+KINKED = 4
+"""Further ones where springs bend or friction slips."""
+
 SMALL = 0.03
 """Largest of the last harmonics of the torques, over the largest of all of them, that is small: the next ones are of
 the order of its square."""
@@ -59,6 +62,10 @@ class SideBands:
     found: Array  # (b,) of bool: whether there is such a motion with all backlash closed
 
 
+SOFTER = 50.0
+"""By how much the band of dry friction is wider than it is, so that sums on two phases hold it."""
+
+
 def grouped(loose: tuple[Torque, ...]) -> Iterator[tuple[float, tuple[Torque, ...]]]:
     """Yield torques whose orders are multiples of one, with that order."""
     rest = list(loose)
@@ -84,7 +91,9 @@ def side_bands(orbit: Orbit, base: float, loose: tuple[Torque, ...]) -> SideBand
     orbit (...): the motions without these torques; base: order of which theirs are multiples.
     Returns: speeds counted through the leading axes.
     """
-    parts = [_solved(orbit, rows, base, loose, OTHERS[0]) for rows in _chunks(orbit.count)]
+    own = max(round(abs(_order(one)) / base) for one in loose)  # the highest multiple among them is to be held too
+    least, most = (max(count, own + more) + (KINKED if orbit.model.special else 0) for more, count in enumerate(OTHERS))
+    parts = [_solved(orbit, rows, base, loose, least, most) for rows in _chunks(orbit.count)]
     order = np.unique(np.concatenate([part.order for part in parts]).round(9))
     amplitude = np.zeros((orbit.count, len(orbit.model.elements), len(order)), dtype=complex)
     begin = 0
@@ -166,11 +175,15 @@ class _Driven:
         )
 
 
-def _solved(orbit: Orbit, rows: Array, base: float, loose: tuple[Torque, ...], others: int) -> SideBands:
+def _solved(orbit: Orbit, rows: Array, base: float, loose: tuple[Torque, ...], others: int, most: int) -> SideBands:
     whole = orbit.turning.part(rows)
     turning = closed(whole)
+    if turning.model.creep is not None:
+        wide = replace(turning.model, creep=SOFTER * turning.model.creep)
+        turning = Turning(wide, turning.angle_error, turning.speed, turning.period)
     start = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])[rows][:, turning.first :]
-    there = np.isfinite(start).all(axis=(1, 2)) & np.asarray([int(k) not in orbit.pieces for k in rows])
+    opened = np.any(np.asarray(whole.model.backlash) > 0.0, axis=-1)
+    there = np.isfinite(start).all(axis=(1, 2)) & ~(opened & np.asarray([int(k) in orbit.pieces for k in rows]))
     there &= stays_closed(whole, start)
     begin = np.where(there[:, None, None], start, 0.0)
     half_turns = round(turning.period / np.pi)
@@ -187,8 +200,8 @@ def _solved(orbit: Orbit, rows: Array, base: float, loose: tuple[Torque, ...], o
         start=begin,
     )
     own = np.max(np.abs(torus.coefficient), axis=(1, 2))[:, 1 : others + 1]
-    if others < OTHERS[1] and np.any(own[:, -1] > SMALL * np.max(own, axis=-1)):
-        return _solved(orbit, rows, base, loose, OTHERS[1])
+    if others < most and np.any(own[:, -1] > SMALL * np.max(own, axis=-1)):
+        return _solved(orbit, rows, base, loose, most, most)
     return _read(torus, turning, whole, base, harmonics, there & torus.found)
 
 
