@@ -13,7 +13,7 @@ from cardan.checks.strength.shaft_life import start_damage
 from cardan.checks.strength.strength import strength
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke
-from cardan.drive.machine import RunUp
+from cardan.drive.machine import Event, RunUp
 from cardan.drive.material import Material
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
@@ -86,3 +86,12 @@ def test_starts_need_a_run_up_and_a_model():
     (bare,) = [its for its in check(replace(drive(starts=5.0), stations=()), only=["start_fatigue"])]
     assert bare.missing[0] == "stations[0].inertia"
     assert not list(check(drive(), only=["start_fatigue"]))
+
+
+def test_steps_of_a_straight_drive_that_idles_tire_as_beside_next_to_no_torque():
+    step = Event(kind="load_step", count=100.0, torque=2000.0, duration=0.05)
+    straight = replace(drive(events=(step,)), joints=(Hooke(joint_angle=0.0), Hooke(joint_angle=0.0)))
+    loaded, idle = (replace(straight, duty=replace(straight.duty, torque=torque)) for torque in (1e-6, 0.0))
+    damage = float(np.max(start_damage(design(loaded), 1, step)))
+    assert damage > 1e-4
+    assert float(np.max(start_damage(design(idle), 1, step))) == pytest.approx(damage, rel=1e-5)  # of the torque

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -169,11 +169,21 @@ def _of_start(design: Design, k: int, section: Section, event: Event | RunUp | N
     found = followed(design.drive, event)
     if isinstance(found, tuple) or k not in found:
         return np.zeros(design.shape)
-    cycles, plain = found[k].cycles, design.loaded[0]
-    bent = np.asarray(plain.end_bending[..., [k]] / plain.shaft_torque[..., [k]])
+    cycles, bent = found[k].cycles, _couple(design, k)
     swing, mean = 0.5 * cycles.range, np.abs(cycles.mean)
     loads = of_loads(design, k, section, mean, swing, bent * (mean + swing), spread=True)
     return np.asarray(np.sum(cycles.count / np.maximum(loads.cycles, 1.0), axis=-1))
+
+
+def _couple(design: Design, k: int) -> Array:
+    """Return the secondary couple of a shaft over its torque, of a newton metre where the duty has no torque."""
+    plain = next((one for one in design.loaded if np.all(one.shaft_torque[..., k] > 0.0)), None)
+    if plain is None:
+        duty = replace(design.duty, torque=1.0)
+        varied = {path: values for path, values in design.varied.items() if path != "duty.torque"}
+        whole = replace(design.drive, duty=duty)
+        plain = replace(design, drive=whole, duty=duty, varied=varied, vibrates=False).loaded[0]
+    return np.asarray(plain.end_bending[..., [k]] / plain.shaft_torque[..., [k]])
 
 
 def _of_starts(design: Design, k: int, section: Section) -> Array:
