@@ -9,8 +9,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cardan.drive.joints import (
+from cardan.drive.joints import clemens as profile_coupling
+from cardan.drive.joints import pin_coupling
+from cardan.drive.joints import weiss as offset_grooves
+from cardan.joints import (
     Clemens,
+    ClemensProfile,
     DoubleCardan,
     ElasticHalfCardan,
     HalfCardan,
@@ -18,15 +22,11 @@ from cardan.drive.joints import (
     Joint,
     OffsetCross,
     PinCoupling,
-    Profile,
     Rzeppa,
     Tracta,
     Tripod,
     Weiss,
-    pin_coupling,
 )
-from cardan.drive.joints import clemens as profile_coupling
-from cardan.drive.joints import weiss as offset_grooves
 from cardan.questions.motion.joint_law import joint_turn
 from cardan.units import deg, mm
 
@@ -320,8 +320,8 @@ def clemens() -> Figure:
 
     return beside(
         Clemens(
-            driving=Profile(axial=60 * mm, radial=10 * mm, radius=75 * mm),
-            driven=Profile(axial=61 * mm, radial=10 * mm, radius=75 * mm),
+            driving=ClemensProfile(axial=60 * mm, radial=10 * mm, radius=75 * mm),
+            driven=ClemensProfile(axial=61 * mm, radial=10 * mm, radius=75 * mm),
         ),
         36 * deg,
         solid(build),

@@ -7,6 +7,7 @@ from .choices.selection import select_joint as select_joint
 from .drive.joints import Hooke as Hooke
 from .drive.joints import Joint as Joint
 from .drive.joints.clemens import Clemens as Clemens
+from .drive.joints.clemens import ClemensProfile as ClemensProfile
 from .drive.joints.constant_velocity import ConstantVelocity as ConstantVelocity
 from .drive.joints.double_cardan import DoubleCardan as DoubleCardan
 from .drive.joints.half_cardan import ElasticHalfCardan as ElasticHalfCardan

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from cardan.drive.joints import JOINTS
-from cardan.drive.joints.clemens import Profile
-from cardan.joints import Clemens, DoubleCardan
+from cardan.joints import Clemens, ClemensProfile, DoubleCardan
 from cardan.questions.motion.joint_law import joint_turn
 from cardan.units import deg, mm
 from tests.cli.test_forces import plain, widest
@@ -70,7 +69,7 @@ def test_tables_within_keys_are_read(cardan):
     words = [f"driving.{key}" for key in ("axial_mm=60", "radial_mm=10", "radius_mm=75")]
     words += [f"driven.{key}" for key in ("axial_mm=62", "radial_mm=11", "radius_mm=74")]
     said = cardan("joint", "clemens", *words, "--joint-angle-deg", 30, "--json").content
-    arms = [Profile(axial=h * mm, radial=r * mm, radius=rho * mm) for h, r, rho in ((60, 10, 75), (62, 11, 74))]
+    arms = [ClemensProfile(axial=h * mm, radial=r * mm, radius=rho * mm) for h, r, rho in ((60, 10, 75), (62, 11, 74))]
     found = joint_turn(Clemens(driving=arms[0], driven=arms[1]), 30 * deg)
     assert said["joints"][0]["angle_error_deg"] == pytest.approx(found.error / deg)
 

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from cardan.drive.joints import Hooke, Joint
-from cardan.drive.joints.clemens import Profile
-from cardan.joints import Clemens, DoubleCardan, OffsetCross, PinCoupling, Tracta, Tripod, Weiss
+from cardan.joints import Clemens, ClemensProfile, DoubleCardan, OffsetCross, PinCoupling, Tracta, Tripod, Weiss
 from cardan.questions.motion.joint_mechanism import joint_carried
 
 mujoco = pytest.importorskip("mujoco")
@@ -153,7 +152,8 @@ def weiss() -> Loop:
 
 
 CLEMENS = Clemens(
-    driving=Profile(axial=0.05, radial=0.02, radius=0.06), driven=Profile(axial=0.05, radial=0.021, radius=0.06)
+    driving=ClemensProfile(axial=0.05, radial=0.02, radius=0.06),
+    driven=ClemensProfile(axial=0.05, radial=0.021, radius=0.06),
 )
 
 
@@ -307,6 +307,7 @@ def test_the_oracle_would_notice_a_wrong_size():
     loop = clemens()
     _angle, ratio, _torque, _forces = loop.turned(1.0)
     other = Clemens(
-        driving=Profile(axial=0.05, radial=0.02, radius=0.06), driven=Profile(axial=0.05, radial=0.0212, radius=0.06)
+        driving=ClemensProfile(axial=0.05, radial=0.02, radius=0.06),
+        driven=ClemensProfile(axial=0.05, radial=0.0212, radius=0.06),
     )
     assert abs(ratio - float(other.deviation(np.asarray([1.0]), np.asarray(BEND))[1][0])) > 1e-4

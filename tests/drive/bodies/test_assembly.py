@@ -9,7 +9,7 @@ from cardan import joints as kinds
 from cardan.drive.bodies.assembly import assembled
 from cardan.drive.described import Input, Output
 from cardan.drive.drive import Drive
-from cardan.drive.joints.clemens import Circle, Profile, profile_contact
+from cardan.drive.joints.clemens import Circle, ClemensProfile, profile_contact
 from cardan.drive.models.geometry import geometry
 from cardan.drive.shaft import Segment, Shaft, Spline
 from cardan.drive.station import Absorber, Pendulum, Station
@@ -237,7 +237,7 @@ def test_pins_touch_in_every_frame():
 
 
 def test_arms_of_a_clemens_coupling_meet():
-    side = Profile(axial=0.06, radial=0.01, radius=0.075)
+    side = ClemensProfile(axial=0.06, radial=0.01, radius=0.075)
     build = assembled(Drive(joints=(kinds.Clemens(joint_angle=JOINT_ANGLE, driving=side),)), count=24)
     tips = [world(build, arm.track, (0.075, 0.0, 0.0)) for arm in parts(build, "arm")]
     for one, two in zip(tips[:3], tips[3:], strict=True):

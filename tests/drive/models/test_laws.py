@@ -13,7 +13,6 @@ from cardan.drive.bodies.solids import arms, solids
 from cardan.drive.described import Input
 from cardan.drive.drives import stack
 from cardan.drive.joints import JOINTS, Hooke
-from cardan.drive.joints.clemens import Profile
 from cardan.drive.joints.mechanism import MechanismJoint
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.kinematics_model import NEGLIGIBLE, chain, given_chain, left_over, turning_chain
@@ -21,6 +20,7 @@ from cardan.drive.shaft import Shaft
 from cardan.errors import InputError
 from cardan.joints import (
     Clemens,
+    ClemensProfile,
     ConstantVelocity,
     DoubleCardan,
     ElasticHalfCardan,
@@ -67,8 +67,8 @@ UNMAPPED = (
     PinCoupling(joint_angle=0.3, driving_distance=50 * mm, driven_distance=52 * mm),
     Clemens(
         joint_angle=0.3,
-        driving=Profile(axial=60 * mm, radial=10 * mm, radius=75 * mm),
-        driven=Profile(axial=62 * mm, radial=11 * mm, radius=74 * mm),
+        driving=ClemensProfile(axial=60 * mm, radial=10 * mm, radius=75 * mm),
+        driven=ClemensProfile(axial=62 * mm, radial=11 * mm, radius=74 * mm),
     ),
     ElasticHalfCardan(joint_angle=0.2, pairs=2),
 )
@@ -254,7 +254,7 @@ def test_sizes_that_do_not_turn_are_named(joint, joint_angle):
         (Weiss(joint_angle=0.1, groove_radius=0.03), "driving_offset"),
         (OffsetCross(joint_angle=0.1, offset=0.2, reach=0.1), "reach"),
         (PinCoupling(joint_angle=0.1, driven_slant=0.9), "driving_distance"),
-        (Clemens(joint_angle=0.1, driven=Profile(axial=0.1, radial=0.0, radius=0.2)), "driving"),
+        (Clemens(joint_angle=0.1, driven=ClemensProfile(axial=0.1, radial=0.0, radius=0.2)), "driving"),
         (ConstantVelocity(joint_angle=0.1, friction=0.1), "friction"),
     ],
 )

@@ -8,12 +8,12 @@ import pytest
 
 from cardan import Drive, allocate, tolerance
 from cardan.drive.joints import JOINTS, Hooke
-from cardan.drive.joints.clemens import Profile
 from cardan.drive.joints.pin_coupling import missed_by_pins, missed_plane
 from cardan.errors import InputError
 from cardan.io.drive_file import dumps, loads
 from cardan.joints import (
     Clemens,
+    ClemensProfile,
     ConstantVelocity,
     DoubleCardan,
     ElasticHalfCardan,
@@ -45,8 +45,8 @@ SIZED = {
     "double cardan": DoubleCardan(centring_ratio=0.51, **PLACE),
     "pins": replace(PINS, driven_slant=46 * deg, driven_distance=61 * mm),
     "clemens": Clemens(
-        driving=Profile(axial=50 * mm, radial=30 * mm, radius=62 * mm),
-        driven=Profile(axial=50.5 * mm, radial=30 * mm, radius=62 * mm),
+        driving=ClemensProfile(axial=50 * mm, radial=30 * mm, radius=62 * mm),
+        driven=ClemensProfile(axial=50.5 * mm, radial=30 * mm, radius=62 * mm),
         **PLACE,
     ),
 }

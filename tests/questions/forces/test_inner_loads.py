@@ -10,11 +10,10 @@ import pytest
 from cardan import Drive, check, forces
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke, half_cardan
-from cardan.drive.joints.clemens import Profile
 from cardan.errors import InputError
 from cardan.formulas.hertz import point_contact
 from cardan.io.drive_file import loads
-from cardan.joints import Clemens, HalfCardan, PinCoupling, Rzeppa, Tracta, Tripod, Weiss
+from cardan.joints import Clemens, ClemensProfile, HalfCardan, PinCoupling, Rzeppa, Tracta, Tripod, Weiss
 from cardan.questions.forces import answer as forces_answer
 from cardan.questions.forces.inner_loads import inner_loads, thrusts, unit_loads, unit_thrust
 from cardan.questions.motion.joint_mechanism import joint_carried
@@ -254,7 +253,7 @@ def test_crossed_pins_press_by_hertz():
 
 def test_hinges_of_a_clemens_coupling_press_on_their_pins():
     joint = Clemens(
-        driving=Profile(axial=0.05, radial=0.02, radius=0.06),
+        driving=ClemensProfile(axial=0.05, radial=0.02, radius=0.06),
         hinge_diameter=0.01,
         hinge_length=0.03,
         hinge_width=0.008,

@@ -11,17 +11,26 @@ from cardan import Drive, example, forces, motion
 from cardan.drive.described import Input, Output
 from cardan.drive.duty import Duty
 from cardan.drive.joints import JOINTS, Hooke
-from cardan.drive.joints.clemens import Profile
 from cardan.drive.models.geometry import geometry
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 from cardan.errors import InputError
-from cardan.joints import Clemens, ConstantVelocity, DoubleCardan, HalfCardan, PinCoupling, Rzeppa, Tracta, Tripod
+from cardan.joints import (
+    Clemens,
+    ClemensProfile,
+    ConstantVelocity,
+    DoubleCardan,
+    HalfCardan,
+    PinCoupling,
+    Rzeppa,
+    Tracta,
+    Tripod,
+)
 from tests.fixtures.joint_keys import OWN
 
 DUTY = Duty(torque=400.0, speed=120.0, acceleration=30.0)
 
-PROFILE, OTHER = (Profile(axial=0.05, radial=radial, radius=0.06) for radial in (0.02, 0.021))
+PROFILE, OTHER = (ClemensProfile(axial=0.05, radial=radial, radius=0.06) for radial in (0.02, 0.021))
 
 ROUNDING = 1e-12
 """Share of the largest term that a dozen sums of double precision leave."""

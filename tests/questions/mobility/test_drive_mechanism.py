@@ -6,7 +6,6 @@ import pytest
 from cardan import Drive, InputError, assembly, example
 from cardan.drive.cross import Cross
 from cardan.drive.joints import JOINTS
-from cardan.drive.joints.clemens import Profile
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.kinematics_model import chain
 from cardan.drive.models.machine_held import machine_held
@@ -14,7 +13,18 @@ from cardan.drive.models.wobble import course
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.support import Support
 from cardan.io import example_names
-from cardan.joints import Clemens, DoubleCardan, HalfCardan, OffsetCross, PinCoupling, Rzeppa, Tracta, Tripod, Weiss
+from cardan.joints import (
+    Clemens,
+    ClemensProfile,
+    DoubleCardan,
+    HalfCardan,
+    OffsetCross,
+    PinCoupling,
+    Rzeppa,
+    Tracta,
+    Tripod,
+    Weiss,
+)
 from cardan.questions.forces.kinetostatics import standing
 from cardan.questions.mobility.constraint_release import repairs
 from cardan.questions.mobility.drive_mechanism import joint_freedoms, mechanism_of, unheld
@@ -209,7 +219,7 @@ KINDS = {
 }
 
 
-ARM = Profile(axial=0.05, radial=0.02, radius=0.06)
+ARM = ClemensProfile(axial=0.05, radial=0.02, radius=0.06)
 SIZED = [
     (DoubleCardan(centring_ratio=0.55), "RRRR-SG", 2),
     (DoubleCardan(centring_ratio=0.45, ball_on="driven"), "RRRR-SG", 2),

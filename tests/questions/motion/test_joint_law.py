@@ -7,9 +7,9 @@ from cardan import Drive, InputError, motion
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import JointType
 from cardan.drive.joints import JOINTS, Hooke
-from cardan.drive.joints.clemens import Profile
 from cardan.joints import (
     Clemens,
+    ClemensProfile,
     DoubleCardan,
     ElasticHalfCardan,
     HalfCardan,
@@ -35,8 +35,8 @@ UNEVEN = (
     ElasticHalfCardan(pairs=3),
     PinCoupling(driving_slant=40 * deg, driven_slant=42 * deg, driving_distance=50 * mm, driven_distance=52 * mm),
     Clemens(
-        driving=Profile(axial=60 * mm, radial=10 * mm, radius=75 * mm),
-        driven=Profile(axial=62 * mm, radial=11 * mm, radius=74 * mm),
+        driving=ClemensProfile(axial=60 * mm, radial=10 * mm, radius=75 * mm),
+        driven=ClemensProfile(axial=62 * mm, radial=11 * mm, radius=74 * mm),
     ),
 )
 

@@ -11,12 +11,12 @@ from cardan import InputError
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.joints import JOINTS, Hooke
-from cardan.drive.joints.clemens import Profile
 from cardan.drive.joints.tripod import roller_reach, track_travel
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.kinematics_model import turning_chain
 from cardan.joints import (
     Clemens,
+    ClemensProfile,
     ConstantVelocity,
     DoubleCardan,
     ElasticHalfCardan,
@@ -58,7 +58,8 @@ LAWFUL = [
     PinCoupling(driving_distance=0.05, driven_distance=0.05),
     PinCoupling(driving_distance=0.05, driven_distance=0.06),
     Clemens(
-        driving=Profile(axial=0.05, radial=0.02, radius=0.06), driven=Profile(axial=0.05, radial=0.021, radius=0.06)
+        driving=ClemensProfile(axial=0.05, radial=0.02, radius=0.06),
+        driven=ClemensProfile(axial=0.05, radial=0.021, radius=0.06),
     ),
 ]
 

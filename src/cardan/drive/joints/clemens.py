@@ -25,7 +25,7 @@ from .pin_coupling import wrapped
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Profile:
+class ClemensProfile:
     """Circular profile of a coupling in the meridian plane of its shaft: the path of an arm's end."""
 
     axial: float = quantity("length", doc="centre of the circle, along its own shaft from the joint centre")
@@ -34,7 +34,7 @@ class Profile:
 
 
 SIDES = ("driving", "driven")
-PROFILES = tuple(f"{side}_{one.name}" for side in SIDES for one in fields(Profile))
+PROFILES = tuple(f"{side}_{one.name}" for side in SIDES for one in fields(ClemensProfile))
 """Sizes of both profiles."""
 
 
@@ -56,8 +56,12 @@ class Clemens(Joint):
     }
     stays: ClassVar[str] = FREE
 
-    driving: Profile | None = plain(None, doc="profile of the driving shaft; without it the coupling counts as uniform")
-    driven: Profile | None = plain(None, doc="profile of the driven shaft; as that of the driving one when not given")
+    driving: ClemensProfile | None = plain(
+        None, doc="profile of the driving shaft; without it the coupling counts as uniform"
+    )
+    driven: ClemensProfile | None = plain(
+        None, doc="profile of the driven shaft; as that of the driving one when not given"
+    )
     hinge_diameter: float | None = quantity("length", None, doc="diameter of the pins of the arms", above=0.0)
     hinge_length: float | None = quantity(
         "length", None, doc="distance of the middles of both bearings of such a pin", above=0.0
@@ -74,18 +78,20 @@ class Clemens(Joint):
     @classmethod
     def size_keys(cls) -> dict[str, Key]:
         """Return what the sizes of both profiles mean."""
-        return dict(zip(PROFILES, [one.metadata[KEY] for one in fields(Profile)] * 2, strict=True))
+        return dict(zip(PROFILES, [one.metadata[KEY] for one in fields(ClemensProfile)] * 2, strict=True))
 
     def sizes(self) -> dict[str, float | None]:
         """Return the sizes of both profiles, the driven one as the driving one where it is not given."""
         both = self.driving, self.driving if self.driven is None else self.driven
-        values = [None if side is None else getattr(side, one.name) for side in both for one in fields(Profile)]
+        values = [None if side is None else getattr(side, one.name) for side in both for one in fields(ClemensProfile)]
         return dict(zip(PROFILES, values, strict=True))
 
     def sized(self, sizes: Mapping[str, Any]) -> Joint:
         """Return it with other sizes of its profiles."""
         whole = {**self.sizes(), **sizes}
-        one, other = (Profile(**{f.name: whole[f"{side}_{f.name}"] for f in fields(Profile)}) for side in SIDES)
+        one, other = (
+            ClemensProfile(**{f.name: whole[f"{side}_{f.name}"] for f in fields(ClemensProfile)}) for side in SIDES
+        )
         return replace(self, driving=one, driven=other)
 
     def pair(self, joint_angle: Array) -> mobius.Pair | None:
