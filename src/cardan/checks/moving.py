@@ -164,7 +164,8 @@ def _worst_of_instants(design: Design, judge: Callable[[Design], Sequence[Verdic
         if not one.run:
             found.append(one)
             continue
-        used, value = np.broadcast_arrays(one.utilisation, one.value)
+        every = np.empty((*design.shape, times.size))  # a verdict may be one for all drives and instants
+        used, value, _every = np.broadcast_arrays(one.utilisation, one.value, every)
         k = np.argmax(used, axis=-1)[..., None]
         most, worst = (np.take_along_axis(table, k, axis=-1)[..., 0] for table in (used, value))
         if one.sense in ("at_most", "at_least"):

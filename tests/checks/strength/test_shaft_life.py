@@ -157,6 +157,20 @@ def test_a_measured_torque_that_reverses_is_told_and_keeps_no_gap_closed(tmp_pat
     assert (found.check, found.value) == ("gap_closure", pytest.approx(1200.0))  # the least of it, not its peak
 
 
+def test_many_drives_that_move_keep_a_measured_torque_that_reverses(tmp_path):
+    """What is the same at every instant and in every drive is a verdict on each of them."""
+    path = written(tmp_path, seconds=1)
+    text = path.read_text(encoding="utf-8")
+    for x, z in ((0, 0), (1200, -150)):
+        text = text.replace("joint_angle_deg = 6", f"centre_mm = [{x}, 0, {z}]", 1)
+    ends = "input.point_mm = [-300, 0, 0]\noutput.point_mm = [1500, 0, -300]\n[[joints]]"
+    moves = 'kind = "harmonic"\nmoves = ["joints[1]", "output"]\nfrequency_Hz = 0.5\namplitude_mm = [0, 0, 100]\n'
+    text = text.replace("length_mm = 1200\n", "").replace("[[joints]]", ends, 1)
+    path.write_text(text.replace("[duty]", f"[[movements]]\n{moves}\n[duty]"), encoding="utf-8")
+    many = check(load(path), vary={"shafts[1].outer_mm": np.array([[70.0], [76.0]])}, only=["torque_reversal"])
+    assert [np.unique(np.asarray(one.value)) for one in many if one.run] == [3200.0]
+
+
 def test_speeds_measured_beside_the_torque_are_in_use(tmp_path):
     """A run at 6,000 rpm counts where speeds are judged, though the duty says 1,000; life asks for no other speed."""
     torque, speed = np.full(40, 800.0), np.linspace(300.0, 6000.0, 40)
