@@ -38,8 +38,8 @@ PLACES = 41
 AGAIN, NEARLY = 6, 1e-3
 """Times that sizes are looked for with the vibration of the last one found, and the change at which that ends."""
 
-LARGER, TRIED = 1.04, 24
-"""Step by which sizes grow, and how many are tried, where that does not rest."""
+LARGER, TRIED, HALVES = 1.04, 24, 6
+"""Step by which sizes grow, how many are tried, and how often the last is halved, where that does not rest."""
 
 FINE = 1e-13
 """Share of a size to which it is found."""
@@ -128,9 +128,19 @@ def _larger(alone: Callable[[float], float], factor: float, most: float, subject
     for k in range(1, TRIED + 1):
         larger = factor * LARGER**k
         if larger <= most and alone(larger) <= 1.0:
-            return larger
+            return _closer(alone, larger / LARGER, larger)
     text = _("no size near passes: with every one the drive vibrates in torsion too strongly")
     raise refuse(spelled(subject), text, "out_of_range")
+
+
+def _closer(alone: Callable[[float], float], low: float, high: float) -> float:
+    """Return a factor that passes, close to where a part is at its limit: between one that fails and one that does."""
+    for _half in range(HALVES):
+        if alone(high) >= math.exp(-NEAR):
+            break
+        middle = math.sqrt(low * high)
+        low, high = (low, middle) if alone(middle) <= 1.0 else (middle, high)
+    return high
 
 
 def smallest(utilisation: Callable[[Array], Array], low: float, high: float) -> float | None:

@@ -19,8 +19,11 @@ from cardan.texts import _
 from cardan.units import factor
 
 from .figure import sizing_figures, trade_off_figures
-from .size_search import Sizing, Tried
+from .size_search import Sizing, Tried, used
 from .trade_off import trade_off
+
+AT_LIMIT = 0.999
+"""Share of a limit from which a part is said to be at it; less where it passes by a jump."""
 
 
 def answer(
@@ -65,6 +68,8 @@ def _sentence(found: Sizing) -> Text:
         return say(_("{sizes} is the smallest size that passes."), sizes=sizes(found))
     first = found.governing
     title = "" if first is None else first.title
+    if first is not None and used(first) < AT_LIMIT:
+        return say(_("{sizes} is the smallest size found that passes."), sizes=sizes(found))
     return say(_("{sizes}, where {title} is just at its limit."), sizes=sizes(found), title=title)
 
 

@@ -45,7 +45,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
         joint = say(_("joint {number} needs most"), number=numbered(first + 1, design.drive.joints[first].name))
         named = _("decided by {case}").format(case=running[k].name) if running[k].name else ""
         light = _("the output shaft counts as without inertia") if each[-1] is None else ""
-        note = joined(joint if design.joints > 1 else "", named, light)
+        rigid = _("its shafts count as rigid") if any(case.vibration is not None for case in running) else ""
+        note = joined(joint if design.joints > 1 else "", named, light, rigid)
     yield Verdict(
         value=np.take_along_axis(torque, worst, axis=0)[0][()],
         limit=np.take_along_axis(needed, worst, axis=0)[0][()],
@@ -63,11 +64,13 @@ def _judge(design: Design) -> Iterator[Verdict]:
 def _pressing(design: Design, case: Case) -> Array:
     """Return the torque that presses the joints one way all the time, array (...) [N·m]; 0 where it changes its sign.
 
-    Of a measured torque it is the least; where it reverses, `torque_reversal` tells it.
+    Of a measured torque it is the least; where it reverses, or torsional vibration turns the torque of a shaft about,
+    `torque_reversal` tells it.
     """
     history = design.duty.torque_history
     if not case.history or history is None:
-        return np.asarray(case.torque, dtype=float)
+        turned = case.vibration is not None and float(np.min(case.vibration.low)) < 0.0
+        return np.asarray(0.0 if turned else case.torque, dtype=float)
     low, high = min(history.torques), max(history.torques)
     return np.asarray(max(low, -high, 0.0))
 

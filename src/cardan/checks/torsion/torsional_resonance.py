@@ -107,19 +107,23 @@ def _borne(design: Design, k: int) -> Iterator[Verdict]:
 
 
 def _bears(design: Design, k: int, section: Section, case: Case) -> Array:
-    """Return the alternating torque that a stretch of a shaft bears for ever, array (...) [N·m]; 0 where none."""
+    """Return the alternating torque that a stretch of a shaft bears for ever, array (...) [N·m]; 0 where none.
+
+    Secondary couples grow with the largest torque, and so with what alternates.
+    """
     shaft = design.drive.shafts[k]
     now = fatigue(design, k, section, case)
-    swing = 0.5 * (case.torque_range[1] - case.torque_range[0])[..., k]
+    least, most = (one[..., k] for one in case.torque_range)
+    swing, mean = 0.5 * (most - least), 0.5 * np.abs(most + least)
     notch = 1.0 if shaft.notch is None else design.value(f"shafts[{k}].notch.torsion")
-    modulus = torsion_modulus(*section.stressed)
-    twisted = math.sqrt(3.0) * np.asarray(notch) * swing / modulus
-    bent = np.sqrt(np.maximum(now.alternating**2 - twisted**2, 0.0))
+    twisted = math.sqrt(3.0) * np.asarray(notch) / torsion_modulus(*section.stressed)  # stress of a newton metre
+    bent = np.sqrt(np.maximum(now.alternating**2 - (twisted * swing) ** 2, 0.0)) / np.maximum(mean + swing, LEAST)
     ultimate = design.value(section.of_material("ultimate_strength"))
-    left = now.endurance * (1.0 / design.value("limits.fatigue_safety") - now.mean / ultimate)
-    room = np.maximum(left, 0.0) ** 2 - bent**2
-    found: Array = np.sqrt(np.maximum(room, 0.0)) * modulus / (math.sqrt(3.0) * np.asarray(notch))
-    return found
+    left = now.endurance * np.maximum(1.0 / design.value("limits.fatigue_safety") - now.mean / ultimate, 0.0)
+    # (twisted s)² + (bent (mean + s))² = left², for s
+    both, beside = twisted**2 + bent**2, bent**2 * mean
+    found: Array = (np.sqrt(np.maximum(beside**2 + both * (left**2 - beside * mean), 0.0)) - beside) / both
+    return np.maximum(found, 0.0)
 
 
 CHECK = Check(
