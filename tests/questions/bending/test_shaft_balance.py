@@ -59,6 +59,17 @@ def test_correction_masses_that_leave_nothing_are_no_unbalance():
         assert plane.unbalance == pytest.approx(1e-3 * before.unbalance)
 
 
+def test_a_static_part_that_cancels_is_none():
+    """Two unbalances that are opposite turn no force, whatever rounding leaves of their angles."""
+    opposite = (
+        Unbalance(position=0.1, amount=101.967e-6, angle=0.7),
+        Unbalance(position=0.9, amount=101.967e-6, angle=0.7 + math.pi),
+    )
+    found = balance(drive(unbalance=opposite)).shafts[0]
+    assert (found.unbalance, found.force) == (0.0, 0.0)
+    assert found.couple == pytest.approx(0.8 * 101.967e-6)
+
+
 def test_one_plane_may_be_too_much_where_the_whole_is_not():
     """At one end of a symmetrical shaft only half of what is allowed in all may be."""
     allowed = balance(drive()).shafts[0].allowed
@@ -100,15 +111,17 @@ def test_the_first_shaft_counts_from_its_end():
 
 
 @pytest.mark.parametrize("norm", ["gaz_66", "truck_up_to_5t", ""])
+@pytest.mark.parametrize("grade", ["G16", ""])
 @pytest.mark.parametrize("scale", [0.1, 0.5, 1.0, 3.0])
-def test_the_check_says_the_same(norm, scale):
+def test_the_check_says_the_same(norm, grade, scale):
     planes = tuple(replace(one, amount=scale * one.amount) for one in PLANES)
-    base = replace(drive(unbalance=planes), duty=Duty(speed=2400 * rpm, balance_grade="G16", balance_class=norm))
+    base = replace(drive(unbalance=planes), duty=Duty(speed=2400 * rpm, balance_grade=grade, balance_class=norm))
     verdicts = check(base, only=["balance"])
     found = balance(base).shafts[0]
     assert found.balanced == all(bool(one.passed) for one in verdicts)
     assert max(one.utilisation for one in verdicts) == pytest.approx(found.worst.utilisation)
     assert [one.value for one in verdicts] == [pytest.approx(found.worst.unbalance)] * len(verdicts)
+    assert len(verdicts) == bool(norm) + bool(grade or not norm)
 
 
 def test_many_drives_are_judged_as_one_by_one():

@@ -12,13 +12,13 @@ from cardan.catalogue.rows import BalanceGrade, BalanceNorm
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.strength.section import modulus, sections
-from cardan.checks.verdict import Verdict
+from cardan.checks.verdict import Verdict, joined
 from cardan.drive.body import body_length, weight
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.yokes import with_yokes
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
-from cardan.questions.bending.balance import SLOW, allowed_unbalance, in_planes, plane_shares, tolerance_planes
+from cardan.questions.bending.balance import SLOW, USUAL, allowed_unbalance, in_planes, plane_shares, tolerance_planes
 from cardan.texts import _, mark
 
 
@@ -27,9 +27,9 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
     shaft = design.drive.shafts[k]
     if not shaft.unbalance and (not (grade or norm) or not 0 < k < design.joints):
         return
+    assumed = not grade and not norm
+    grade = USUAL if assumed else grade
     lacking = [] if shaft.unbalance else [f"shafts[{k}].unbalance"]
-    if not grade and not norm:
-        lacking.append("duty.balance_grade")
     if shaft.unbalance and _length(design, k) is None:
         lacking.append(f"shafts[{k}].length")
     mass = _mass(design, k)
@@ -49,6 +49,8 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
     note: Text = _("below 500 rpm makers do not balance") if slow else ""
     if not note and amounts.ndim == 1:
         note = say(_("in the plane at {place}"), place=Quantity(float(planes[int(worst)]), "length", 3))
+    if assumed:
+        note = joined(note, say(_("no balance grade is given, {grade} is usual"), grade=grade))
     if grade:
         row = design.known.row(BalanceGrade, grade, field="duty.balance_grade")
         top = np.maximum(np.asarray(design.top_speed, dtype=float), 1e-9)

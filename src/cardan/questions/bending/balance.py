@@ -230,6 +230,8 @@ def _of_shaft(
     places, sizes = (np.asarray([one[k] for one in vectors]) for k in (0, 1))
     there = np.full(2, nan) if ends is None or not vectors else in_planes(ends, places, sizes)
     resultant = abs(complex(np.sum(sizes)))
+    if resultant <= ROUNDING * float(np.sum(np.abs(sizes))):
+        resultant = 0.0
     fixes = vectors if ends is None or not vectors else list(zip(ends, map(complex, there), strict=True))
     radius = 0.5 * shaft.outer if shaft.outer is not None else nan
     return ShaftBalance(
