@@ -37,6 +37,7 @@ from cardan.checks.verdict_table import (
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import bare_path, counted, in_words
 from cardan.drive.yokes import yokes_estimated
+from cardan.questions.torsion.steady.pendulum_swing import strikes_in_use
 from cardan.texts import _, mark, plural
 from cardan.units import dimension_of, factor
 
@@ -166,7 +167,11 @@ def answer(drive: Drive, result: Checked, *, sources: bool = False, missing: boo
         else "plain",
         figures=lambda: check_figures(result.told, name=drive.name),
         tables=tuple(_tables(drive, result, sources=sources, missing=missing)),
-        remarks=(*yokes_estimated(drive), *_remarks(result, sources=sources, missing=missing)),
+        remarks=(
+            *yokes_estimated(drive),
+            *(replace(one, aside=True) for one in strikes_in_use(drive)),  # torsional vibration tells it too
+            *_remarks(result, sources=sources, missing=missing),
+        ),
         keys=tuple(key_figures(drive, result.verdicts)),
         facts={
             "passed": not result.failed,

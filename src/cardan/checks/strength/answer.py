@@ -25,6 +25,7 @@ from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.torsional_layout import has_torsion
 from cardan.drive.yokes import yokes_estimated
+from cardan.questions.torsion.steady.pendulum_swing import strikes_in_use
 from cardan.texts import _, mark, plural
 
 from .event_damage import cheapest, event_damages, events_lost, ramp_damages
@@ -90,7 +91,11 @@ def answer(drive: Drive, result: Strength) -> Answer:
         tone=tone,
         figures=lambda: strength_figures(result),
         tables=tuple(_tables(drive, result)),
-        remarks=(*_remarks(result), *(yokes_estimated(drive) if has_torsion(drive) else ())),
+        remarks=(
+            *_remarks(result),
+            *(replace(one, aside=True) for one in strikes_in_use(drive)),  # torsional vibration tells it too
+            *(yokes_estimated(drive) if has_torsion(drive) else ()),
+        ),
         keys=tuple(_keys(result)),
         facts=_facts(result) | {"enough": enough},
         full=lambda: verdict_records(result.verdicts, "", torque=result.torque, flat=True),

@@ -9,12 +9,16 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from cardan import Drive, InputError
+from cardan.checks.strength.answer import answer as strength_answer
+from cardan.checks.strength.strength import strength
 from cardan.drive.duty import Duty
 from cardan.drive.machine import ConstantTorque, RunUp
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Pendulum, Station, ToNext
 from cardan.questions.torsion.model.torsional_balance import accelerations, balance, energy, slopes
 from cardan.questions.torsion.model.torsional_train import swinging, torsional_train
+from cardan.questions.torsion.steady.answer import answer as steady_answer
+from cardan.questions.torsion.steady.pendulum_swing import pendulum_swing, strikes, strikes_in_use
 from cardan.questions.torsion.steady.torsion_response import torsion_response
 from cardan.questions.torsion.transient.answer import answer
 from cardan.questions.torsion.transient.fixed_steps import FixedStep
@@ -160,6 +164,33 @@ def test_small_swings_are_those_of_the_absorber() -> None:
     reach = found.motion.extremes.torque_high - found.motion.extremes.torque_low
     assert reach[e] == pytest.approx((wanted.torque_highest - wanted.torque_lowest)[e], rel=1e-4)
     assert np.ptp(found.motion.torque[-400:, e]) == pytest.approx(reach[e], rel=1e-4)
+
+
+def test_steady_answers_tell_how_far_pendulums_oscillate_and_that_they_hit_their_stops() -> None:
+    """Small oscillations are those in time; with a stop that they would pass every answer says what it left out."""
+    calm = replace(drive(Duty(speed=90.0, torque=1.0)), joints=(replace(Drive.from_angles([2 * deg]).joints[0]),))
+    wanted = torsion_response(calm)
+    (swing,) = pendulum_swing(wanted)
+    assert swing == pytest.approx(transient(calm, span=1.0, start="settled", method=FAST).swings[0], rel=2e-3)
+    kept, struck = (
+        replace(
+            calm,
+            stations=(
+                calm.stations[0],
+                replace(calm.stations[1], pendulum=replace(HUNG, stop_angle=share * swing, stop_stiffness=400.0)),
+                calm.stations[2],
+            ),
+        )
+        for share in (1.1, 0.9)
+    )
+    for one, told in ((kept, 0), (struck, 1)):
+        assert len(list(strikes(torsion_response(one)))) == told
+        assert len(strikes_in_use(one)) == told
+        assert len(strikes_in_use(replace(one, duty=Duty(speed_range=(60.0, 90.0), torque=1.0)))) == told
+        answers = (steady_answer(one, torsion_response(one)), strength_answer(one, strength(one)))
+        for remarks in (its.remarks for its in answers):
+            assert sum("hits its stops" in str(its.text) for its in remarks) == told
+    assert transient(struck, span=1.0, start="settled", method=FAST).swings[0] > 0.9 * swing
 
 
 def test_slopes_and_energy_are_those_of_the_balance() -> None:

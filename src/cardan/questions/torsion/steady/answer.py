@@ -25,6 +25,7 @@ from cardan.questions.torsion.model.torsional_modes import main_order
 from cardan.texts import _, mark, plural
 
 from .figure import response_figures
+from .pendulum_swing import strikes
 from .run_stability import Verdict, verdict_words
 from .settling import LONGEST
 from .several import Beside
@@ -303,6 +304,7 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
     if np.any(found.train.model.loss_factor):
         text = _("Structural damping counts as viscous, equal at order {order} of the speed.")
         yield Remark(text=say(text, order=_order(main_order(found.train.model))))
+    yield from strikes(found)
     yield from assumptions(found.train, sprung=True)
     yield from left_out(drive)
     yield from yokes_estimated(drive)
