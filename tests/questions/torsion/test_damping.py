@@ -14,14 +14,22 @@ from cardan.answers.reader import USUAL
 from cardan.drive.duty import Duty
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
+from cardan.drive.support import Support
 from cardan.formulas.damping import LOSS
+from cardan.questions.torsion.absorber import answer as absorber_answers
 from cardan.questions.torsion.answer import answer as whole_answer
 from cardan.questions.torsion.answer import ask
 from cardan.questions.torsion.model.answer import answer as modes_answer
 from cardan.questions.torsion.model.torsion import torsion_modes
 from cardan.questions.torsion.model.torsional_train import torsional_train
+from cardan.questions.torsion.optimise.answer import answer as optimise_answer
+from cardan.questions.torsion.optimise.optimise import Grid, optimise_torsion
 from cardan.questions.torsion.stability.answer import answer
 from cardan.questions.torsion.stability.torsion_stability import stability
+from cardan.questions.torsion.steady.answer import answer as response_answer
+from cardan.questions.torsion.steady.torsion_response import torsion_response
+from cardan.questions.torsion.transient.answer import answer as simulation_answer
+from cardan.questions.torsion.transient.torsion_transient import transient
 from cardan.units import deg
 
 C, J = 1000.0, 0.4
@@ -141,6 +149,33 @@ def test_one_answer_never_says_both(off):
 
 def test_a_drive_stable_with_its_own_dampers_needs_no_more():
     assert stability(drive(5 * deg, damping=3.0)).least_loss == 0.0
+
+
+@pytest.mark.slow
+def test_every_answer_on_torsion_says_which_friction_it_leaves_out() -> None:
+    bent = replace(
+        Drive.from_angles([14 * deg, 14 * deg], plane_twists=[25 * deg]),
+        shafts=(Shaft(number=2, stiffness=5000.0, damping=2.0, inertia=0.02),),
+        stations=(Station(shaft=3, name="pump", inertia=0.8),),
+        duty=Duty(speed=30.0, torque=60.0, speed_range=(30.0, 60.0)),
+    )
+    journals = tuple(replace(one, friction=0.05) for one in bent.joints)
+    rubbing = replace(bent, joints=journals, supports=(Support(shaft=3, position=0.1, bore=0.03, friction=0.02),))
+    yoke = {"shafts[1].yoke_angle_deg": (-60.0, 20.0)}
+    for made, there in ((bent, False), (rubbing, True)):
+        ended = replace(made, duty=replace(made.duty, speed_range=None))
+        absorbed = absorber_answers.ask(ended, progress=lambda _share: "stop")
+        answers = (
+            modes_answer(made, torsion_modes(made)),
+            response_answer(made, torsion_response(made)),
+            answer(made, stability(made)),
+            absorber_answers.answer(ended, absorbed),
+            optimise_answer(made, optimise_torsion(made, free=yoke, method=Grid(points=3))),
+            simulation_answer(made, transient(made, span=0.05)),
+        )
+        for one in answers:
+            said = [told(remark.text, USUAL) for remark in one.remarks]
+            assert any("Friction of joints, supports is left out" in text for text in said) is there, one.name
 
 
 @pytest.mark.slow

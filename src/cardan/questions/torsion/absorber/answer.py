@@ -16,7 +16,7 @@ from cardan.drive.yokes import yokes_estimated
 from cardan.formulas.damping import LOSS, SHAFT_SOURCE
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
-from cardan.questions.torsion.model.answer import lacking, nonsynchronous
+from cardan.questions.torsion.model.answer import friction_left_out, lacking, nonsynchronous
 from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
 from cardan.texts import _
 from cardan.units import deg
@@ -369,6 +369,7 @@ def cautions(found: Any) -> Iterator[Remark]:
             "cardan torsion response has both."
         )
         yield Remark(text=text)
+    yield from friction_left_out(found.drive)
     if found.cancelled:
         yield Remark(text=_("Warning: the search was stopped; this is the best so far."), tone="warning")
     elif not found.converged:

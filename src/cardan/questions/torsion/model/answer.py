@@ -515,6 +515,16 @@ def _crossing(one: Crossing) -> dict[str, Any]:
 
 def left_out(drive: Drive) -> Iterator[Remark]:
     """Yield what of a drive does not act in its torsional vibration although the file gives it."""
+    yield from friction_left_out(drive)
+    if drive.movements:
+        text = _(
+            "Movements count instant by instant here, as if the drive stood; along the whole movement it is told by:"
+        )
+        yield Remark(text=text, command=("cardan", "torsion", "road", FILE))
+
+
+def friction_left_out(drive: Drive) -> Iterator[Remark]:
+    """Yield which friction of a drive does not act in its torsional vibration."""
     splines = [one.spline for one in drive.shafts if one.spline is not None and one.spline.friction]
     rubbing = (
         (_("joints"), any(one.friction or one.material_friction for one in drive.joints)),
@@ -528,11 +538,6 @@ def left_out(drive: Drive) -> Iterator[Remark]:
         )
         parts = ", ".join(name for name, there in rubbing if there)
         yield Remark(text=text.format(parts=parts), command=("cardan", "losses", FILE))
-    if drive.movements:
-        text = _(
-            "Movements count instant by instant here, as if the drive stood; along the whole movement it is told by:"
-        )
-        yield Remark(text=text, command=("cardan", "torsion", "road", FILE))
 
 
 def assumptions(train: TorsionalTrain, *, wide: bool = False, sprung: bool = False) -> Iterator[Remark]:

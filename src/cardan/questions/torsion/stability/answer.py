@@ -17,7 +17,7 @@ from cardan.drive.models.kinematics_model import given_chain
 from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.formulas.damping import LOSS
-from cardan.questions.torsion.model.answer import assumptions, nonsynchronous, ranges
+from cardan.questions.torsion.model.answer import assumptions, friction_left_out, nonsynchronous, ranges
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.steady.run_stability import Kind, Verdict, verdict_words
@@ -307,6 +307,7 @@ def _remarks(drive: Drive, found: Stability, axes: tuple[MapAxis, ...], *, signs
     if found.train.model.free:
         yield Remark(text=_("Rigid-body rotation is left out: a free drive may shift in time."))
     yield from assumptions(found.train, sprung=True)
+    yield from friction_left_out(drive)
     if len(axes) == 2 and not signs and plays(found):
         text = _("The map is coarse, as motions whose backlash opens take long; in full: {command}")
         yield Remark(text=text.format(command=_finer(axes)), depth="full")
