@@ -14,7 +14,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.torsional_layout import has_torsion
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
-from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
+from cardan.questions.torsion.model.torsion import TorsionModes, modes_of
 from cardan.texts import _
 
 NO_MODEL = ("stations[0].inertia",)
@@ -22,12 +22,12 @@ NO_MODEL = ("stations[0].inertia",)
 
 
 @lru_cache(maxsize=4096)
-def modes(drive: Drive) -> TorsionModes | tuple[str, ...]:
-    """Return the torsional modes of a drive, or the paths of what its file lacks for them."""
+def modes(drive: Drive, *, crossings: bool = False) -> TorsionModes | tuple[str, ...]:
+    """Return the torsional modes of a drive, with crossings or without, or the paths of what its file lacks."""
     if not has_torsion(drive):
         return NO_MODEL
     try:
-        return torsion_modes(drive)
+        return modes_of(drive, drive.duty, crossings=crossings)
     except InputError as error:
         return tuple(problem.field for problem in error.problems)
 

@@ -47,7 +47,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 def _apart(design: Design) -> Iterator[Verdict]:
     """Yield how far the speeds in use are from the nearest meeting of an excitation with a natural frequency."""
-    found = modes(design.drive)
+    found = modes(design.drive, crossings=True)
     assert not isinstance(found, tuple)
     bent = bool(np.any(given_chain(design.drive).joint_angle > STEEP))
     met = [one for one in found.crossings if bent or one.order != 4.0 or "," in one.cause]

@@ -12,13 +12,17 @@ from cardan import example, stability
 from cardan.answers.data import data
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
+from cardan.drive.station import ToNext
 from cardan.questions.torsion.stability.answer import answer
 from cardan.questions.torsion.stability.floquet_map import floquet_map
 from cardan.questions.torsion.stability.proved_speeds import proved_speeds
+from cardan.questions.torsion.stability.torsion_stability import proved_in_band
+from cardan.questions.torsion.steady import steady
 from cardan.questions.torsion.steady.run_stability import Verdict, floquet
 from cardan.questions.torsion.steady.steady import periodic_response
 from cardan.units import rpm
 from tests.builders.torsion_in_time import drive
+from tests.questions.torsion.transient.test_springs import drive as rubbing
 
 SPEEDS = "duty.speed_rpm"
 
@@ -128,3 +132,17 @@ def test_a_stable_range_is_a_statement() -> None:
     assert facts["proved"]
     assert facts["unstable"] == []
     assert facts["widest_zone_hidden_rpm"] == 0.0
+
+
+def test_friction_that_sticks_is_proved_and_motions_in_which_it_slips_are_not_searched_for(monkeypatch) -> None:
+    """No polynomial in the speed holds a motion with kinks, and a search for each is minutes for nothing."""
+
+    def searched(*_args) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr(steady, "_along", searched)
+    monkeypatch.setattr(steady, "_sharp", searched)
+    sticks, slips = (ToNext(stiffness=4000.0, damping=1.0, friction=torque) for torque in (300.0, 5.0))
+    assert proved_in_band(rubbing(sticks), 45.0, 50.0).stable
+    found = proved_in_band(rubbing(slips), 45.0, 50.0)
+    assert found.unproved.tolist() == found.open.tolist() == [[45.0, 50.0]]

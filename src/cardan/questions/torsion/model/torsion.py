@@ -223,7 +223,11 @@ def torsion_modes(drive: Drive, duty: Duty | None = None, *, pieces: int = 1) ->
     >>> found.omega, found.order2_speed
     (array([44.15880433]), array([22.07940217]))
     """
-    chosen = drive.duty if duty is None else duty
+    return modes_of(drive, drive.duty if duty is None else duty, pieces=pieces)
+
+
+def modes_of(drive: Drive, chosen: Duty, *, pieces: int = 1, crossings: bool = True) -> TorsionModes:
+    """Return the same; crossings: whether the speeds at which orders meet modes are told, side bands take a while."""
     train = torsional_train(drive, chosen, pieces=pieces, loaded=chosen.speed is not None)
     found = straight_modes(train.model, speed=chosen.speed or 0.0)
     if not len(found.omega) and train.model.elements:
@@ -246,7 +250,7 @@ def torsion_modes(drive: Drive, duty: Duty | None = None, *, pieces: int = 1) ->
         nodes=tuple(tuple(_nodes(train, shape)) for shape in found.shape / largest),
         speed=abs(chosen.speed or 0.0),
         speed_range=chosen.speed_range,
-        crossings=tuple(_crossings(drive, chosen, train)),
+        crossings=tuple(_crossings(drive, chosen, train)) if crossings else (),
         residual=float(np.max(found.residual)),
     )
 

@@ -119,7 +119,7 @@ def steady_orbits(
     """Return the motions of `periodic_response` alone, and their status, array of int (...).
 
     model, speed, method, progress: as `periodic_response` takes them.
-    opened: how to find motions that are no Fourier sums, where the method does not say it.
+    opened: how to find motions that are no Fourier sums, where the method does not say it; with no work none is.
     """
     omega = speeds_of(model, speed)
     outer = np.broadcast_shapes(leading(replace(model, input_speed=None)), omega.shape)
@@ -162,6 +162,7 @@ def _solved(
     parts: list[Waves] = []
     pieces: dict[int, Pieces] = {}
     stopped, fruitless = False, 0
+    smooth_alone = turning.model.rubs and opened is not None and not opened.work
     for first in range(0, count, CHUNK):
         rows = np.arange(first, min(first + CHUNK, count))
         if stopped:
@@ -170,10 +171,10 @@ def _solved(
         part = turning.part(rows)
         waves, near = (_nothing(len(rows), turning.coordinates, Status.NO_CONVERGENCE) for _each in range(2))
         if not isinstance(method, Shooting):
-            waves, near = _by_waves(part, method)
+            waves, near = _by_waves(part, method, smooth_alone=smooth_alone)
         own: dict[int, Pieces] = {}
         lost: list[int] = []
-        for k in np.flatnonzero(waves.status != Status.CONVERGED).tolist():
+        for k in np.flatnonzero(waves.status != Status.CONVERGED).tolist() if not smooth_alone else ():
             if stopped:
                 waves.status[k] = Status.CANCELLED
                 continue
@@ -230,13 +231,19 @@ def _nothing(count: int, coordinates: int, status: Status) -> Waves:
     )
 
 
-def _by_waves(part: Turning, method: HarmonicBalance | None) -> tuple[Waves, Waves]:
-    """Return motions as Fourier sums, where play stays closed, and sums to search from where there are none."""
+def _by_waves(part: Turning, method: HarmonicBalance | None, *, smooth_alone: bool = False) -> tuple[Waves, Waves]:
+    """Return motions as Fourier sums, where play stays closed, and sums to search from where there are none.
+
+    smooth_alone: whether the way to motions in which friction slips is left out, for nothing is searched from it.
+    """
     half_turns, smooth = round(part.period / np.pi), closed(part)
     how = method or HarmonicBalance(harmonics=HARMONICS * half_turns, most=MOST)
     found = sums_of(smooth, at_rest(smooth), how)
     lost = np.flatnonzero((found.status == Status.NO_CONVERGENCE) | ~stays_closed(part, found.coefficient))
     if not lost.size:
+        return found, found
+    if smooth_alone:
+        found.status[lost] = Status.NO_CONVERGENCE
         return found, found
     if _kinked(part):
         kinked = HarmonicBalance(harmonics=KINKED * half_turns, most=KINKED * half_turns)
