@@ -208,7 +208,13 @@ def test_random_movements_by_rice() -> None:
     places = found.standing
     assert places.part(places.low[:, 0] < 0.0) == pytest.approx(inside, rel=0.02)
     level = math.sqrt(2.0 * math.log(rate / (2.0 * math.pi) * found.span))  # of z once in the span, one side alone
-    assert found.peak[0] == pytest.approx(np.max(course(math.atan(LIFT + deviation * level), 58.0)), rel=2e-3)
+    far = course(math.atan(LIFT + deviation * level), 58.0)
+    assert found.peak[0] == pytest.approx(np.max(far), rel=2e-3)
+    wave = np.fft.rfft(far[:-1] if np.isclose(far[0], far[-1]) else far)
+    second = found.order.tolist().index(2.0)
+    assert found.envelope[0, second] == pytest.approx(2.0 * np.max(np.abs(wave[1:])) / len(far), rel=1e-2)
+    least, largest = found.extremes
+    assert (least[0], largest[0]) == pytest.approx((np.min(far), np.max(far)), rel=4e-3)
 
 
 def half_turn(

@@ -31,6 +31,9 @@ LONGER = 0.02
 """Share of its length by which a shaft may telescope without a word."""
 
 
+RARE = 1e-6
+"""Share of the time below which a movement by its distribution is not told how seldom it is unstable."""
+
 SEEN = 5e-3
 """Share of the largest order below which another one is not shown to people."""
 
@@ -70,7 +73,7 @@ def answer(drive: Drive, result: RoadTorsion) -> Answer:
 def _tone(found: RoadTorsion) -> Tone:
     if found.mean_growth > 0.0:
         return "failed"
-    if found.unstable or found.resonance > 0.0 or np.any(_rattling(found)):
+    if found.unstable >= RARE or found.resonance > 0.0 or np.any(_rattling(found)):
         return "warning"
     return "good"
 
@@ -109,7 +112,9 @@ def _sentence(found: RoadTorsion) -> Text:
     parts: list[Text] = [said]
     if math.isfinite(found.resonance):
         parts.append(say(_("in resonance {share} of the time"), share=_share(found.resonance)))
-    if found.unstable:
+    if 0.0 < found.unstable < RARE and found.mean_growth <= 0.0:
+        parts.append(say(_("unstable less than {share} of the time"), share=Quantity(RARE, "share", trim=True)))
+    elif found.unstable:
         text = _("unstable {share} of the time, and growing on the whole")
         if found.mean_growth <= 0.0:
             text = _("unstable {share} of the time, and decaying on the whole")
@@ -122,7 +127,7 @@ def _sentence(found: RoadTorsion) -> Text:
 def _elements(found: RoadTorsion) -> Table:
     """Return torques and reversals of every element of the line."""
     line, places = found.line, found.places
-    low, high = (np.asarray(one)[found.likely][:, line] for one in (places.low, places.high))
+    low, high = (one[line] for one in found.extremes)
     names = [found.train.elements[e] for e in line]
     return Table(
         name="elements",
@@ -133,8 +138,8 @@ def _elements(found: RoadTorsion) -> Table:
             Column(
                 key="mean", heading=_("mean"), values=places.averaged(places.mean)[line], dimension="torque", digits=3
             ),
-            Column(key="min", heading=_("lowest"), values=np.min(low, axis=0), dimension="torque", digits=3),
-            Column(key="max", heading=_("highest"), values=np.max(high, axis=0), dimension="torque", digits=3),
+            Column(key="min", heading=_("lowest"), values=low, dimension="torque", digits=3),
+            Column(key="max", heading=_("highest"), values=high, dimension="torque", digits=3),
             Column(key="above", heading=_("above {n} × mean").format(n=f"{MULTIPLE:g}"), values=found.above[line],
                    dimension="share", digits=3),
             Column(key="reversals_per_hour", heading=_("reversals per hour"), values=hour * found.reversals[line],
@@ -142,6 +147,9 @@ def _elements(found: RoadTorsion) -> Table:
             Column(key="entries_per_hour", heading=_("spells with reversals per hour"),
                    values=hour * found.entries[line], digits=3),
         ),
+        note=""
+        if found.chance is None
+        else say(_("Lowest and highest: passed once in {span} on average."), span=_time(found.span)),
     )  # fmt: skip
 
 

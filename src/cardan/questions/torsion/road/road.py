@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -122,7 +123,8 @@ class RoadTorsion:
     peak: tuple[float, int, float]
     moving: Places | None = None  # the same by integration in time; None where that was not needed, or not possible
     why: str = ""  # why nothing was integrated although the movement is too quick
-    chance: Chance | None = None  # least, then largest torque of every element over the distribution
+    # over the distribution the least torque of every element, then the largest, then the amplitudes of its orders
+    chance: Chance | None = None
     periodic: bool = False  # whether the movement repeats with the span
     opened: Opened | None = None  # with open backlash; None where it stays closed, and in time
     damage: tuple[ShaftDamage, ...] = ()  # what it costs the shafts whose strength is told
@@ -140,6 +142,16 @@ class RoadTorsion:
         rounds = max(self.lag.rate * self.span / (2.0 * math.pi), math.e)
         radius = np.tile(self.chance.grid.radius, len(self.chance.grid.ray))
         return self.places.found & np.asarray(radius <= math.sqrt(2.0 * math.log(rounds)))
+
+    @property
+    def extremes(self) -> tuple[Array, Array]:
+        """Least and largest torque of every element, arrays (E,) [N·m]; see `peak` of what a distribution has."""
+        if self.chance is not None:
+            count, risk = len(self.train.elements), self.chance
+            least = [_level(risk, e, self.span, least=True) for e in range(count)]
+            return np.asarray(least), np.asarray([_level(risk, count + e, self.span) for e in range(count)])
+        known = self.places.found
+        return np.min(self.places.low[known], axis=0), np.max(self.places.high[known], axis=0)
 
     @property
     def stretched(self) -> tuple[float, int]:
@@ -229,12 +241,16 @@ class RoadTorsion:
         begins[0] &= self.periodic
         return np.asarray(np.sum(begins, axis=0) / self.span)
 
-    @property
+    @cached_property
     def envelope(self) -> Array:
-        """Largest amplitude of every order in every element, array (E, K) [N·m]."""
-        assert self.standing.amplitude is not None
-        kept = self.standing.found if self.moving is not None else self.likely
-        return np.asarray(np.max(self.standing.amplitude[kept], axis=0, initial=0.0))
+        """Largest amplitude of every order in every element, array (E, K) [N·m]; see `peak` of a distribution."""
+        amplitude = self.standing.amplitude
+        assert amplitude is not None
+        if self.chance is None:
+            return np.asarray(np.max(amplitude[self.standing.found], axis=0, initial=0.0))
+        shape = amplitude.shape[1:]
+        levels = [_level(self.chance, 2 * shape[0] + k, self.span) for k in range(math.prod(shape))]
+        return np.asarray(levels).reshape(shape)
 
 
 def road_torsion(drive: Drive, *, progress: Progress | None = None) -> RoadTorsion:
@@ -379,7 +395,9 @@ def _at_random(standing: Standing, random: Sequence[Random]) -> tuple[Places, Ch
         found = standing.at(points)
         every.append(found)
         # where nothing runs steadily, as far out as hardly ever, the torque of the nearest ray inside stands in
-        rows = np.concatenate([found.low, found.high], axis=-1).T
+        assert found.amplitude is not None
+        own = found.amplitude.reshape(len(found.low), -1)
+        rows = np.concatenate([found.low, found.high, own], axis=-1).T
         if len(places) != len(grid.places):
             return np.nan_to_num(rows)
         wide = rows.reshape(len(rows), *grid.weight.shape)
@@ -423,12 +441,9 @@ def _peak(found: RoadTorsion, standing: Standing) -> tuple[float, int, float]:
     """Return the largest torque of the line, its element and its instant; see `RoadTorsion`."""
     line, places = found.line, found.places
     if found.chance is not None:
-        count, risk = len(found.train.elements), found.chance
-        ends = [
-            max(abs(_level(risk, e, found.span, least=True)), abs(_level(risk, count + e, found.span))) for e in line
-        ]
+        ends = np.maximum(*np.abs(found.extremes))[line]
         k = int(np.argmax(ends))
-        return ends[k], line[k], math.nan
+        return float(ends[k]), line[k], math.nan
     known = places.found
     if not known.any():
         return math.nan, line[0], math.nan
