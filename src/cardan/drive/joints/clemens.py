@@ -216,7 +216,7 @@ def _link(length: float) -> Surface:
 # hinged there about the tangential axis, or the middle line of a groove in which a ball runs. Profiles alike touch in
 # the halving plane and run evenly at any bend.
 
-CELLS = 90  # pieces in which the circle of shaft 1 is searched; at most four contacts lie on it
+CELLS = 90  # pieces in which the circle of shaft 1 is searched
 START = -math.pi + 0.003  # where the search begins: off the places at which a drawing would put a contact
 DENSEST = 0.02  # least spacing of the pieces over an even one
 NEWTON = 7  # steps from a straight line between the ends of a piece to rounding
@@ -290,13 +290,12 @@ def _at(place: Array, phi: Array, alpha: Array, first: Circle, second: Circle) -
 def _arrays(
     angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle
 ) -> tuple[Array, Array, Circle, Circle]:
-    """Return everything as arrays of one shape."""
+    """Return everything as arrays: the angles of the shape of all, the circles of their own."""
     given = (angle, joint_angle, *(getattr(c, name) for c in (first, second) for name in ("axial", "radial", "radius")))
-    made = floats(*given)
-    none = 0.0 * sum(made)
-    phi, alpha, *sizes = (one + none for one in made)
+    phi, alpha, *sizes = floats(*given)
+    none = 0.0 * sum((phi, alpha, *sizes))
     one, two = (Circle(axial=h, radial=r, radius=rho) for h, r, rho in (sizes[:3], sizes[3:]))
-    return phi, alpha, one, two
+    return phi + none, alpha + none, one, two
 
 
 def _widened(circle: Circle) -> Circle:
@@ -351,28 +350,45 @@ def _grid(circle: Circle) -> Array:
 def _place(angle: Array, joint_angle: Array, first: Circle, second: Circle) -> Array:
     """Return where on circle 1 the contact stands, as the angle about its centre, array (...)."""
     xp = namespace(angle, joint_angle)
-    wide = angle[..., None], joint_angle[..., None], _widened(first), _widened(second)
-    grid = _grid(first)
-    value = _miss(grid, *wide)[0]
-    low, high = value[..., :-1], value[..., 1:]
-    crossed = (low < 0.0) != (high < 0.0)
-    begin, end = grid[..., :-1], grid[..., 1:]
-    start = begin - (end - begin) * low / xp.where(crossed, high - low, xp.inf)
-    away, radius = _away(start, *wide[:3])
-    cost = xp.where(crossed & (radius > 0.0), xp.abs(away), xp.inf)
+    value, grid = _misses(angle, joint_angle, first, second)
+    below = value < 0.0
+    crossed = below[..., :-1] != below[..., 1:]
+    cells, rows = xp.arange(CELLS), xp.reshape(xp.arange(angle.size), angle.shape) * (CELLS + 1)
+    flat = [xp.reshape(xp.broadcast_to(one, value.shape), (-1,)) for one in (value, grid)]
+
+    def picked(cell: Array) -> list[Array]:
+        places = xp.reshape(rows + cell, (-1,))
+        return [xp.reshape(xp.take(one, places), angle.shape) for one in flat]
+
     best, least = xp.nan * angle, xp.inf + xp.zeros_like(angle)
-    for _piece in range(2):  # two pieces may look equally near until they are solved
-        chosen = xp.arange(CELLS) == xp.argmin(cost, axis=-1)[..., None]
-        there = xp.isfinite(xp.min(cost, axis=-1))
-        floor, place, ceiling = (xp.sum(xp.where(chosen, one, 0.0), axis=-1) for one in (begin, start, end))
+    while bool(xp.any(crossed)):  # at most four contacts lie on it
+        cell = xp.argmax(xp.astype(crossed, xp.int8), axis=-1)
+        crossed, there = crossed & (cells > cell[..., None]), xp.any(crossed, axis=-1)
+        (low, begin), (high, end) = picked(cell), picked(cell + 1)
+        place = begin - (end - begin) * low / xp.where(there, high - low, xp.inf)
+        there = there & (_away(place, angle, joint_angle, first)[1] > 0.0)
         for _step in range(NEWTON):
             place = _better(place, angle, joint_angle, first, second)
-            place = xp.minimum(xp.maximum(place, floor), ceiling)
+            place = xp.minimum(xp.maximum(place, begin), end)
         away = xp.abs(_away(place, angle, joint_angle, first)[0])
         nearer = there & (away < least)
         best, least = xp.where(nearer, place, best), xp.where(nearer, away, least)
-        cost = xp.where(chosen, xp.inf, cost)
     return best
+
+
+def _misses(angle: Array, joint_angle: Array, first: Circle, second: Circle) -> tuple[Array, Array]:
+    """Return by how much the ends of the pieces of circle 1 miss circle 2, array (..., CELLS + 1), and these ends.
+
+    As `_miss`, with r2² = h² + r² - h2²: few steps over so many places.
+    """
+    xp, one, two = namespace(angle, joint_angle), _widened(first), _widened(second)
+    grid = _grid(first)
+    h, r = one.axial + one.radius * xp.cos(grid), one.radial + one.radius * xp.sin(grid)
+    square = h * h + r * r
+    h2 = (xp.cos(angle) * xp.sin(joint_angle))[..., None] * r - xp.cos(joint_angle)[..., None] * h
+    r2 = xp.sqrt(xp.maximum(square - h2 * h2, 0.0 * h2))
+    rest = square + (two.axial * two.axial + two.radial * two.radial - two.radius * two.radius)
+    return rest - 2.0 * (two.axial * h2 + two.radial * r2), grid
 
 
 def deviation(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> Array:

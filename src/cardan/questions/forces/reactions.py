@@ -225,16 +225,24 @@ def weights(train: Train, frame: Frame, stand: KinematicState, acceleration: Arr
 
 
 def shoves(
-    train: Train, frame: Frame, stand: KinematicState, torque: Array, forces: Sequence[Array | None]
+    train: Train,
+    frame: Frame,
+    stand: KinematicState,
+    torque: Array,
+    forces: Sequence[Array | None],
+    pushed: Sequence[Array | None] | None = None,
 ) -> list[Array]:
     """Return the known forces along all that slides, each (..., p) [N], in the order of `support_statics.sliding`.
 
     torque (..., p, n) [N·m]: of the driven shaft of each joint, with which a joint pushes it.
     forces: what friction within each joint and its stiffness add to that, (..., p, 3) [N]; None without any.
+    pushed: of `pushes`, for who asks for several torques.
     """
+    if pushed is None:
+        pushed = pushes(train, frame, stand)
     rows: list[Array] = []
     for i, free in enumerate(frame.layout.slides):
-        known = _known_force(train, stand, i, torque[..., i], forces[i]) if any(free) else None
+        known = _known_force(pushed[i], torque[..., i], forces[i])
         for slides, way in zip(free, frame.ways, strict=False):
             if slides:
                 still = 0.0 * stand.speed[..., i]
@@ -242,16 +250,28 @@ def shoves(
     return rows
 
 
-def _known_force(train: Train, stand: KinematicState, i: int, torque: Array, added: Array | None) -> Array | None:
-    """Return the force (..., p, 3) [N] that joint i puts on its driven shaft by itself; None where it puts none."""
-    if not train.kinds or train.crossed[i]:
-        return None
-    normal, aside, theta, alpha, before = seen_by(train, stand, i)
-    size = train.kinds[i].push(theta, alpha)
-    if size is None:
+def pushes(train: Train, frame: Frame, stand: KinematicState) -> list[Array | None]:
+    """Return the force (..., p, 3) [1/m] with which each joint pushes its driven shaft for 1 N·m on this.
+
+    None for one that pushes with none, or whose shafts do not slide.
+    """
+    found: list[Array | None] = []
+    for i, free in enumerate(frame.layout.slides):
+        size = None
+        if any(free) and train.kinds and not train.crossed[i]:
+            normal, aside, theta, alpha, before = seen_by(train, stand, i)
+            size = train.kinds[i].push(theta, alpha)
+        found.append(
+            None if size is None else sum(size[..., k, None] * way for k, way in enumerate((before, aside, normal)))
+        )
+    return found
+
+
+def _known_force(push: Array | None, torque: Array, added: Array | None) -> Array | None:
+    """Return the force (..., p, 3) [N] that a joint puts on its driven shaft by itself; None where it puts none."""
+    if push is None:
         return added
-    pushed = torque[..., None] * sum(size[..., k, None] * way for k, way in enumerate((before, aside, normal)))
-    return pushed if added is None else pushed + added
+    return torque[..., None] * push if added is None else torque[..., None] * push + added
 
 
 def thrusts(train: Train, stand: KinematicState, couples: Couples, sense: Array | None = None) -> Array:
@@ -325,6 +345,17 @@ def solved(frame: Frame, load: Array) -> tuple[Array, Array]:
         xp.broadcast_to(frame.matrix, (*load.shape[:-1], *frame.matrix.shape[-2:])), load[..., None, :]
     )
     return found[..., 0, :], regular
+
+
+def solved_each(frame: Frame, loads: Sequence[Array]) -> list[Array]:
+    """Return the unknowns of a determinate frame for several loads, as `solved`; each matrix is looked at once."""
+    if frame.matrix.shape[-3] == 1:
+        return [solved(frame, load)[0] for load in loads]
+    xp = namespace(*loads)
+    every = xp.stack(xp.broadcast_arrays(*loads), axis=-2)
+    matrix = xp.broadcast_to(frame.matrix, (*every.shape[:-2], *frame.matrix.shape[-2:]))
+    found = solve_regular(matrix, every)[0]
+    return [found[..., k, :] for k in range(len(loads))]
 
 
 def forces_of(frame: Frame, unknowns: Array) -> tuple[Array, Array, Array]:

@@ -21,9 +21,11 @@ from cardan.questions.forces.reactions import (
     Load,
     forces_of,
     frame,
+    pushes,
     right_side,
     shoves,
     solved,
+    solved_each,
     weights,
 )
 from cardan.questions.motion.articulation import articulation
@@ -270,39 +272,40 @@ def response(train: Train, drag: Array, angle: Array) -> Response:
         along = frames.dot(normal, e[..., :-1, :])
         normal = normal / np.where(train.chain.laws.own, along, 1.0)[..., None]
 
-    def solved_for(across: Array, loads: list[Load], shoved: Sequence[Array] = ()) -> Array:
-        none = np.zeros((*across.shape[:-2], len(train.splines)))
-        reaction = forces_of(held, solved(held, right_side(held, across, loads, none, shoved))[0])[1]
-        found: Array = np.reshape(reaction, (*angle.shape, *reaction.shape[-2:]))
-        return found
+    pushed = pushes(train, held, stand)
 
-    def solved_joint(i: int, couple: Array, torque: Array, force: Array | None) -> Array:
-        """Return the forces for a couple of joint i alone, with the torque and force it puts on its driven shaft."""
+    def side(across: Array, loads: list[Load], shoved: Sequence[Array]) -> Array:
+        return right_side(held, across, loads, np.zeros((*across.shape[:-2], len(train.splines))), shoved)
+
+    def of_joint(i: int, couple: Array, torque: Array, force: Array | None) -> Array:
+        """Return the known side for a couple of joint i alone, with the torque and force on its driven shaft."""
         forces = [force if k == i else None for k in range(n)]
         torques = torque[..., None] * (np.arange(n) == i)
-        return solved_for(_across(e, couple, i), [], shoves(train, held, stand, torques, forces))
+        return side(_across(e, couple, i), [], shoves(train, held, stand, torques, forces, pushed))
 
     pull, rub = [], []
     for i in range(n):
         before, after, own = e[..., i, :], e[..., i + 1, :], normal[..., i, :]
         inside = inner_friction(train, stand, i)
         if inside is None:
-            pull.append(solved_joint(i, own, frames.dot(own, after), None))
-            rub.append(solved_joint(i, -drag[i] * slip[..., i, :], 0.0 * stand.speed[..., i], None))
+            pull.append(of_joint(i, own, frames.dot(own, after), None))
+            rub.append(of_joint(i, -drag[i] * slip[..., i, :], 0.0 * stand.speed[..., i], None))
             continue
         whole = own / frames.dot(own, after)[..., None] + inside.couple
         torque = 1.0 / frames.dot(whole, before)
         both = [torque[..., None] * whole, torque, torque[..., None] * inside.force]
-        pull.append(solved_joint(i, *(0.5 * (one[0] + one[1]) for one in both)))
-        rub.append(solved_joint(i, *(0.5 * (one[0] - one[1]) for one in both)))
+        pull.append(of_joint(i, *(0.5 * (one[0] + one[1]) for one in both)))
+        rub.append(of_joint(i, *(0.5 * (one[0] - one[1]) for one in both)))
     still, springs = np.zeros((angle.size, n + 1, 3)), [sprung(train, stand, i) for i in range(n)]
     for i, spring in enumerate(springs):
         if spring is not None:
             still = still + _across(e, spring[0], i)
     forces = [None if spring is None else spring[1] for spring in springs]
-    always = shoves(train, held, stand, np.zeros((angle.size, n)), forces)
-    weight = solved_for(still, weights(train, held, stand, None), always)
-    return Response(weight=weight, pull=np.stack(pull, axis=-3), rub=np.stack(rub, axis=-3))
+    always = shoves(train, held, stand, np.zeros((angle.size, n)), forces, pushed)
+    sides = [side(still, weights(train, held, stand, None), always), *pull, *rub]
+    found = [forces_of(held, one)[1] for one in solved_each(held, sides)]
+    weight, *parts = (np.reshape(one, (*angle.shape, *one.shape[-2:])) for one in found)
+    return Response(weight=weight, pull=np.stack(parts[:n], axis=-3), rub=np.stack(parts[n:], axis=-3))
 
 
 def _held(train: Train, angle: Array) -> tuple[KinematicState, Frame]:
