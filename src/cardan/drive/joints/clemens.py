@@ -18,7 +18,7 @@ from cardan.texts import _, mark
 from cardan.units import KEY, Key, plain, quantity
 
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
-from .common.laws import contact_push
+from .common.laws import beside, contact_push, lost_contact, nearest, reached
 from .common.site import Site
 from .joint import CROSS_ONLY, FREE, REFUSALS, Joint, both_or_none
 from .pin_coupling import wrapped
@@ -95,18 +95,49 @@ class Clemens(Joint):
         return replace(self, driving=one, driven=other)
 
     def pair(self, joint_angle: Array) -> mobius.Pair | None:
-        """Return the identity for profiles alike, else None."""
-        even = self.driven is None or self.driven == self.driving
-        return mobius.turn(0.0 * joint_angle) if even else None
+        """Return the identity for profiles alike, nan where they do not meet all round; None for unlike ones."""
+        if self.driven is not None and self.driven != self.driving:
+            return None
+        a, b = mobius.turn(0.0 * joint_angle)
+        if self.driving is None:
+            return a, b
+        xp = namespace(joint_angle)
+        return xp.where(meets(self.driving, joint_angle), a, xp.nan), b
 
     def deviation(self, angle: Array, joint_angle: Array) -> tuple[Array, Array, Array]:
-        """Return the law of the contact of both profiles."""
-        if self.driving is None or self.driven is None:
+        """Return the law of the contact of both profiles; nan where they do not meet."""
+        if self.driving is None:
             return 0.0 * angle, 1.0 + 0.0 * angle, 0.0 * angle
-        one, other = (
-            Circle(axial=side.axial, radial=side.radial, radius=side.radius) for side in (self.driving, self.driven)
-        )
-        return course(angle, joint_angle, one, other)
+        if self.driven is None or self.driven == self.driving:
+            return Joint.deviation(self, angle, joint_angle)
+        return reached(course(angle, joint_angle, *self._circles))
+
+    @property
+    def _circles(self) -> tuple[Circle, Circle]:
+        """Both its profiles, where one is given."""
+        assert self.driving is not None
+        sides = self.driving, self.driving if self.driven is None else self.driven
+        one, two = (Circle(axial=side.axial, radial=side.radial, radius=side.radius) for side in sides)
+        return one, two
+
+    def stuck(self, joint_angle: float) -> str:
+        """Return where its arms do not meet."""
+        plain_ = Joint.stuck(self, joint_angle)
+        if self.driving is None:
+            return plain_
+        one, two = self._circles
+
+        def missed(theta: Array) -> Array:
+            def far(place: Array) -> Array:
+                height, out = one.axial + one.radius * np.cos(place), one.radial + one.radius * np.sin(place)
+                along, off = beside(height, out, theta[:, None], joint_angle)
+                gap = np.abs(np.hypot(along - two.axial, off - two.radial) - two.radius)
+                return np.where(out > 0.0, gap, np.inf)
+
+            return nearest(far, np.linspace(0.0, 2.0 * np.pi, MISSED))
+
+        why = lost_contact(lambda theta: course(theta, joint_angle, one, two), missed, joint_angle)
+        return f"{plain_}: {why}" if why else plain_
 
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the two hinged arms that meet and carry; a contact without their profile."""
@@ -114,8 +145,7 @@ class Clemens(Joint):
             yield from Joint.mechanism(self, stance)
             return
         one, other = self.driving, self.driving if self.driven is None else self.driven
-        sides = [Circle(axial=side.axial, radial=side.radial, radius=side.radius) for side in (one, other)]
-        found = profile_contact(stance.theta, stance.joint_angle, *sides)
+        found = profile_contact(stance.theta, stance.joint_angle, *self._circles)
         back, u, v = -stance.before, stance.driving, stance.driven
         height, out = np.asarray(found.height1)[..., None], np.asarray(found.radius1)[..., None]
         at = stance.centre + height * back + out * u
@@ -153,8 +183,7 @@ class Clemens(Joint):
         if self.driving is None:
             return None
         sides = self.driving, self.driving if self.driven is None else self.driven
-        circles = [Circle(axial=side.axial, radial=side.radial, radius=side.radius) for side in sides]
-        found = profile_contact(angle, joint_angle, *circles)
+        found = profile_contact(angle, joint_angle, *self._circles)
         ends = (found.height1, found.radius1), (found.height2, found.radius2)
         slopes = [
             np.stack((side.radial - np.asarray(out), np.asarray(height) - side.axial), axis=-1)
@@ -220,6 +249,7 @@ CELLS = 90  # pieces in which the circle of shaft 1 is searched
 START = -math.pi + 0.003  # where the search begins: off the places at which a drawing would put a contact
 DENSEST = 0.02  # least spacing of the pieces over an even one
 NEWTON = 7  # steps from a straight line between the ends of a piece to rounding
+MISSED = 361  # places of the circle at which it is looked at how far it misses the other one
 STEP = 2e-5  # step of the difference quotient of the ratio [rad]: its error of second order is at that of rounding
 
 
@@ -244,6 +274,19 @@ class ProfileContact:
     height2: Array  # (...) [m]
     radius2: Array  # (...) [m]
     force: Array  # (...) [1/m]: contact force without friction for each unit of input torque
+
+
+def meets(profile: ClemensProfile, joint_angle: Array) -> Array:
+    """Return whether two profiles alike meet all round at joint angles (...) [rad], array of bool (...).
+
+    In the halving plane, h = s r with \\|s\\| up to tan(α/2): a circle that does not hold the joint centre is met by
+    these lines as long as by both outermost ones, on the side of r > 0.
+    """
+    xp, a, b, radius = namespace(joint_angle), profile.axial, profile.radial, profile.radius
+    s = xp.tan(0.5 * joint_angle)
+    inner = 0.0 * s + (a * a + b * b - radius * radius) <= 0.0
+    ends = [(xp.abs(a - way * b) <= radius * xp.sqrt(1.0 + way * way)) & (way * a + b > 0.0) for way in (s, -s)]
+    return inner | (ends[0] & ends[1])
 
 
 def profile_contact(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> ProfileContact:

@@ -17,9 +17,12 @@ from cardan.texts import _, mark
 from cardan.units import deg, quantity
 
 from .common.inner import DRIVEN, DRIVING, Contact, InnerPair, Stance
-from .common.laws import contact_push
+from .common.laws import beside, contact_push, lost_contact, nearest, reached
 from .common.site import Site, about
 from .joint import CROSS_ONLY, FREE, REFUSALS, Inside, Joint, both_or_none
+
+FAR = 400
+"""Places of a pin at which it is looked at how far it misses the other one."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -94,7 +97,47 @@ class PinCoupling(Joint):
         if self.driving_distance is None or self.driven_distance is None:
             return 0.0 * angle, 1.0 + 0.0 * angle, 0.0 * angle
         found = pin_contact(angle, joint_angle, self.driving_distance, self.driven_distance, one, other)
-        return found.deviation, found.ratio, found.ratio_slope
+        return reached((found.deviation, found.ratio, found.ratio_slope))
+
+    def stuck(self, joint_angle: float) -> str:
+        """Return which pin leans too little or too much, or where both do not meet."""
+        text, names = Joint.stuck(self, joint_angle), ("driving_slant", "driven_slant")
+        low, high = (float(end) for end in slant_range(joint_angle))
+        for name, slant in zip(names, self._slants, strict=True):
+            if low < slant < high:
+                continue
+            said = {"pin": name, "slant": slant / deg, "low": low / deg, "high": high / deg}
+            if slant <= low:
+                why = _(
+                    "{pin} is {slant:.4g}°, between {low:.4g}° and {high:.4g}° pins go all the way round; with its "
+                    "driving mark {angle:.4g}° from the plane of the shafts these lie in one line"
+                )
+                place = math.acos(math.tan(slant) / math.tan(low))
+            else:
+                why = _(
+                    "{pin} is {slant:.4g}°, between {low:.4g}° and {high:.4g}° pins go all the way round; with its "
+                    "driving mark {angle:.4g}° from the plane of the shafts these are parallel"
+                )
+                place = math.acos(-math.tan(high) / math.tan(slant))
+            return f"{text}: {why.format(**said, angle=place / deg)}"
+        if self.driving_distance is None or self.driven_distance is None:
+            return text
+        (one, other), a, b = self._slants, self.driving_distance, self.driven_distance
+
+        def contact(theta: Array) -> tuple[Array, Array, Array]:
+            found = pin_contact(theta, joint_angle, a, b, one, other)
+            return found.deviation, found.ratio, found.ratio_slope
+
+        def missed(theta: Array) -> Array:
+            def far(x: Array) -> Array:
+                along, off = beside(a - x * math.cos(one), x * math.sin(one), theta[:, None], joint_angle)
+                way = np.maximum((b - along) * math.cos(other) + off * math.sin(other), 0.0)
+                return np.hypot(along - b + way * math.cos(other), off - way * math.sin(other))
+
+            return nearest(far, max(a, b) * (np.geomspace(1.0, 101.0, FAR) - 1.0))
+
+        why = lost_contact(contact, missed, joint_angle)
+        return f"{text}: {why}" if why else text
 
     def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield which slants turn all round, and way and force of the contact where the distances are given."""

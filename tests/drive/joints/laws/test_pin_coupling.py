@@ -1,5 +1,7 @@
 """Against two lines in space closed by least squares, in coordinates of their own."""
 
+import re
+
 import array_api_strict as strict
 import numpy as np
 import pytest
@@ -7,7 +9,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
+from cardan import Drive, InputError, motion
 from cardan.drive.joints import pin_coupling
+from cardan.joints import PinCoupling
 from cardan.units import deg
 
 UNEQUAL = (30 * deg, 0.05, 0.052, 40 * deg, 42 * deg)
@@ -161,3 +165,54 @@ def test_other_array_libraries():
     ours, theirs = pin_coupling.pin_contact([0.1, 2.0], *UNEQUAL), pin_coupling.pin_contact(phi, *UNEQUAL)
     for name in ("deviation", "ratio", "ratio_slope", "first", "second", "force"):
         np.testing.assert_allclose(np.asarray(getattr(theirs, name)), getattr(ours, name), rtol=1e-12)
+
+
+def test_what_turns_turns_once_a_turn_by_its_speed():
+    """A contact that is lost and found elsewhere leaves out a part of the turn: such pins are refused."""
+    draw = np.random.default_rng(2)
+    turn, refused = np.arange(0.0, 360.0, 0.5) * deg, 0
+    for _case in range(600):
+        joint_angle = draw.uniform(0.05, 0.9)
+        low, high = pin_coupling.slant_range(joint_angle)
+        one, two = draw.uniform(low, high, 2)
+        joint = PinCoupling(
+            driving_slant=one, driven_slant=two, driving_distance=0.05, driven_distance=draw.uniform(0.03, 0.075)
+        )
+        lead, ratio, _slope = joint.deviation(turn, np.asarray(joint_angle))
+        if not np.all(np.isfinite(lead)):
+            refused += 1
+            why = joint.stuck(joint_angle)
+            assert "miss each other by" in why or "leaps" in why
+        elif np.max(ratio) < 20.0:  # beyond it half a degree is too coarse for the sum
+            assert np.mean(ratio) == pytest.approx(1.0, abs=1e-3)
+    assert refused > 5
+
+
+def test_pins_that_do_not_turn_say_why_and_where():
+    """Alike, they lie in line where cos φ = tan θ/tan(α/2), are parallel where cos φ = -cot θ cot(α/2)."""
+    for slant, word in ((20.0, "lie in one line"), (70.0, "are parallel")):
+        with pytest.raises(InputError, match="between 25° and 65°") as refused:
+            motion(Drive(joints=(PinCoupling(driving_slant=slant * deg, joint_angle=50 * deg),)))
+        (problem,) = refused.value.problems
+        assert word in problem.message
+        place = float(re.search(r"driving mark ([\d.]+)° from", problem.message)[1]) * deg
+        half, lean = np.tan(25 * deg), np.tan(slant * deg)
+        sought = lean / half if slant < 25.0 else -1.0 / (lean * half)
+        assert np.cos(place) == pytest.approx(sought, abs=3e-4)  # four digits of the angle
+    apart = PinCoupling(
+        driving_slant=38.08 * deg, driven_slant=20.47 * deg, driving_distance=0.05, driven_distance=0.032,
+        joint_angle=35.24 * deg,
+    )  # fmt: skip
+    start, along, *_driven = pins(0.0, 0.0, 35.24 * deg, 0.05, 0.032, 38.08 * deg, 20.47 * deg)
+
+    def between(u):
+        _start, _along, other, way = pins(0.0, u[0], 35.24 * deg, 0.05, 0.032, 38.08 * deg, 20.47 * deg)
+        return 1e3 * (start + u[1] * along - other - u[2] * way)
+
+    nearest = min(
+        np.linalg.norm(least_squares(between, [psi, x, x], bounds=([-7.0, 0.0, 0.0], [7.0, 5.0, 5.0])).fun)
+        for psi in (0.0, 1.0, 3.0)
+        for x in (0.01, 0.06)
+    )
+    with pytest.raises(InputError, match=rf"mark 0° from the plane .* miss each other by {nearest:.3g} mm"):
+        motion(Drive(joints=(apart,)))

@@ -1,5 +1,7 @@
 """Against the loop of two hinged arms and a ball joint, and pins as circles without end."""
 
+from dataclasses import replace
+
 import array_api_strict as strict
 import numpy as np
 import pytest
@@ -7,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
+from cardan import Drive, InputError, motion
 from cardan.drive.joints import clemens, pin_coupling
 from cardan.drive.joints.clemens import Circle
 from cardan.units import deg
@@ -109,3 +112,39 @@ def test_other_array_libraries():
     want = clemens.profile_contact([0.1, 2.0], 0.3, ARM, OTHER)
     np.testing.assert_allclose(np.asarray(got.deviation), want.deviation, rtol=1e-10)
     np.testing.assert_allclose(np.asarray(got.ratio), want.ratio, rtol=1e-10)
+
+
+def test_arms_alike_reach_each_other_as_the_contact_says():
+    """The sides of the halving plane that count against the contact looked for all round."""
+    draw = np.random.default_rng(5)
+    turn, seen = np.arange(0.0, 360.0, 3.0) * deg, []
+    for _case in range(120):
+        axial, radial = draw.uniform(0.03, 0.07), draw.uniform(0.0, 0.03)
+        radius, joint_angle = np.hypot(axial, radial) * draw.uniform(0.4, 1.3), draw.uniform(0.05, 1.2)
+        own = clemens.ClemensProfile(axial=axial, radial=radial, radius=radius)
+        circle = Circle(axial=axial, radial=radial, radius=radius)
+        found = clemens.profile_contact(turn, joint_angle, circle, circle).deviation
+        meets = bool(clemens.meets(own, np.asarray(joint_angle)))
+        assert meets == bool(np.all(np.abs(found) < 1e-9)), (axial, radial, radius, joint_angle)
+        seen.append(meets)
+    assert 20 < sum(seen) < 100
+
+
+@pytest.mark.parametrize("driven", [None, 0.03])
+def test_arms_that_are_too_short_are_told_by_how_much(driven):
+    """At half a turn the circles, mirrored in the halving plane, are apart by twice what they miss of it."""
+    own = clemens.ClemensProfile(axial=0.06, radial=0.03, radius=0.03)
+    other = None if driven is None else replace(own, radial=0.03)
+    joint = clemens.Clemens(driving=own, driven=other, joint_angle=20 * deg)
+    apart = 2.0 * ((0.06 * np.cos(10 * deg) + 0.03 * np.sin(10 * deg)) - 0.03)
+    with pytest.raises(InputError, match=rf"mark 180° from the plane .* miss each other by {1e3 * apart:.3g} mm"):
+        motion(Drive(joints=(joint,)))
+
+
+def test_arms_whose_contact_leaps_do_not_turn():
+    one, two = (
+        clemens.ClemensProfile(axial=a, radial=r, radius=radius)
+        for a, r, radius in ((0.0673, 0.00776, 0.06364), (0.05638, 0.006, 0.05948))
+    )
+    with pytest.raises(InputError, match="contact leaps"):
+        motion(Drive(joints=(clemens.Clemens(driving=one, driven=two, joint_angle=44.5 * deg),)))

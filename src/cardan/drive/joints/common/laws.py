@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from cardan.maths.arrays import Array, ArrayLike, complex_of, floats, namespace, unit_complex
 from cardan.maths.kernel import frames, mobius
+from cardan.texts import _
+from cardan.units import mm
 
 # Joints whose balls or tongue lie in one plane: exactly even where it halves the angle of the shafts, else nearly.
 #
@@ -140,6 +144,81 @@ def contact_push(height: Array, out: Array, angle: Array, joint_angle: Array, sl
     normal = frames.cross(first, second)
     found: Array = normal / frames.dot(frames.cross(place, normal), after)[..., None]
     return found
+
+
+TURN = 720
+"""Places of a turn at which a contact is looked for."""
+
+CLOSER = 4
+"""How often the place where two profiles are nearest is looked at twenty times as closely."""
+
+LEAP = 0.02
+"""Turn [rad] of the driven shaft from one such place to the next that its speed does not tell: the contact leaps."""
+
+
+def reached(course: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
+    """Return a law of motion, not a number where the driven shaft would turn back.
+
+    Touching profiles push on and on: where the ratio is negative the contact has passed a dead centre, through which
+    nothing drives it.
+    """
+    xp = namespace(*course)
+    back = course[1] <= 0.0
+    one, two, three = (xp.where(back, xp.nan, part) for part in course)
+    return one, two, three
+
+
+def lost_contact(
+    contact: Callable[[Array], tuple[Array, Array, Array]], missed: Callable[[Array], Array], joint_angle: float
+) -> str:
+    """Return in a sentence where a contact is lost within a turn, and by how much; "" where it goes round.
+
+    contact: its law at angles (p,) [rad] of the driving mark; missed: by how much both profiles miss each other there,
+    (p,) [m].
+    """
+    theta = np.arange(TURN) * (2.0 * np.pi / TURN)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        lead, ratio, _slope = (np.asarray(one) for one in contact(theta))
+    apart = ~np.isfinite(lead)
+    if np.any(apart):
+        gaps = missed(theta[apart])
+        k = int(np.argmax(gaps))
+        text = _(
+            "with its driving mark {angle:.4g}° from the plane of the shafts both sides miss each other by {gap:.3g} mm"
+        )
+        return text.format(angle=math.degrees(theta[apart][k]), gap=gaps[k] / mm)
+    step = np.diff(lead, append=lead[:1])
+    leap = np.abs((step + np.pi) % (2.0 * np.pi) - np.pi - 0.5 * (ratio + np.roll(ratio, -1) - 2.0) * theta[1])
+    k = int(np.argmax(leap))
+    if leap[k] < LEAP and np.all(ratio > 0.0):
+        return ""
+    text = _(
+        "with its driving mark {angle:.4g}° from the plane of the shafts the contact leaps: the driven shaft would "
+        "have to turn by {leap:.3g}° at once"
+    )
+    far = math.degrees(abs((step[k] + np.pi) % (2.0 * np.pi) - np.pi))
+    return text.format(angle=math.degrees(theta[k]), leap=far)
+
+
+def nearest(far: Callable[[Array], Array], places: Array) -> Array:
+    """Return the least distances (p,) of a profile: far of places (p, m) along it, looked at ever more closely."""
+    found = far(places[None])
+    places = np.broadcast_to(places, found.shape)
+    for _round in range(CLOSER):
+        k = np.clip(np.argmin(found, axis=-1), 1, places.shape[-1] - 2)[:, None]
+        low, high = (np.take_along_axis(places, k + side, axis=-1) for side in (-1, 1))
+        places = low + (high - low) * np.linspace(0.0, 1.0, 41)
+        found = far(places)
+    return np.asarray(np.min(found, axis=-1))
+
+
+def beside(height: Array, out: Array, angle: Array, joint_angle: float) -> tuple[Array, Array]:
+    """Return where a point of the driving shaft stands in the meridian plane of the driven one, along and off it [m].
+
+    height, out (...) [m], angle (...) [rad]: as of `contact_push`.
+    """
+    c, s, ca, sa = np.cos(angle), np.sin(angle), math.cos(joint_angle), math.sin(joint_angle)
+    return out * c * sa - height * ca, np.hypot(height * sa + out * c * ca, out * s)
 
 
 # Joints whose links share the torque: each link would turn as a Hooke joint, all together turn by the mean of them.
