@@ -339,9 +339,10 @@ def seen_by(train: Train, stand: KinematicState, i: int) -> tuple[Array, Array, 
     return (*seen(stand.driving_arm[..., i, :], before, after, plane), before)
 
 
-def inner_friction(train: Train, stand: KinematicState, i: int) -> InnerFriction | None:
+def inner_friction(train: Train, stand: KinematicState, i: int, *, many: bool = False) -> InnerFriction | None:
     """Return what friction within joint i adds; None where it does not rub or is a single cross.
 
+    many: whether it is asked again at many other joint angles, see `rubbed_share`.
     Its inner mechanism tells the share s of the power of the driving shaft that it rubs away, and what it adds about
     the normal N of the plane of the shafts, `rubbed_share` and `rubbed_push`. The couple about the driven shaft is
     given, so with K·e = (K_0·e)/(1 ∓ s) the rest of it is along N × e'.
@@ -352,7 +353,7 @@ def inner_friction(train: Train, stand: KinematicState, i: int) -> InnerFriction
         return _pin_friction(train.kinds[i], stand, i)
     after = stand.axis[..., i + 1, :]
     normal, aside, theta, alpha, before = seen_by(train, stand, i)
-    many = np.unique(np.round(alpha, 9)).size > FEW
+    many = many or np.unique(np.round(alpha, 9)).size > FEW
     shares = rubbed_share(train.kinds[i], alpha, theta, many=many)
     push = rubbed_push(train.kinds[i], alpha, theta, many=many)
     way = stand.couple_way(i)

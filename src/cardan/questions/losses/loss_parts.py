@@ -171,7 +171,7 @@ def model_of(drive: Drive, duty: Duty, parts: Parts) -> Model:
     drag = np.zeros(n) if machine.drag is None else machine.drag
 
     def holding(angle: Array) -> Holding:
-        return response(machine, drag, angle)
+        return response(machine, drag, angle, many=bool(drive.movements))
 
     return Model(
         chain=machine.chain,
@@ -252,10 +252,11 @@ class Response:
         return found
 
 
-def response(train: Train, drag: Array, angle: Array) -> Response:
+def response(train: Train, drag: Array, angle: Array, *, many: bool = False) -> Response:
     """Return the forces on the supports per couple of each cross.
 
-    train: one drive, its supports determinate; drag (n,): κ of each joint; angle (..., p) [rad]: input angles.
+    train: one drive, its supports determinate; drag (n,): κ of each joint; angle (..., p) [rad]: input angles; many:
+    whether the same joints are asked at many joint angles.
     The couple T n ∓ κ|T| u ± κ|T| v of every cross bends its two shafts; what its part across them needs, and
     the weights, is in balance with the forces in the joints and supports. That balance is linear, so each part is
     solved for once; what rubs within a joint adds one part by T and one by |T|. Thrust of splines is left out: at rest
@@ -286,7 +287,7 @@ def response(train: Train, drag: Array, angle: Array) -> Response:
     pull, rub = [], []
     for i in range(n):
         before, after, own = e[..., i, :], e[..., i + 1, :], normal[..., i, :]
-        inside = inner_friction(train, stand, i)
+        inside = inner_friction(train, stand, i, many=many)
         if inside is None:
             pull.append(of_joint(i, own, frames.dot(own, after), None))
             rub.append(of_joint(i, -drag[i] * slip[..., i, :], 0.0 * stand.speed[..., i], None))

@@ -255,7 +255,7 @@ def _shares(joint: Joint, joint_angle: float, places: int) -> Array:
         else 0
     )
     found = []
-    for one, sense in zip(turned, (1.0, -1.0), strict=False):
+    for one, sense in zip(turned[:2], (1.0, -1.0), strict=False):
         power = np.abs(one.input_torque * one.found.speed[:, 0, 0])
         found.append((one.loss * power + more) / (power + sense * more))
     return _all_round(joint, np.reshape(np.stack(found), (2, 1, -1)) if found else np.zeros((2, 1, places)), places)
@@ -277,7 +277,7 @@ def _slipping(joint: Joint, joint_angle: float, count: int, places: int) -> Arra
 @lru_cache(maxsize=512)
 def _pushes(joint: Joint, joint_angle: float, places: int) -> Array:
     """Return what `rubbed_push` finds at even places of a turn, array (2, 4, places)."""
-    found = [one.wrench[:, 2:] for one in _turned(joint, joint_angle, places, bare=True)]
+    found = [one.wrench[:, 2:] for one in _turned(joint, joint_angle, places)]
     if not found:
         return np.zeros((2, 4, places))
     return _all_round(joint, np.stack([np.swapaxes(one - found[2], 0, 1) for one in found[:2]]), places)
@@ -287,22 +287,22 @@ def _pushes(joint: Joint, joint_angle: float, places: int) -> Array:
 def _pins(joint: Joint, joint_angle: float, places: int) -> Array:
     """Return what `rubbed_pins` finds at even places of a turn, array (2, 2, places)."""
     rows = []
-    for one in _turned(joint, joint_angle, places):
+    for one in _turned(joint, joint_angle, places)[:2]:
         rate = frames.dot(one.found.rate[:, :2, :3], one.placed.axis[:, :2])
         turns = np.abs(rate) > STRAIGHT * np.max(np.abs(rate))
         rows.append(-np.where(turns, one.found.loss[:, :2] / np.where(turns, rate, 1.0), 0.0).T)
     return _all_round(joint, np.stack(rows), places) if rows else np.zeros((2, 2, places))
 
 
-def _turned(joint: Joint, joint_angle: float, places: int, *, bare: bool = False) -> list[JointCarried]:
+@lru_cache(maxsize=64)  # what it rubs away and how that pushes are asked one after the other
+def _turned(joint: Joint, joint_angle: float, places: int) -> list[JointCarried]:
     """Return a joint over a turn, or the part after which it repeats, while either shaft drives, then frictionless."""
     if joint_angle < STRAIGHT:
         return []
     count = places // (joint.alike if places % joint.alike == 0 else 1)
     angle = np.arange(count) * (2.0 * np.pi / places)
     mu = joint.friction or 0.0
-    asked = [(mu, True), (mu, False), *([(0.0, True)] if bare else [])]
-    return each_carried_in(joint, joint_angle, angle, asked)
+    return each_carried_in(joint, joint_angle, angle, [(mu, True), (mu, False), (0.0, True)])
 
 
 def _all_round(joint: Joint, rows: Array, places: int) -> Array:
