@@ -12,7 +12,7 @@ from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
-from cardan.drive.yokes import yokes_estimated
+from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.model.answer import lacking as lacking_of_torsion
 from cardan.texts import _, mark
 

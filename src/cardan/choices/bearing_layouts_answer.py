@@ -10,11 +10,11 @@ from cardan.answers.quantity import Quantity, Say, say
 from cardan.answers.question import Lacking
 from cardan.drive.drive import Drive
 from cardan.drive.models.machine_held import balls_of
-from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.mechanism.counting import Group, minus_groups
 from cardan.mechanism.layouts import BEARINGS
 from cardan.mechanism.mechanism import PAIRS
+from cardan.questions.assumed import yokes_estimated
 from cardan.texts import _, mark
 
 from .bearing_layouts import BearingLayouts, HeldDrive

@@ -36,7 +36,7 @@ from cardan.checks.verdict_table import (
 )
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import bare_path, counted, in_words
-from cardan.drive.yokes import yokes_estimated
+from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.steady.pendulum_swing import strikes_in_use
 from cardan.texts import _, mark, plural
 from cardan.units import dimension_of, factor

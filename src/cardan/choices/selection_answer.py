@@ -13,8 +13,8 @@ from cardan.answers.question import Lacking, all_of
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.torsional_layout import has_torsion
-from cardan.drive.yokes import yokes_estimated
 from cardan.errors import InputError
+from cardan.questions.assumed import yokes_estimated
 from cardan.texts import _, plural
 
 from .selection import (

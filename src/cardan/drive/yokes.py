@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
 
-from cardan.answers.answer import Remark
-from cardan.answers.quantity import Joined, say
 from cardan.maths.kernel.meshes import MassProperties, joined, mass_properties
-from cardan.texts import _, plural
 
 from .body import body_length
 from .cross import Cross
@@ -90,19 +86,6 @@ def _solid_yoke(span: float | None, cross: Cross | None, needles: Needles | None
 
 def _density(joint: Joint) -> float:
     return (joint.yoke.material if joint.yoke is not None and joint.yoke.material else Material()).density
-
-
-def yokes_estimated(drive: Drive) -> Iterator[Remark]:
-    """Yield that yokes and crosses weigh what their geometry says, where nothing else does."""
-    which = [str(i) for i, joint in enumerate(drive.joints, 1) if estimable(joint)]
-    if which:
-        text = plural(
-            "The mass of joint {which} is estimated from its span and journals; mass_kg or size of the joint says it.",
-            "The masses of joints {which} are estimated from their spans and journals; mass_kg or size of a joint says "
-            "it.",
-            len(which),
-        )
-        yield Remark(text=say(text, which=Joined(which, last=_(" and "))), code="estimated_mass")
 
 
 def yoke_mass(joint: Joint) -> float:

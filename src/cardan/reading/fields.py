@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import MISSING, dataclass, fields
 from functools import cache
 from types import UnionType
-from typing import Any, Union, get_args, get_origin
+from typing import Any, ClassVar, Protocol, Union, get_args, get_origin
 
 from cardan.units import DIMENSIONS, KEY, Key, preferred
 
@@ -47,6 +47,12 @@ class Field:
             return ""
         word = self.name if spelling.startswith(f"{self.name}_") else self.key.mirror
         return spelling.removeprefix(f"{word}_")
+
+
+class Keyed(Protocol):
+    """What a file describes, a drive or a mechanism: a dataclass whose fields are its keys."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
 
 
 def fields_of(cls: Any) -> dict[str, Field]:

@@ -24,7 +24,7 @@ from cardan.checks.verdict_table import (
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.torsional_layout import has_torsion
-from cardan.drive.yokes import yokes_estimated
+from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.steady.pendulum_swing import strikes_in_use
 from cardan.texts import _, mark, plural
 

@@ -6,24 +6,22 @@ Indices count from 0; ``shafts[1]`` is shaft number 2. The same paths serve pose
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, is_dataclass, replace
 from typing import Any, TypeVar, get_args, get_origin
 
 from cardan.answers.quantity import Joined, Say, Text, Written, say
-from cardan.answers.question import Lacking
 from cardan.drive.described import Described
 from cardan.errors import InputError, Problem, check
-from cardan.mechanism.mechanism import Mechanism
-from cardan.reading.fields import Field, fields_of, in_unit, spellings_of
+from cardan.reading.fields import Field, Keyed, fields_of, in_unit, spellings_of
 from cardan.reading.scalar import SCALARS, Wrong, as_given, scalar
 from cardan.texts import _, mark
 from cardan.units import DIMENSIONS, nearest
 
 from .keys import key_of, meant, spelled
 
-D = TypeVar("D", bound=Described | Mechanism)  # a drive, checked or not, or a mechanism
+D = TypeVar("D", bound=Keyed)  # a drive, checked or not, or a mechanism
 P = TypeVar("P", bound=Described)
 
 _STEP = re.compile(r"([A-Za-z_][A-Za-z0-9_]*)((?:\[\d+\])*)$")
@@ -41,7 +39,7 @@ class Place:
     spelling: str  # how the path spells the field
 
 
-def place(drive: Described | Mechanism, path: str) -> Place:
+def place(drive: Keyed, path: str) -> Place:
     """Return where a path leads in a drive or a mechanism."""
     here: Any = drive
     steps: list[str | int] = []
@@ -70,7 +68,7 @@ def place(drive: Described | Mechanism, path: str) -> Place:
     raise _lost(path, _("it leads to a whole table, not to a value"))
 
 
-def read(drive: Described | Mechanism, path: str) -> Any:
+def read(drive: Keyed, path: str) -> Any:
     """Return the value a path leads to, in the path's unit."""
     there = place(drive, path)
     here: Any = drive
@@ -114,10 +112,10 @@ def with_values(drive: D, values: Mapping[str, Any]) -> D:
         raise error.renamed(lambda field: _as_given(field, given)) from None
 
 
-def _with_tops(drive: Described | Mechanism, values: Mapping[str, Any]) -> dict[str, Any]:
+def _with_tops(drive: Keyed, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the fields of a drive with other values put in."""
     problems: list[Problem] = []
-    tops = {name: getattr(drive, name) for name in fields_of(Described if isinstance(drive, Described) else Mechanism)}
+    tops = {name: getattr(drive, name) for name in fields_of(type(drive))}
     for path, value in values.items():
         try:
             there = place(drive, path)
@@ -130,7 +128,7 @@ def _with_tops(drive: Described | Mechanism, values: Mapping[str, Any]) -> dict[
     return tops
 
 
-def bare_path(drive: Described | Mechanism, path: str) -> str:
+def bare_path(drive: Keyed, path: str) -> str:
     """Return a path as Python writes it, without its unit."""
     words = (f"[{step}]" if isinstance(step, int) else f".{step}" for step in place(drive, path).steps)
     return "".join(words).removeprefix(".")
@@ -263,7 +261,7 @@ def written(*paths: str) -> Joined:
     return Joined([key_text(path) for path in paths])
 
 
-def needed(lacking: Lacking) -> Say:
+def needed(lacking: Sequence[Sequence[str]]) -> Say:
     """Return in a sentence what is to be added to the drive file.
 
     lacking: paths; of each inner tuple any one would do.

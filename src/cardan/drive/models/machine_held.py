@@ -6,13 +6,11 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
-from cardan.answers.answer import Remark
-from cardan.answers.quantity import Joined, Written, say
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths, spline_place
 from cardan.drive.support import Support
 from cardan.errors import InputError, Problem
-from cardan.texts import _, plural
+from cardan.texts import _
 
 from .geometry import geometry
 
@@ -94,31 +92,6 @@ def _segment(drive: Drive, support: Support) -> int:
         return before
     cut = spline_place(drive, support.shaft, known_lengths(drive).get(support.shaft, 0.0))
     return before + int(support.position > cut)
-
-
-def held_by_machines(machines: tuple[int, ...]) -> Iterator[Remark]:
-    """Yield that machines hold the end shafts on which no support stands."""
-    if machines:
-        text = plural(
-            "Shaft {which} is held by its machine, at the joint; {key} on it would tell its bearings apart.",
-            "Shafts {which} are held by their machines, at the joints; {key} on them would tell their bearings apart.",
-            len(machines),
-        )
-        which = Joined([str(number) for number in machines], last=_(" and "))
-        yield Remark(text=say(text, which=which, key=Written("[[supports]]", _("supports"))), code="held_by_machines")
-
-
-def centred_by_housings(drive: Drive) -> Iterator[Remark]:
-    """Yield which joints count as if a housing centred their shafts."""
-    if centred := [str(i) for i, joint in enumerate(drive.joints, start=1) if joint.centred]:
-        text = plural(
-            "Joint {which} counts with its couple alone, as where a housing centres both shafts; between rigid "
-            "bearings its parts would push the shafts aside too.",
-            "Joints {which} count with their couples alone, as where a housing centres both shafts; between rigid "
-            "bearings their parts would push the shafts aside too.",
-            len(centred),
-        )
-        yield Remark(text=say(text, which=Joined(centred, last=_(" and "))), code="centred")
 
 
 def proposed(drive: Drive) -> tuple[Support, ...]:

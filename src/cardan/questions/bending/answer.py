@@ -16,9 +16,10 @@ from cardan.drive.body import pieces
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.paths import key_text, part_number
-from cardan.drive.yokes import unweighed, yokes_estimated
+from cardan.drive.yokes import unweighed
 from cardan.formulas.critical_speed import CATALOGUE, PRACTICE
 from cardan.formulas.damping import LOSS
+from cardan.questions.assumed import yokes_estimated
 from cardan.questions.mobility.drive_mechanism import unheld
 from cardan.texts import _, mark, plural
 

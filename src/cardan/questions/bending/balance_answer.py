@@ -15,9 +15,10 @@ from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.fields.paths import written
-from cardan.drive.yokes import with_yokes, yokes_estimated
+from cardan.drive.yokes import with_yokes
 from cardan.errors import refuse
 from cardan.maths.ties import foremost_of
+from cardan.questions.assumed import yokes_estimated
 from cardan.texts import _, mark
 
 from .balance import SLOW, Balance

@@ -14,9 +14,9 @@ from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.paths import key_text, part_number
-from cardan.drive.yokes import yokes_estimated
 from cardan.formulas.run_up import Progress
 from cardan.maths.arrays import Array
+from cardan.questions.assumed import yokes_estimated
 from cardan.texts import _, mark
 
 from .answer import lacking as lacking_of_bending

@@ -16,9 +16,9 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.paths import key_text
-from cardan.drive.yokes import yokes_estimated
 from cardan.errors import InputError
 from cardan.maths.ties import foremost_of
+from cardan.questions.assumed import yokes_estimated
 from cardan.texts import _, mark
 
 from .answer import lacking as lacking_of_bending

@@ -17,20 +17,13 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.paths import written
 from cardan.drive.models.kinematics_model import Chain
-from cardan.drive.models.machine_held import (
-    centred_by_housings,
-    held_by_machines,
-    machine_held,
-    machines_of,
-    proposed,
-    tables_of,
-)
-from cardan.drive.yokes import yokes_estimated
+from cardan.drive.models.machine_held import machine_held, machines_of, proposed, tables_of
 from cardan.errors import InputError, Problem
 from cardan.figures.figure import Figure
 from cardan.maths.arrays import Array
 from cardan.maths.curves.cycle_statistics import harmonics
 from cardan.maths.ties import foremost, largest
+from cardan.questions.assumed import centred_by_housings, held_by_machines, yokes_estimated
 from cardan.questions.motion.articulation_answer import random_facts, random_tables
 from cardan.questions.motion.kinds import steep_joints, without_vibration
 from cardan.questions.motion.random_motion import RandomMotion, Results, random_motion

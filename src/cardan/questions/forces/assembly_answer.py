@@ -13,10 +13,11 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import key_text
-from cardan.drive.models.machine_held import centred_by_housings, held_by_machines, machine_held, machines_of
+from cardan.drive.models.machine_held import machine_held, machines_of
 from cardan.errors import InputError
 from cardan.figures.figure import Figure
 from cardan.maths.ties import foremost, largest
+from cardan.questions.assumed import centred_by_housings, held_by_machines
 from cardan.questions.motion.kinds import made_true
 from cardan.texts import _, mark, plural
 

@@ -10,10 +10,10 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Column, Remark, Table
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.drive.drive import Drive
-from cardan.drive.models.machine_held import held_by_machines, machine_held, machines_of
-from cardan.drive.yokes import yokes_estimated
+from cardan.drive.models.machine_held import machine_held, machines_of
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
+from cardan.questions.assumed import held_by_machines, yokes_estimated
 from cardan.questions.motion.equivalence import WARN_JOINT_ANGLE
 from cardan.texts import _, plural
 from cardan.units import deg

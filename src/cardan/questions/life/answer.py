@@ -21,10 +21,10 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
 from cardan.drive.fields.paths import written
 from cardan.drive.torsional_layout import has_torsion
-from cardan.drive.yokes import yokes_estimated
 from cardan.formulas.ball_bearing import POWER
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
+from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.steady.pendulum_swing import strikes_in_use
 from cardan.texts import _, mark
 

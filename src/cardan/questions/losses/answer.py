@@ -16,14 +16,14 @@ from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
 from cardan.drive.fields.paths import in_words, written
-from cardan.drive.models.machine_held import held_by_machines, machines_of
+from cardan.drive.models.machine_held import machines_of
 from cardan.drive.models.wobble import wobbling
-from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.figures.figure import Figure
 from cardan.figures.palette import colour
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost, largest
+from cardan.questions.assumed import held_by_machines, yokes_estimated
 from cardan.questions.motion.kinds import without_vibration
 from cardan.texts import _, mark, plural
 

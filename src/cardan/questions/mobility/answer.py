@@ -14,13 +14,14 @@ from cardan.answers.question import Lacking, all_of
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import key_text
-from cardan.drive.models.machine_held import balls_of, held_by_machines, machines_of
+from cardan.drive.models.machine_held import balls_of, machines_of
 from cardan.errors import InputError, refuse
 from cardan.figures.figure import Figure
 from cardan.mechanism.counting import Partition, joins, partition
 from cardan.mechanism.mechanism import PAIRS, Mechanism
 from cardan.mechanism.rounding import exactly
 from cardan.mechanism.turning import travel
+from cardan.questions.assumed import held_by_machines
 from cardan.texts import _, mark, plural
 
 from .constraint_release import Repair, advice, strain, working

@@ -12,10 +12,10 @@ from cardan.answers.answer import Answer, Column, Remark, Table, Tone
 from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import tree_of
-from cardan.drive.yokes import yokes_estimated
 from cardan.formulas.damping import LOSS, SHAFT_SOURCE
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
+from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.model.answer import friction_left_out, lacking, nonsynchronous
 from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
 from cardan.texts import _

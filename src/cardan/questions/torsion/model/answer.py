@@ -13,10 +13,10 @@ from cardan.answers.question import Lacking, absent
 from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.torsional_layout import has_torsion
-from cardan.drive.yokes import yokes_estimated
 from cardan.formulas.damping import SHAFT_SOURCE
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import alike
+from cardan.questions.assumed import yokes_estimated
 from cardan.texts import _, plural
 
 from .figure import modes_figures

@@ -12,8 +12,8 @@ from cardan.answers.quantity import Joined, Quantity, Say, Text, Written, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import counted
-from cardan.drive.yokes import yokes_estimated
 from cardan.maths.ties import foremost
+from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.absorber.answer import (
     LITTLE,
     band,

@@ -15,8 +15,8 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.movement import Random
-from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
+from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.model.answer import assumptions, left_out, nonsynchronous
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.texts import _, mark

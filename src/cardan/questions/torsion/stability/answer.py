@@ -14,9 +14,9 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.models.kinematics_model import given_chain
-from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.formulas.damping import LOSS
+from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.model.answer import assumptions, friction_left_out, nonsynchronous, ranges
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.torsional_train import torsional_train

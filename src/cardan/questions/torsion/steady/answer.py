@@ -13,10 +13,10 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.machine import Engine
-from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
+from cardan.questions.assumed import yokes_estimated
 from cardan.questions.motion.turning import each_shaft
 from cardan.questions.torsion.model.answer import assumptions, left_out, ranges
 from cardan.questions.torsion.model.answer import lacking as lacking_modes

@@ -11,9 +11,9 @@ from cardan.answers.answer import FILE, Answer, Column, Remark, Table, Tone, clo
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.drive.drive import Drive
 from cardan.drive.machine import RunUp, TorqueHistory
-from cardan.drive.yokes import yokes_estimated
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
+from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.model.answer import assumptions, left_out
 from cardan.questions.torsion.model.torsional_modes import main_order
 from cardan.texts import _

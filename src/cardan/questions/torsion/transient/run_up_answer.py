@@ -14,8 +14,8 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.machine import RunUp
-from cardan.drive.yokes import yokes_estimated
 from cardan.errors import refuse
+from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.answer import left_out
 from cardan.questions.torsion.model.excitation import turns_freely
