@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import sys
 from importlib import import_module
-from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -17,11 +16,8 @@ from .version import VERSION
 
 __version__ = VERSION
 
-_HOMES = {
-    line[3]: line[1].removeprefix(".")
-    for line in map(str.split, Path(__file__).with_suffix(".pyi").read_text("utf-8").splitlines())
-    if line[:1] == ["from"]
-}
+with open(f"{__path__[0]}/__init__.pyi", encoding="utf-8") as stub:
+    _HOMES = {line[3]: line[1].removeprefix(".") for line in map(str.split, stub) if line[:1] == ["from"]}
 """Public name -> where it is from, as the stub beside this file tells it to type checkers; empty for a module here."""
 
 __all__ = sorted([*_HOMES, "__version__"])

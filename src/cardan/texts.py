@@ -13,8 +13,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
-from gettext import NullTranslations, translation
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 from unicodedata import category
 
 DOMAIN = "cardan"
@@ -61,14 +62,15 @@ def speaking(code: str) -> Iterator[None]:
 
 
 @cache
-def _catalogue(code: str) -> NullTranslations:
-    return translation(DOMAIN, FOLDER, languages=[code], fallback=True)
+def _catalogue(code: str) -> Any:
+    """Return what translates into a language; English needs none, and loads none."""
+    return import_module("gettext").translation(DOMAIN, FOLDER, languages=[code], fallback=True)
 
 
 def _(text: str) -> str:
     """Return the sentence in the language spoken here, in English where it has no translation."""
     code = _spoken.get()
-    return text if code == "en" or not text else _catalogue(code).gettext(text)
+    return text if code == "en" or not text else str(_catalogue(code).gettext(text))
 
 
 def plural(one: str, many: str, count: int) -> str:
@@ -76,7 +78,7 @@ def plural(one: str, many: str, count: int) -> str:
     code = _spoken.get()
     if code == "en":
         return one if count == 1 else many
-    return _catalogue(code).ngettext(one, many, count)
+    return str(_catalogue(code).ngettext(one, many, count))
 
 
 def mark(text: str) -> str:

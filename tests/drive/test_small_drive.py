@@ -10,7 +10,7 @@ from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Case, Duty
 from cardan.drive.fields.keys import in_a_joint, written
-from cardan.drive.fields.paths import with_key
+from cardan.drive.fields.wording import with_key
 from cardan.drive.joints import Hooke
 from cardan.drive.joints.clemens import Circle, course
 from cardan.drive.joints.common.laws import places

@@ -8,7 +8,7 @@ from cardan.answers.data import as_json, data
 from cardan.answers.reader import Reader
 from cardan.choices.check_answer import Checked
 from cardan.drive.duty import Limits
-from cardan.drive.yokes import estimable, estimated
+from cardan.drive.yokes import estimated
 from cardan.register import QUESTIONS
 
 from .test_conditions import SLOW, plain
@@ -18,7 +18,7 @@ def drives():
     """Return a drive whose crosses say how large they are, and the same with ten times the mass that this gives."""
     bare = plain()
     joints = tuple(replace(one, cross=replace(one.cross, journal_length=0.016)) for one in bare.joints)
-    assert all(map(estimable, joints))
+    assert all(joint.estimable for joint in joints)
     heavy = tuple(replace(one, mass=10.0 * estimated(one).mass) for one in joints)
     limits = Limits(speed_fluctuation=0.05, output_error=0.02, critical_speed=1.2)
     light = replace(bare, joints=joints, limits=limits)

@@ -14,7 +14,7 @@ from cardan.answers.printed import printed
 from cardan.answers.quantity import Written, say, told
 from cardan.answers.reader import Reader
 from cardan.checks.verdict_table import missing_table
-from cardan.drive.fields.paths import written
+from cardan.drive.fields.wording import written
 from cardan.report.report import page
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -11,7 +11,8 @@ from cardan.answers import answer
 from cardan.answers.answer import Column, Value
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.drive.drive import Drive
-from cardan.drive.fields.paths import bare_path, in_words, place
+from cardan.drive.fields.paths import bare_path, place
+from cardan.drive.fields.wording import in_words
 from cardan.drive.joint_parts import Rating
 from cardan.drive.joints.hooke import Hooke
 from cardan.drive.movement import Movement

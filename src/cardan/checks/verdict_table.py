@@ -12,7 +12,7 @@ from cardan.answers.answer import Cell, Column, KeyFigure, Remark, Table, Tone
 from cardan.answers.quantity import Joined, Quantity, Text, Unit, Written, say
 from cardan.answers.question import Lacking, all_of
 from cardan.drive.fields.keys import key_of
-from cardan.drive.fields.paths import written
+from cardan.drive.fields.wording import written
 from cardan.texts import _, plural
 from cardan.units import factor
 

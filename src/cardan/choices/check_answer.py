@@ -35,7 +35,8 @@ from cardan.checks.verdict_table import (
     verdict_table,
 )
 from cardan.drive.drive import Drive
-from cardan.drive.fields.paths import bare_path, counted, in_words
+from cardan.drive.fields.paths import bare_path
+from cardan.drive.fields.wording import counted, in_words
 from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.steady.pendulum_swing import strikes_in_use
 from cardan.texts import _, mark, plural

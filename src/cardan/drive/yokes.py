@@ -29,20 +29,9 @@ BARS = 1.4
 """Thickness of the bars of an estimated cross over the diameter of its journals."""
 
 
-def estimable(joint: Joint) -> bool:
-    """Tell whether a joint does not say what it weighs, and its cross says how large it is: span and journals."""
-    cross = joint.cross
-    return (
-        joint.single_cross
-        and joint.mass is None
-        and cross is not None
-        and None not in (cross.span, cross.journal, cross.journal_length)
-    )
-
-
 def estimated(joint: Joint) -> Joint:
     """Return a joint with the mass that its geometry gives yokes and cross, where it says none itself."""
-    if not estimable(joint) or joint.cross is None:
+    if not joint.estimable or joint.cross is None:
         return joint
     cross = joint.cross if joint.cross.mass else solid_cross(joint.cross)
     return replace(joint, cross=cross, mass=cross.mass + 2.0 * _density(joint) * solid_yoke(joint).mass)
@@ -151,7 +140,7 @@ def _yoke(
     if not mass or _carries(shaft, joint, place):
         return None
     inset, turning, across = 0.5 * span, mass * span**2 / 8.0, mass * span**2 * (1.0 / 16.0 + 1.0 / 12.0)
-    if estimable(joint):
+    if joint.estimable:
         solid = solid_yoke(joint)
         inset = float(solid.centre[0])
         turning, one, two = (mass / solid.mass * float(value) for value in solid.inertia.diagonal())

@@ -7,13 +7,12 @@ from collections.abc import Iterator
 from cardan.answers.answer import Remark
 from cardan.answers.quantity import Joined, Written, say
 from cardan.drive.drive import Drive
-from cardan.drive.yokes import estimable
 from cardan.texts import _, plural
 
 
 def yokes_estimated(drive: Drive) -> Iterator[Remark]:
     """Yield that yokes and crosses weigh what their geometry says, where nothing else does."""
-    which = [str(i) for i, joint in enumerate(drive.joints, 1) if estimable(joint)]
+    which = [str(i) for i, joint in enumerate(drive.joints, 1) if joint.estimable]
     if which:
         text = plural(
             "The mass of joint {which} is estimated from its span and journals; mass_kg or size of the joint says it.",

@@ -11,7 +11,7 @@ from cardan.answers.question import Question
 from cardan.answers.reader import reader
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
-from cardan.drive.fields.paths import needed
+from cardan.drive.fields.wording import needed
 from cardan.errors import InputError
 from cardan.questions.gathering import gather, principal
 from cardan.questions.motion.equivalence import SPECK

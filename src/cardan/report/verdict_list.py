@@ -17,7 +17,7 @@ from cardan.checks.verdict_table import MOST, alike, limit, verdict_key
 from cardan.choices.check_answer import sentence as said
 from cardan.choices.remedy import Remedy, remedies, typed
 from cardan.drive.drive import Drive
-from cardan.drive.fields.paths import counted
+from cardan.drive.fields.wording import counted
 from cardan.errors import CardanError, InputError
 from cardan.figures.axes import percent
 from cardan.questions.motion.articulation import articulation

@@ -7,7 +7,7 @@ import pytest
 from cardan.checks import check
 from cardan.checks.design import design
 from cardan.drive.fields.keys import meant
-from cardan.drive.fields.paths import in_words
+from cardan.drive.fields.wording import in_words
 from cardan.io import example
 
 

@@ -11,7 +11,7 @@ from cardan.answers.question import Lacking
 from cardan.app.state.form import Entry, section
 from cardan.app.state.session import Session
 from cardan.drive.fields.keys import key_of
-from cardan.drive.fields.paths import counted
+from cardan.drive.fields.wording import counted
 from cardan.io.amend import insert
 from cardan.io.keys import file_keys, written_in_examples
 from cardan.texts import _

@@ -14,7 +14,7 @@ from cardan.app.state.question import Question, asked
 from cardan.app.state.session import Session
 from cardan.app.state.work import REMEDIES, VERDICTS, Judged, result
 from cardan.app.state.work import SOON as SOONER
-from cardan.drive.fields.paths import counted
+from cardan.drive.fields.wording import counted
 from cardan.errors import CardanError
 from cardan.report.answers import subject
 from cardan.report.block import SIGNS

@@ -18,7 +18,7 @@ from cardan.app.state.document import Document, Edit
 from cardan.app.state.jobs import Jobs
 from cardan.app.state.session import Session, Step
 from cardan.app.state.work import EDIT
-from cardan.drive.fields.paths import counted
+from cardan.drive.fields.wording import counted
 from cardan.errors import InputError, Problem
 from cardan.texts import _, visible
 

@@ -12,7 +12,7 @@ from typing import Any, Literal, TypeAlias, get_args, get_origin
 from cardan.catalogue import catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import KINDS, NAMED, USUAL
-from cardan.drive.fields.paths import counted
+from cardan.drive.fields.wording import counted
 from cardan.errors import InputError, Problem
 from cardan.io.amend import kind_at, steps_of
 from cardan.io.text import parsed

@@ -14,7 +14,7 @@ from cardan.answers import quantity
 from cardan.answers.reader import reader
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
-from cardan.drive.fields.paths import needed
+from cardan.drive.fields.wording import needed
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.questions.gathering import principal
 from cardan.reading.ranges import HUGE

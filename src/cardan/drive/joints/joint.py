@@ -67,15 +67,17 @@ from cardan.drive.cross import Cross
 from cardan.drive.inspection import Inspection
 from cardan.drive.joint_parts import Needles, Rating, Yoke
 from cardan.errors import Problem
+from cardan.later import later
 from cardan.maths.arrays import Array, unit_complex
 from cardan.maths.kernel import mobius
 from cardan.texts import _, mark
 from cardan.units import KEY, Key, plain, quantity
 
 from .common import departures, inner
-from .common import site as drawn
 from .common.inner import InnerPair, Stance
-from .common.site import Site
+
+drawn = later("cardan.drive.joints.common.site")
+"""Bodies of a joint, for those who draw one."""
 
 Point: TypeAlias = tuple[float, float, float]
 Box: TypeAlias = tuple[tuple[float, float], tuple[float, float], tuple[float, float]]
@@ -476,12 +478,18 @@ class Joint:
         """The same by the sizes of its kind."""
         return None
 
-    def solid(self, site: Site) -> None:
-        """Add its bodies."""
+    @property
+    def estimable(self) -> bool:
+        """Whether it does not say what it weighs, and its cross says how large it is: span and journals."""
+        cross = self.cross if self.single_cross and self.mass is None else None
+        return cross is not None and None not in (cross.span, cross.journal, cross.journal_length)
+
+    def solid(self, site: Any) -> None:
+        """Add its bodies; site: a `cardan.drive.joints.common.site.Site`."""
         if self.crossed:
-            drawn.yokes_and_cross(site)
+            drawn().yokes_and_cross(site)
         else:
-            drawn.bell_and_balls(site)
+            drawn().bell_and_balls(site)
 
     def own_problems(self) -> Iterator[Problem]:
         """Yield what contradicts itself in the fields of this kind, each path from the joint on."""

@@ -17,7 +17,6 @@ from cardan.drive.fields.paths import place
 from cardan.drive.fields.validity import axis_points
 from cardan.drive.joints.joint import Point
 from cardan.drive.movement import Movement
-from cardan.drive.yokes import estimable
 from cardan.errors import JointAngleLimitError, Problem, check
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import frames
@@ -348,7 +347,7 @@ def _with_vectors(other: Drive, old: Geometry) -> Drive:
 
     supports = tuple(replace(s, offset=turned(s.offset)) if any(s.offset) else s for s in other.supports)
     heavy = any(s.mass or s.has_body or s.masses for s in other.shafts)
-    if not heavy and not any((j.cross and j.cross.mass) or estimable(j) for j in other.joints):
+    if not heavy and not any((j.cross and j.cross.mass) or j.estimable for j in other.joints):
         return replace(other, supports=supports)
     return replace(other, supports=supports, settings=replace(other.settings, gravity=turned(other.settings.gravity)))
 

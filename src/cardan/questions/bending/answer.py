@@ -15,7 +15,7 @@ from cardan.answers.sweepable import MODES, OutputColumn, SweepQuestion, each, f
 from cardan.drive.body import pieces
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
-from cardan.drive.fields.paths import key_text, part_number
+from cardan.drive.fields.wording import key_text, part_number
 from cardan.drive.yokes import unweighed
 from cardan.formulas.critical_speed import CATALOGUE, PRACTICE
 from cardan.formulas.damping import LOSS

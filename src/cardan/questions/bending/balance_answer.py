@@ -14,7 +14,7 @@ from cardan.drive.body import body_length, weight
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
-from cardan.drive.fields.paths import written
+from cardan.drive.fields.wording import written
 from cardan.drive.yokes import with_yokes
 from cardan.errors import refuse
 from cardan.maths.ties import foremost_of

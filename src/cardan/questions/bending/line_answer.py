@@ -13,7 +13,7 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
-from cardan.drive.fields.paths import key_text, part_number
+from cardan.drive.fields.wording import key_text, part_number
 from cardan.formulas.run_up import Progress
 from cardan.maths.arrays import Array
 from cardan.questions.assumed import yokes_estimated

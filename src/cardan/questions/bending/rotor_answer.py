@@ -15,7 +15,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
-from cardan.drive.fields.paths import key_text
+from cardan.drive.fields.wording import key_text
 from cardan.errors import InputError
 from cardan.maths.ties import foremost_of
 from cardan.questions.assumed import yokes_estimated

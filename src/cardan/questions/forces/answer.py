@@ -15,7 +15,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
-from cardan.drive.fields.paths import written
+from cardan.drive.fields.wording import written
 from cardan.drive.models.kinematics_model import Chain
 from cardan.drive.models.machine_held import machine_held, machines_of, proposed, tables_of
 from cardan.errors import InputError, Problem

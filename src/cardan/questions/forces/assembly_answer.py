@@ -12,7 +12,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, Written, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
-from cardan.drive.fields.paths import key_text
+from cardan.drive.fields.wording import key_text
 from cardan.drive.models.machine_held import machine_held, machines_of
 from cardan.errors import InputError
 from cardan.figures.figure import Figure

@@ -19,7 +19,7 @@ from cardan.catalogue.rows import Bearing
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
-from cardan.drive.fields.paths import written
+from cardan.drive.fields.wording import written
 from cardan.drive.torsional_layout import has_torsion
 from cardan.formulas.ball_bearing import POWER
 from cardan.maths.arrays import Array

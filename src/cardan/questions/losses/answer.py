@@ -15,7 +15,7 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
-from cardan.drive.fields.paths import in_words, written
+from cardan.drive.fields.wording import in_words, written
 from cardan.drive.models.machine_held import machines_of
 from cardan.drive.models.wobble import wobbling
 from cardan.errors import refuse

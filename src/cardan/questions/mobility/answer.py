@@ -13,7 +13,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, Text, Written, say
 from cardan.answers.question import Lacking, all_of
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
-from cardan.drive.fields.paths import key_text
+from cardan.drive.fields.wording import key_text
 from cardan.drive.models.machine_held import balls_of, machines_of
 from cardan.errors import InputError, refuse
 from cardan.figures.figure import Figure

@@ -11,7 +11,7 @@ from cardan.answers.answer import Answer, Column, Remark, Table, Tone
 from cardan.answers.quantity import Joined, Quantity, Say, Text, Written, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
-from cardan.drive.fields.paths import counted
+from cardan.drive.fields.wording import counted
 from cardan.maths.ties import foremost
 from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.absorber.answer import (
