@@ -15,7 +15,7 @@ from cardan.app.state.document import Workspace
 from cardan.app.state.jobs import Jobs
 from cardan.app.state.recordings import DIAGNOSIS, close_all
 from cardan.app.state.session import Choices, Session
-from cardan.figures import Figure
+from cardan.figures.figure import Figure
 from cardan.io import example_text
 from cardan.io.edit import edit
 from cardan.report.block import Page

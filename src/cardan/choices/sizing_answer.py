@@ -14,7 +14,7 @@ from cardan.checks.verdict_table import MOST, amount, limit, share, unconfirmed_
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
 from cardan.errors import refuse
-from cardan.figures import Figure
+from cardan.figures.figure import Figure
 from cardan.texts import _
 from cardan.units import factor
 

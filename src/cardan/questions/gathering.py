@@ -24,11 +24,12 @@ from cardan.later import later
 from cardan.maths.ties import alike, foremost
 from cardan.texts import _, mark
 
-from .accuracy.as_made import made
 from .motion.moving_points import default_times
 from .motion.standing import BESIDE, outermost, still, worst_instants
 
 optimize = later("scipy.optimize")
+made = later("cardan.questions.accuracy.as_made", of="made")
+"""How a drive turns with the errors of its joints as made: few drives have any."""
 
 WORSE: tuple[Tone, ...] = ("good", "plain", "next", "warning", "failed")
 """Tones from the best to the worst."""
@@ -266,7 +267,7 @@ def _worst(keys: Sequence[KeyFigure], count: int) -> Iterator[Remark]:
 
 def _as_made(drive: Drive) -> tuple[tuple[KeyFigure, ...], Remark]:
     """Return what the errors of the joints as made add to the motion, or why that is not told."""
-    found = made(drive)
+    found = made()(drive)
     if isinstance(found, str):
         text = _("The errors of its joints as made are not in this: {why}.")
         return (), Remark(text=say(text, why=found), code="as_made")

@@ -18,7 +18,7 @@ from cardan.answers.printed import number as printed_number
 from cardan.answers.quantity import Quantity, say, told
 from cardan.answers.question import Lacking
 from cardan.answers.reader import Reader, reader
-from cardan.figures import Figure
+from cardan.figures.figure import Figure
 from cardan.figures.for_reader import for_reader
 from cardan.texts import _
 

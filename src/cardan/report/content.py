@@ -14,8 +14,8 @@ from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.errors import InputError
-from cardan.figures import Figure
 from cardan.figures.drive import space_figure
+from cardan.figures.figure import Figure
 from cardan.files import Enclosed
 from cardan.questions.gathering import gather, principal
 from cardan.questions.motion import answer as motion

@@ -19,7 +19,7 @@ from cardan.batch.sweep import work_of
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, check
-from cardan.figures import Figure
+from cardan.figures.figure import Figure
 from cardan.io.plan_file import plan_text
 from cardan.texts import _
 

@@ -15,7 +15,7 @@ from cardan.app.state.document import Workspace
 from cardan.app.state.question import Question, asked
 from cardan.app.state.session import Session
 from cardan.app.state.work import result
-from cardan.figures import Figure
+from cardan.figures.figure import Figure
 from cardan.io import example_text
 from cardan.report.block import Page, Picture, Table
 from cardan.report.render.exports import Exported, kinds

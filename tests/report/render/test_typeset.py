@@ -11,7 +11,7 @@ import pytest
 
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, MissingExtraError
-from cardan.figures import Figure
+from cardan.figures.figure import Figure
 from cardan.io import example, example_text
 from cardan.report.block import Cell, Column, Listing, Page, Picture, Points, Table, Words
 from cardan.report.content import Content, content

@@ -13,7 +13,7 @@ import nicegui.elements.plotly  # noqa: F401  registers the plotly.js that NiceG
 from nicegui import ui
 from nicegui.element import Element
 
-from cardan.figures import Figure
+from cardan.figures.figure import Figure
 from cardan.figures.palette import DARK
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg

@@ -12,7 +12,7 @@ from cardan.app.state import work as papers
 from cardan.app.state.jobs import Jobs
 from cardan.app.state.question import Question
 from cardan.app.state.session import Session
-from cardan.figures import Figure
+from cardan.figures.figure import Figure
 from cardan.io import dumps
 from cardan.report.block import Page
 from cardan.report.render.exports import Exported, kinds

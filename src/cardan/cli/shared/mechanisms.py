@@ -12,9 +12,9 @@ import numpy as np
 
 from cardan.drive.fields.keys import spelled
 from cardan.errors import InputError, Problem, check, refuse
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.mechanism.mechanism import Mechanism
-from cardan.mechanism.turning import grid
 from cardan.register import QUESTIONS
 from cardan.texts import _
 from cardan.units import deg, rpm
@@ -23,6 +23,9 @@ from .failure import about
 from .progress import watching
 from .source import STDIN
 from .tell import tell
+
+turning = later("cardan.mechanism.turning")
+"""How mechanisms turn: those who ask about drives need none of it."""
 
 LISTED = 30.0 * deg
 """Step of the printed table."""
@@ -48,7 +51,7 @@ def angles(mechanism: Mechanism, angle: list[float] | None, step: float | None) 
         raise refuse("--angle-deg" if angle else "--angle-step-deg", _sliding(mechanism))
     if angle:
         return deg * np.asarray(angle, dtype=float)
-    return None if step is None else grid(mechanism, step * deg)
+    return None if step is None else turning().grid(mechanism, step * deg)
 
 
 def _sliding(mechanism: Mechanism) -> str:
@@ -74,7 +77,7 @@ def told(
         check(Problem(_(" or ").join(map(_key_of, some)), needed, "missing") for some in question.lacking(mechanism))
         ask: Callable[..., Any] = question.home.ask
         found = ask(mechanism)
-        rough = grid(mechanism, LISTED) if asked is None else asked
+        rough = turning().grid(mechanism, LISTED) if asked is None else asked
         shown = ask(mechanism, rough) if listed or asked is not None else None
     return tell(question.home.answer(mechanism, found, shown), file, mechanism, json=json, csv=csv, plot=plot)
 

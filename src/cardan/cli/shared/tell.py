@@ -21,13 +21,16 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import Reader, reader
 from cardan.drive.drive import Drive
 from cardan.drive.fields.plausibility import doubts
-from cardan.figures import save
+from cardan.later import later
 from cardan.mechanism.mechanism import Mechanism
 from cardan.questions.gathering import gather
 from cardan.register import QUESTIONS
 from cardan.texts import _
 
 from .output import print_lines, print_text
+
+drawing = later("cardan.figures.drawing")
+"""What draws into a file: most commands draw nothing."""
 
 GAP = 2  # blanks between columns
 NARROWEST = 14  # prose in a table is not set narrower than this
@@ -75,7 +78,7 @@ def tell(
         answer = replace(answer, remarks=(*odd, *answer.remarks))
     figures = answer.figures() if plot is not None else ()
     if plot is not None and figures:
-        save(figures, plot)
+        drawing().save(figures, plot)
     drawn = plot if figures else None
     if json:
         about = {} if file is None else {"drive": drive.name if drive else "", "file": str(file)}

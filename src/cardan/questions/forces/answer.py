@@ -19,7 +19,7 @@ from cardan.drive.fields.wording import written
 from cardan.drive.models.kinematics_model import Chain
 from cardan.drive.models.machine_held import machine_held, machines_of, proposed, tables_of
 from cardan.errors import InputError, Problem
-from cardan.figures.figure import Figure
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.curves.cycle_statistics import harmonics
 from cardan.maths.ties import foremost, largest
@@ -29,8 +29,6 @@ from cardan.questions.motion.kinds import steep_joints, without_vibration
 from cardan.questions.motion.random_motion import RandomMotion, Results, random_motion
 from cardan.texts import _, mark, plural
 
-from .figures.forces import forces_figures
-from .figures.moving_forces import moving_forces_figures
 from .force_tables import (
     ROUNDING,
     constant,
@@ -55,6 +53,8 @@ from .inner_loads import InnerLoad, Thrust, inner_loads, thrusts
 from .moving_forces import Extreme, MovingForces, moving_forces
 from .reactions import Determinacy, reaction_groups
 from .turn_loads import turn_loads
+
+drawn = later("cardan.questions.forces.figures")
 
 __all__ = ["COLUMNS", "Carried", "answer", "ask", "followed", "lacking", "over_movement"]
 
@@ -191,9 +191,9 @@ def _random(result: Carried) -> Iterator[Table]:
             )
 
 
-def _figures(drive: Drive, result: Carried) -> tuple[Figure, ...]:
-    own = forces_figures(result.forces, drive if result.forces.reaction is not None else None)
-    return own if result.moving is None else (*own, *moving_forces_figures(result.moving, support_names(drive)))
+def _figures(drive: Drive, result: Carried) -> tuple[Any, ...]:
+    own = drawn().forces_figures(result.forces, drive if result.forces.reaction is not None else None)
+    return own if result.moving is None else (*own, *drawn().moving_forces_figures(result.moving, support_names(drive)))
 
 
 def needed(drive: Drive, low: float, high: float) -> Say:

@@ -11,6 +11,7 @@ from cardan.answers.answer import FILE, Answer, Column, Remark, Table
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.drive.drive import Drive
 from cardan.drive.models.machine_held import machine_held, machines_of
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.questions.assumed import held_by_machines, yokes_estimated
@@ -19,7 +20,6 @@ from cardan.texts import _, plural
 from cardan.units import deg
 
 from .answer import balance_facts, balanced, duty_facts, needed, worst_moving
-from .figures.moving_forces import moving_forces_figures
 from .force_tables import (
     along_axis,
     curve,
@@ -33,6 +33,8 @@ from .force_tables import (
 from .moving_forces import MovingForces
 from .reactions import Determinacy
 
+drawn = later("cardan.questions.forces.figures")
+
 __all__ = ["answer"]
 
 
@@ -43,7 +45,7 @@ def answer(drive: Drive, result: MovingForces) -> Answer:
         name="forces",
         title=_("Forces while the drive moves"),
         sentence=_sentence(drive, result),
-        figures=lambda: moving_forces_figures(result, support_names(drive)),
+        figures=lambda: drawn().moving_forces_figures(result, support_names(drive)),
         tables=tuple(_tables(drive, result)),
         remarks=(*yokes_estimated(drive), *held_by_machines(machines), *_remarks(result)),
         facts=_facts(drive, result),

@@ -14,22 +14,23 @@ from cardan.answers.question import Lacking
 from cardan.drive.conditions import held_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.models.kinematics_model import given_chain, mixed, unlike_hooke
-from cardan.figures.figure import Figure
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.texts import _, plural
 from cardan.units import deg
 
 from .columns import COLUMNS
-from .equivalence import SYNCHRONOUS, EquivalentJoint, each_uniform, equivalent_joint, is_rounding
-from .figure import FLOOR, motion_figure, orders_figure, speed_fluctuation_figure
+from .equivalence import FLOOR, SYNCHRONOUS, EquivalentJoint, each_uniform, equivalent_joint, is_rounding
 from .kinds import beside_turning, carried_on, steep_joints
 from .motion import Motion, motion
 from .standing import standing_chain
 from .turning import Evenness, Swing, Turning
 from .turning import turning as ask
+
+drawn = later("cardan.questions.motion.figure")
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "over_movement", "sentence"]
 
@@ -120,11 +121,11 @@ def sentence(drive: Drive, each: Evenness) -> Say:
     )
 
 
-def _figures(drive: Drive, result: Turning) -> tuple[Figure, ...]:
-    figures = [motion_figure(result.motion)]
+def _figures(drive: Drive, result: Turning) -> tuple[Any, ...]:
+    figures = [drawn().motion_figure(result.motion)]
     if not unlike_hooke(drive) and not is_rounding(drive, result.fluctuation):
         whole = equivalent_joint(drive)
-        figures += [speed_fluctuation_figure(whole), orders_figure(whole)]
+        figures += [drawn().speed_fluctuation_figure(whole), drawn().orders_figure(whole)]
     return tuple(figures)
 
 

@@ -16,16 +16,18 @@ from cardan.drive.drive import Drive
 from cardan.drive.models.wobble import wobbling
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role
+from cardan.later import later
 from cardan.texts import _, mark
 from cardan.units import deg, mm
 
 from .articulation import Articulation, Worst, takes_up
 from .articulation import articulation as ask
 from .equivalence import SPECK, SYNCHRONOUS
-from .figures.articulation import articulation_figures
 from .instants import Position
 from .length import LengthCompensation
 from .random_motion import Expected, RandomMotion
+
+drawn = later("cardan.questions.motion.figures")
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
@@ -57,7 +59,7 @@ def answer(drive: Drive, result: Articulation) -> Answer:
         title=_("Articulation"),
         sentence=_sentence(result),
         tone="failed" if failed else "plain",
-        figures=lambda: articulation_figures(result),
+        figures=lambda: drawn().articulation_figures(result),
         tables=(
             _joints(drive, result),
             *((_shafts(drive, result),) if result.splines else ()),

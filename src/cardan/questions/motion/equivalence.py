@@ -20,6 +20,9 @@ SYNCHRONOUS = 1e-13
 SPECK = 1e-6
 """Speed fluctuation that coordinates rounded to a micrometre leave: nobody notices it; no drive is uneven for it."""
 
+FLOOR = 1e-9
+"""Amplitude of an order [°] below which there is only rounding."""
+
 WARN_JOINT_ANGLE = 45.0
 """Bend [deg] above which no real cross joint works."""
 

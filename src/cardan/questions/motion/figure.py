@@ -16,7 +16,7 @@ from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule, S
 from cardan.figures.palette import dash_of, shaft
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
-from cardan.questions.motion.equivalence import SPECK, SYNCHRONOUS, EquivalentJoint
+from cardan.questions.motion.equivalence import FLOOR, SPECK, SYNCHRONOUS, EquivalentJoint
 from cardan.questions.motion.motion import Motion
 from cardan.texts import _
 from cardan.units import deg
@@ -137,9 +137,6 @@ def _sentence(found: Motion, angle_error: Array) -> Text:
 
 
 # The equivalent joint: its orders, and what each shaft does.
-
-FLOOR = 1e-9
-"""Amplitude [°] below which there is only rounding."""
 
 ORDERS = 4
 """Orders 2, 4 … drawn."""

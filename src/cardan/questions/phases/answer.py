@@ -18,6 +18,7 @@ from cardan.drive.models.kinematics_model import given_chain, mixed, unmapped
 from cardan.drive.models.wobble import wobbling
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.motion.equivalence import SYNCHRONOUS, closure, each_uniform, is_rounding
@@ -25,11 +26,12 @@ from cardan.questions.motion.kinds import steep_joints
 from cardan.texts import _, mark, plural
 from cardan.units import deg
 
-from .figure import phasing_figures
 from .phases import Phasing
 from .phases import phases as ask
 from .setting import YokeSetting
 from .steering import SteeringColumn
+
+drawn = later("cardan.questions.phases.figures")
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
@@ -79,7 +81,7 @@ def answer(drive: Drive, result: Phasing, *, fixed: Mapping[int, float] | None =
         title=_("Phasing of the yokes"),
         sentence=_sentence(drive, result),
         tone="good" if is_uniform(drive, result.as_built.speed_fluctuation) else "plain",
-        figures=lambda: phasing_figures(result),
+        figures=lambda: drawn().phasing_figures(result),
         tables=(
             *((settings_table(drive, shown),) if several else ()),
             *((_poses(result, shown),) if result.poses else ()),

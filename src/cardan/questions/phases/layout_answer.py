@@ -10,13 +10,15 @@ import numpy as np
 from cardan.answers.answer import Answer, Column, Remark, Table, heads
 from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.drive.drive import Drive
+from cardan.later import later
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.texts import _, plural
 from cardan.units import mm
 
 from .answer import command, letters, setting_facts, settings_table, spread
-from .figure import layout_figures, phasing_figures
 from .layout import Layout, Status
+
+drawn = later("cardan.questions.phases.figures")
 
 __all__ = ["answer", "values"]
 
@@ -36,7 +38,7 @@ def answer(drive: Drive, result: Layout, *, fixed: Mapping[int, float] | None = 
         name="layout",
         title=_("Layout of the joint centres"),
         sentence=_sentence(drive, result),
-        figures=lambda: (*layout_figures(result), *phasing_figures(result.phasing)),
+        figures=lambda: (*drawn().layout_figures(result), *drawn().phasing_figures(result.phasing)),
         tables=(
             _joints(result),
             *((settings_table(result.drive, settings),) if settings else ()),

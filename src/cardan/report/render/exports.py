@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from cardan.errors import refuse
-from cardan.figures import SUFFIXES, Figure, drawn
 from cardan.figures.columns import drawn_from, named, section
-from cardan.figures.figure import Mesh
+from cardan.figures.drawing import SUFFIXES, drawn
+from cardan.figures.figure import Figure, Mesh
 from cardan.files import write_bytes
 from cardan.io.formats.json import plain
 from cardan.report.block import Block, Cell, Page, Picture, Table

@@ -9,7 +9,8 @@ from itertools import accumulate
 from typing import Any
 
 from cardan.answers.printed import framed
-from cardan.figures import Figure, pixels
+from cardan.figures.drawing import pixels
+from cardan.figures.figure import Figure
 from cardan.figures.page import laid_out
 from cardan.io.workbook.book import leads_to, put, words
 from cardan.io.workbook.chart_data import ChartData, Looks
