@@ -13,11 +13,12 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, TypeVar
 
+from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import NAMED, spelled
 from cardan.drive.material import Material
 from cardan.drive.shaft import Ply
 from cardan.errors import InputError, Problem, check, refuse
-from cardan.files import refusal
+from cardan.files import Enclosed, folder_of, refusal
 from cardan.reading.limits import check_text
 from cardan.reading.scalar import nearest_of
 from cardan.reading.tree import Form, read_table
@@ -240,6 +241,15 @@ def _tree(path: Path) -> Mapping[str, Any]:
     text = path.read_text(encoding="utf-8")
     check_text(text, str(path), counts=False)
     return tomllib.loads(text)
+
+
+def known_to(drive: Drive, folder: str | Path | Enclosed = ".", catalogues: Sequence[str | Path] = ()) -> Catalogue:
+    """Return the catalogue of a drive: the shipped one and the files that its settings name.
+
+    folder: where the files are looked for; catalogues: further files, by their own paths.
+    """
+    paths = [*(folder_of(folder) / name for name in drive.settings.catalogues), *catalogues]
+    return with_files(catalogue(), paths) if paths else catalogue()
 
 
 def material(name: str, *, known: Catalogue | None = None) -> Material:

@@ -8,6 +8,7 @@ from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 from cardan.drive.drive import Drive
+from cardan.drive.fields.names import by_name, grades
 from cardan.drive.joints import Joint, other_kinds
 from cardan.drive.material import Material
 from cardan.drive.shaft import Ply
@@ -82,7 +83,7 @@ def shortened(drive: Drive, known: Catalogue | None = None) -> Drive:
 
 
 def _unknown(drive: Drive, rows: Catalogue) -> Iterator[Problem]:
-    for path, one in _named(drive, ""):
+    for path, one in grades(drive):
         try:
             _filled_in(one, rows, path)
         except InputError as error:
@@ -113,25 +114,6 @@ def _filled_in(thing: Material | Ply, rows: Catalogue, path: str = "") -> Materi
         return ply(thing.grade, known=rows, field=path)
     rows.grade(thing.grade, field=path)
     return material(thing.grade, known=rows)
-
-
-def _bare(thing: Material | Ply) -> bool:
-    """Tell whether a material or a ply is given by its name alone."""
-    return bool(thing.grade) and thing == type(thing)(grade=thing.grade)
-
-
-def _named(thing: Any, path: str) -> Iterator[tuple[str, Material | Ply]]:
-    """Yield path and thing of every material and ply that is given by its name alone."""
-    if isinstance(thing, Material | Ply):
-        if _bare(thing):
-            yield path, thing
-    elif isinstance(thing, tuple):
-        for k, item in enumerate(thing):
-            if is_dataclass(item):
-                yield from _named(item, f"{path}[{k}]")
-    elif is_dataclass(thing):
-        for one in fields(thing):
-            yield from _named(getattr(thing, one.name), f"{path}.{one.name}" if path else one.name)
 
 
 def _sized(joint: Joint, rows: Catalogue) -> Joint:
@@ -186,7 +168,7 @@ def _under(given: Any, usual: Any, rows: Catalogue) -> Any:
 def _graded(thing: Any, rows: Catalogue) -> Any:
     """Return a thing whose materials carry the figures of their grades."""
     if isinstance(thing, Material | Ply):
-        return _filled_in(thing, rows) if _bare(thing) else thing
+        return _filled_in(thing, rows) if by_name(thing) else thing
     return _changed(thing, lambda inner: _graded(inner, rows))
 
 

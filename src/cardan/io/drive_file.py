@@ -7,17 +7,21 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from cardan.catalogue import Catalogue, catalogue, completed, shortened, with_files
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import tree_of
+from cardan.drive.fields.names import names_rows
 from cardan.errors import refuse
 from cardan.files import Enclosed, folder_of
+from cardan.later import later
 from cardan.mechanism.mechanism import Mechanism
 from cardan.reading.limits import limits_hold
 from cardan.texts import _
 
 from .reader import drive_from_tree, mechanism_of
 from .text import describes_mechanism, parsed, text_of
+
+rows = later("cardan.catalogue")
+"""What names in a drive stand for: many drives have none."""
 
 
 def load(path: str | Path, *, catalogues: Sequence[str | Path] = (), limits: bool = True) -> Drive:
@@ -86,16 +90,10 @@ def loads(
             _("describes a mechanism, not a drive; of mechanisms cardan tells motion, forces, mobility and a report"),
         )
     drive = drive_from_tree(tree, folder=folder_of(folder))
-    return completed(drive, known_to(drive, folder, catalogues))
-
-
-def known_to(drive: Drive, folder: str | Path | Enclosed = ".", catalogues: Sequence[str | Path] = ()) -> Catalogue:
-    """Return the catalogue of a drive: the shipped one and the files that its settings name.
-
-    folder: where the files are looked for; catalogues: further files, by their own paths.
-    """
-    files = [*(folder_of(folder) / name for name in drive.settings.catalogues), *catalogues]
-    return with_files(catalogue(), files) if files else catalogue()
+    if not catalogues and not names_rows(drive):
+        return drive
+    whole: Drive = rows().completed(drive, rows().known_to(drive, folder, catalogues))
+    return whole
 
 
 def dumps(thing: Drive | Mechanism, *, form: str = "toml") -> str:
@@ -103,7 +101,7 @@ def dumps(thing: Drive | Mechanism, *, form: str = "toml") -> str:
 
     form: ``"toml"`` or ``"json"``.
     """
-    tree = tree_of(shortened(thing) if isinstance(thing, Drive) else thing)
+    tree = tree_of(rows().shortened(thing) if isinstance(thing, Drive) else thing)
     return json.dumps(tree, ensure_ascii=False, indent=2) + "\n" if form == "json" else toml_text(tree)
 
 

@@ -16,7 +16,7 @@ from cardan.batch.search.goals import limit_of
 from cardan.batch.sweep import SweepWork, listed, work_of
 from cardan.batch.table.reduction import BINS, Reduce
 from cardan.batch.table.reductions import KINDS, reduce_of
-from cardan.catalogue import Catalogue, catalogue
+from cardan.catalogue import Catalogue, catalogue, known_to
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.files import Enclosed, folder_of
@@ -24,7 +24,7 @@ from cardan.mechanism.mechanism import Mechanism
 from cardan.reading.table import Table
 from cardan.texts import _
 
-from .drive_file import known_to, load_either, toml_text
+from .drive_file import load_either, toml_text
 from .text import parsed, text_of
 
 FORMAT = 1  # version of the plan file

@@ -14,13 +14,12 @@ from typing import Any, Literal, TypeAlias
 from cardan import Verdict, check
 from cardan.answers.answer import Answer
 from cardan.answers.reader import reading
-from cardan.catalogue import Catalogue
+from cardan.catalogue import Catalogue, known_to
 from cardan.drive.drive import Drive
 from cardan.drive.settings import TitleBlock
 from cardan.errors import CardanError, refuse
 from cardan.files import Enclosed
 from cardan.io import dumps
-from cardan.io.drive_file import known_to
 from cardan.mechanisms import Mechanism
 from cardan.register import QUESTIONS
 from cardan.report.answers import answered, subject

@@ -9,7 +9,7 @@ from typing import Annotated
 
 from cardan.answers.answer import FILE, Answer, Remark
 from cardan.answers.reader import reader
-from cardan.catalogue import catalogue
+from cardan.catalogue import catalogue, known_to
 from cardan.catalogue.catalogue import with_files
 from cardan.cli.shared.failure import about
 from cardan.cli.shared.options import argument, flag, option
@@ -21,7 +21,6 @@ from cardan.cli.shared.tell import tell
 from cardan.cli.torsion.torsion_band import band_of
 from cardan.errors import InputError, Problem, refuse
 from cardan.files import write_bytes
-from cardan.io.drive_file import known_to
 from cardan.io.signals import SIGNAL_FORMATS
 from cardan.questions.diagnosis.answer import answer, answer_of_signs
 from cardan.questions.diagnosis.examination import Examination, examine

@@ -11,6 +11,7 @@ from typing import Annotated, Any
 from cardan.answers.answer import Answer, Remark
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.reader import reader
+from cardan.catalogue import known_to
 from cardan.cli.shared import mechanisms
 from cardan.cli.shared.failure import about
 from cardan.cli.shared.options import argument, flag, option
@@ -22,7 +23,6 @@ from cardan.drive.drive import Drive
 from cardan.drive.settings import TitleBlock
 from cardan.errors import Problem, check
 from cardan.files import write_bytes
-from cardan.io.drive_file import known_to
 from cardan.mechanism.mechanism import Mechanism
 from cardan.questions.motion.answer import sentence
 from cardan.questions.motion.turning import each_shaft

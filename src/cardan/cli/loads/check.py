@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
+from cardan.catalogue import known_to
 from cardan.checks.checks import CHECKS
 from cardan.choices.check_answer import answer, answer_of_list, checked
 from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
@@ -15,7 +16,6 @@ from cardan.cli.shared.source import STDIN, AsCsv, AsJson, MoreRows, Plot, Speed
 from cardan.cli.shared.tell import tell
 from cardan.errors import Problem, refuse
 from cardan.errors import check as refuse_all
-from cardan.io.drive_file import known_to
 from cardan.texts import _
 from cardan.units import nearest
 

@@ -7,7 +7,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Annotated, Any
 
-from cardan.catalogue import Catalogue, catalogue, with_files
+from cardan.catalogue import Catalogue, catalogue, known_to, with_files
 from cardan.choices.selection import JointDuty, joint_duty, over_time
 from cardan.choices.selection_answer import answer, selected
 from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
@@ -16,7 +16,6 @@ from cardan.cli.shared.source import STDIN, AsCsv, AsJson, MoreRows, SpeedRpm, r
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, check
-from cardan.io.drive_file import known_to
 from cardan.texts import _
 from cardan.units import deg, mm, rpm
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
+from cardan.catalogue import known_to
 from cardan.checks.strength.answer import answer, with_events
 from cardan.checks.strength.strength import strength as ask
 from cardan.choices import sizing_answer
@@ -21,7 +22,6 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import with_values
 from cardan.errors import InputError, refuse
 from cardan.io import dumps
-from cardan.io.drive_file import known_to
 from cardan.io.edit import edit
 from cardan.texts import _
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Annotated
 
+from cardan.catalogue import known_to
 from cardan.choices.torsion_design import answer, optimise_torsion
 from cardan.cli.shared.asked import TorqueNm, check_options, on_duty
 from cardan.cli.shared.options import option
@@ -12,7 +13,6 @@ from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Force, Plot, SpeedRpm, read_with_text
 from cardan.cli.shared.tell import tell
 from cardan.errors import Problem, check
-from cardan.io.drive_file import known_to
 from cardan.io.edit import edit
 from cardan.maths.curves.search import Evolution
 from cardan.questions.torsion.optimise.optimise import Grid

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated
 
+from cardan.catalogue import known_to
 from cardan.cli.shared.asked import check_options, keys_of, on_duty
 from cardan.cli.shared.options import option
 from cardan.cli.shared.source import STDIN, AsCsv, AsJson, DriveFile, MoreRows, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.errors import InputError
-from cardan.io.drive_file import known_to
 from cardan.questions.bending.balance_answer import answer, ask
 from cardan.texts import _
 
