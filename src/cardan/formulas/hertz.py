@@ -6,11 +6,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
+from cardan.later import later
 from cardan.maths.arrays import Array, ArrayLike, floats
 
-from .joint_rating import CONTACT_MODULUS
+special = later("scipy.special")
+
+CONTACT_MODULUS = 206e9 / (2.0 * (1.0 - 0.3**2))
+"""E* of steel on steel [Pa]."""
 
 HALVINGS = 60
 """Bisections of the logarithm of the axis ratio: down to rounding."""
@@ -53,11 +56,11 @@ def point_contact(
     for _half in range(HALVINGS):
         middle = 0.5 * (low + high)
         flat = np.exp(-2.0 * middle)
-        whole, rest = scipy.special.ellipe(-np.expm1(-2.0 * middle)), scipy.special.ellipkm1(flat)
+        whole, rest = special().ellipe(-np.expm1(-2.0 * middle)), special().ellipkm1(flat)
         slim = (whole - flat * rest) * small > flat * (rest - whole) * large
         low, high = np.where(slim, low, middle), np.where(slim, middle, high)
     ratio = np.exp(0.5 * (low + high))
-    whole = scipy.special.ellipe(1.0 - 1.0 / ratio**2)
+    whole = special().ellipe(1.0 - 1.0 / ratio**2)
     both = modulus * (small + large)
     pressure = np.cbrt(1.5 * load * both**2 / (math.pi * ratio * whole**2))
     short = pressure * whole / both

@@ -14,6 +14,8 @@ from cardan.catalogue.rows import LifeFactor
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 from cardan.units import deg, hour, mm, rpm
 
+from .hertz import CONTACT_MODULUS
+
 Method: TypeAlias = Literal["power_law", "table"]
 
 POWER = 10.0 / 3.0
@@ -217,9 +219,6 @@ def _points(name: str) -> tuple[Array, Array]:
 
 
 # Needle bearings of a cross: what they carry by the book, ISO 76 and ISO 281, their contact pressure, their swing.
-
-CONTACT_MODULUS = 206e9 / (2.0 * (1.0 - 0.3**2))
-"""E* of steel on steel [Pa]."""
 
 STATIC_PRESSURE = 4000e6
 """Contact pressure behind the static capacity of roller bearings [Pa], ISO 76."""

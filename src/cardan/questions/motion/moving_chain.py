@@ -12,14 +12,16 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.polynomial import chebyshev
 
 from cardan.drive.joints import Joint
 from cardan.drive.models.geometry import STRAIGHT
+from cardan.later import later
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.curves import paths
 from cardan.maths.curves.paths import Jet, Path
 from cardan.maths.kernel import frames
+
+chebyshev = later("numpy.polynomial.chebyshev")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -228,7 +230,7 @@ def law(kind: Joint, theta: Array, alpha: Array) -> tuple[Array, Array]:
         return found[0], found[1]
     high = float(np.ceil(each[-1] / ROUNDED) * ROUNDED)
     orders, waves = law_waves(kind, high)
-    own = chebyshev.chebvander(2.0 * each / high - 1.0, len(waves) - 1) @ waves
+    own = chebyshev().chebvander(2.0 * each / high - 1.0, len(waves) - 1) @ waves
     part = own[np.reshape(where, np.shape(alpha))]
     turn = part * np.exp(1j * np.asarray(theta)[..., None] * orders)
     return np.sum(turn, axis=-1).real, 1.0 + np.sum(1j * orders * turn, axis=-1).real
@@ -240,14 +242,14 @@ def law_waves(kind: Joint, high: float) -> tuple[Array, Array]:
 
     Returns orders (k,), and the coefficients of Chebyshev's polynomials for the complex amplitude of each (m, k) [rad].
     """
-    nodes = chebyshev.chebpts1(NODES)
+    nodes = chebyshev().chebpts1(NODES)
     theta = np.arange(PLACES) * (2.0 * np.pi / PLACES)
     with np.errstate(invalid="ignore", divide="ignore"):
         rows = np.stack([kind.deviation(theta, np.asarray(0.5 * high * (1.0 + one)))[0] for one in nodes])
     wave = np.fft.rfft(rows, axis=-1)[:, : PLACES // 2] / PLACES
     wave[:, 1:] *= 2.0
     orders = np.flatnonzero(~(np.max(np.abs(wave), axis=0) < LEAST))
-    fit = np.linalg.inv(chebyshev.chebvander(nodes, NODES - 1))
+    fit = np.linalg.inv(chebyshev().chebvander(nodes, NODES - 1))
     return orders, fit @ wave[:, orders]
 
 
