@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from cardan.book.instruments import differentiated, roller_speed, roller_turn
+from cardan.book.instruments import roller_speed, roller_turn
 
 
 def test_the_roller_adds_up_its_way():
@@ -20,15 +20,6 @@ def test_linear_movements_are_exact_whatever_the_steps():
     fine = roller_turn(np.linspace(0, 20, 1001), np.linspace(0.005, -0.010, 1001), 0.02)
     assert fine[-1] == pytest.approx(coarse[-1], rel=1e-12)
     assert list(coarse) == [0.0, -2.5]
-
-
-def test_the_differentiator_undoes_the_integrator():
-    """θ = ∫ρ dφ/r: held at its own arrow, the roller stands where the derivative says."""
-    scale_in, scale_out, size = 3.0, 0.5, 0.02
-    u = np.linspace(0, 1, 2001)
-    theta = np.sin(u)
-    place = np.gradient(scale_out * theta, scale_in * u) * size
-    assert np.allclose(differentiated(place, size, scale_in, scale_out), np.gradient(theta, u), rtol=1e-12)
 
 
 def test_batches_and_single_instants():

@@ -10,7 +10,6 @@ from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Case, Duty
 from cardan.drive.fields.keys import in_a_joint, written
-from cardan.drive.fields.wording import with_key
 from cardan.drive.joints import Hooke
 from cardan.drive.joints.clemens import Circle, course
 from cardan.drive.joints.common.laws import places
@@ -65,10 +64,6 @@ def test_in_a_joint():
         in_a_joint(Drive.from_angles([0.3]), "friction"),
         in_a_joint(Drive.from_angles([0.3]), "cross", ".span"),
     ) == (("joints[0].friction",), ("joints[0].cross.span",))
-
-
-def test_with_key():
-    assert with_key("shafts[1].outer") == "shaft 2: outer diameter (shafts[1].outer_mm)"
 
 
 def test_course():

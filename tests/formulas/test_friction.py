@@ -7,10 +7,10 @@ from cardan import InputError
 from cardan.formulas.friction import (
     Turning,
     branch_efficiency,
-    efficiency_at,
     joint_friction,
     reduced_friction,
     spline_efficiency,
+    swings,
 )
 from cardan.units import deg
 from tests.builders.friction_model import over_a_turn, torques
@@ -77,18 +77,6 @@ def test_friction_acting_on_itself_agrees_with_couples_of_plain_vectors(joint_an
     )
 
 
-def test_the_instant_is_the_ratio_of_powers():
-    model = VectorModel.from_angles([35 * deg])
-    plain = torques(model, TURN, [0.1])
-    want = plain.shaft[1] * plain.speed[1] / (plain.shaft[0] * plain.speed[0])
-    found = efficiency_at(TURN, np.asarray(35 * deg), np.asarray(0.1))
-    assert np.allclose(found, want, rtol=0, atol=1e-14)
-    coasting = torques(model, TURN, [0.1], load=-1.0)
-    want = coasting.shaft[0] * coasting.speed[0] / (coasting.shaft[1] * coasting.speed[1])
-    found = efficiency_at(TURN, np.asarray(35 * deg), np.asarray(0.1), backwards=True)
-    assert np.allclose(found, want, rtol=0, atol=1e-14)
-
-
 def test_the_small_angle_rule_is_the_limit_and_low_by_the_known_factor():
     joint_angle = np.asarray([1e-4, 5 * deg, 10 * deg, 15 * deg, 20 * deg, 30 * deg, 40 * deg])
     found = joint_friction(joint_angle, 1e-3, torque_at="input")
@@ -117,9 +105,9 @@ def test_a_straight_joint_loses_nothing_and_a_stiff_one_locks_without_sinking_th
 def test_locking_is_where_the_instant_reaches_zero():
     joint_angle = 50 * deg
     limit = 1 / np.tan(joint_angle)
-    for backwards, place in ((False, 0.0), (True, 0.5 * np.pi)):
-        at = efficiency_at(np.asarray(place), np.asarray(joint_angle), np.asarray(limit), backwards=backwards)
-        assert float(at) == pytest.approx(0.0, abs=1e-15)
+    for pair, place in ((1, 0.0), (0, 0.5 * np.pi)):  # (1 - κ tan θ_2) of the power to the output, or θ_1 backwards
+        swing = swings(np.sin(place), np.cos(place), np.asarray(joint_angle))[pair]
+        assert 1.0 - limit * swing == pytest.approx(0.0, abs=1e-15)
     status = joint_friction(joint_angle, np.asarray([limit * (1 - 1e-12), limit * (1 + 1e-12)])).status
     assert list(status) == [Turning.FREE, Turning.LOCKED]
 

@@ -138,45 +138,6 @@ def modes_chart_figure(found: MathieuModes) -> Figure:
     )
 
 
-def chart_figure(
-    a: tuple[float, float] = (-3.0, 18.0),
-    q: float = 8.0,
-    *,
-    damping: float = 0.0,
-    point: tuple[float, float] | None = None,
-) -> Figure:
-    """Return the chart of stability of Mathieu's equation.
-
-    a: range of a; q: largest q.
-    damping: n; its edges are drawn too where it is not zero.
-    point: a and q of a drive.
-    """
-    marks = () if point is None else _point(*point, _("the drive"), "accent")
-    panel = chart_panel(a, q, marks, damping=damping, named=True)
-    spot = None if point is None else exponents(point[0], point[1], damping)
-    text = _(
-        "Solutions stay bounded in the white, between a_r and b_(r+1); in the zones between b_r and a_r they grow."
-    )
-    if spot is not None:
-        text = _("At a = {a} and q = {q} vibration neither grows nor dies.")
-        if spot.growth < 0.0:
-            text = _("At a = {a} and q = {q} vibration dies, by {rate} per radian.")
-        elif spot.growth > 0.0:
-            text = _("At a = {a} and q = {q} vibration grows, by {rate} per radian.")
-        a_text, q_text = (significant(value, 3) for value in point or ())
-        text = text.format(a=a_text, q=q_text, rate=significant(abs(float(spot.growth)), 2))
-    return Figure(
-        name="mathieu-chart",
-        title=_("Stability of Mathieu's equation"),
-        sentence=text,
-        source=_(
-            "Kozhevnikov & Perfil'ev (1978), Figs. 77, 78, drawn anew from the exact boundaries; "
-            "eigenvalues of Hill's matrices"
-        ),
-        rows=(Row(panels=(panel,), height=3.2),),
-    )
-
-
 def chart_panel(
     a: tuple[float, float],
     top: float,

@@ -382,18 +382,6 @@ def roller_turn(turn: ArrayLike, place: ArrayLike, radius: ArrayLike) -> Array:
     return xp.concat((0.0 * phi[..., :1] + 0.0 * rho[..., :1] + 0.0 * size[..., None], sums), axis=-1)
 
 
-def differentiated(place: ArrayLike, radius: ArrayLike, input_scale: ArrayLike, output_scale: ArrayLike) -> Array:
-    """Return the derivative that a differentiator shows while its two arrows are held together.
-
-    place (...) [m]: ρ of the roller that holds them together; radius (...) [m]: r_2 > 0.
-    input_scale, output_scale (...): m_φ1, m_φ4: turn of the disc for a unit of the variable u, and of the function's
-    arrow for a unit of θ [rad].
-    Returns (...): θ'(u) = (m_φ1/m_φ4) ρ/r_2, Litvin (7.5)-(7.7).
-    """
-    rho, size, one, other = floats(place, radius, input_scale, output_scale)
-    return one / other * rho / size
-
-
 # Friction drives: how hard two smooth wheels must be pressed together, and at which ratio they turn.
 
 
@@ -471,14 +459,3 @@ def speed_ratio(driving_radius: ArrayLike, driven_radius: ArrayLike) -> Array:
     """
     one, two = floats(driving_radius, driven_radius)
     return two / one
-
-
-def cone_ratio(driving_angle: ArrayLike, driven_angle: ArrayLike) -> Array:
-    """Return ω_1/ω_2 of two cones with a common apex, in size.
-
-    driving_angle, driven_angle (...) [rad]: δ_1, δ_2, between axis and generatrix of each cone.
-    Returns (...): sin δ_2/sin δ_1, Litvin (7.3).
-    """
-    one, two = floats(driving_angle, driven_angle)
-    xp = namespace(one, two)
-    return xp.sin(two) / xp.sin(one)

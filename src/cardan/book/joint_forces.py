@@ -108,26 +108,6 @@ def cross_loads(
     )
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class CoupleFrames:
-    """Secondary couple on the shaft whose torque is constant, as it and its housing feel it, arrays (...) [N·m]."""
-
-    rotating: Array  # (...): amplitude in the shaft, once a turn and fully reversed
-    standing: Array  # (...): constant part in the housing, square to the plane of the joint
-    double: Array  # (...): size of the part in the housing that turns at twice the speed
-
-
-def couple_frames(joint_angle: ArrayLike, torque: ArrayLike) -> CoupleFrames:
-    """Return the secondary couple of one joint in the frame of its shaft and in that of the housing.
-
-    joint_angle (...) [rad]: α in [0, π/2); torque (...) [N·m]: M, constant on this shaft.
-    M tan α sin θ along the arm of the shaft's own yoke: fatigue counts order 1, bearings and structure feel order 2.
-    """
-    xp = namespace(joint_angle, torque)
-    rotating = xp.abs(real(torque, xp)) * xp.tan(real(joint_angle, xp))
-    return CoupleFrames(rotating=rotating, standing=0.5 * rotating, double=0.5 * rotating)
-
-
 def single_joint_forces(
     joint_angle: ArrayLike,
     angle: ArrayLike,

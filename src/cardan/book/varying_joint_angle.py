@@ -10,13 +10,10 @@ import numpy as np
 from cardan.errors import JointAngleLimitError, Problem, check
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.curves import paths
-from cardan.maths.curves.paths import Jet, plus
+from cardan.maths.curves.paths import Jet
 from cardan.questions.motion.moving_chain import moving_axes
 from cardan.texts import _
 from cardan.units import deg
-
-FREEZE = 0.3
-"""A joint angle may be frozen while its rate stays below this share of α ω_1: δ is then at most 5 % too small."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -62,22 +59,6 @@ def driven_motion(
         + 0.5 * c * (1.0 + s * s * near) * double * rate**2
     ) / d**2
     return driven_speed, driven_acceleration
-
-
-def double_joint_speed(first: Jet, second: Jet, angle: ArrayLike, *, speed: ArrayLike) -> Array:
-    """Return the output speed of a planar double joint with parallel yokes while both joint angles change, exactly.
-
-    first, second (...) [rad, rad/s, rad/s²]: the joint angles; accelerations do not matter.
-    angle (...) [rad]: φ_1, with ψ_1 = 0 and γ_2 + β_2 = 0; speed (...) [rad/s]: ω_1.
-    ω_3 = [c_1 c_2 ω_1 + ½ sin 2φ_1 (s_1 c_2 α_1' - c_1 s_2 α_2')]/(c_1² cos²φ_1 + c_2² sin²φ_1), Book (99). Uniform
-    only if the joint angles are equal at all times; equal at one instant is not enough.
-    """
-    xp = namespace(*first, *second, angle)
-    (a1, r1), (a2, r2) = ((real(jet[0], xp), real(jet[1], xp)) for jet in (first, second))
-    phi = real(angle, xp)
-    c1, s1, c2, s2 = xp.cos(a1), xp.sin(a1), xp.cos(a2), xp.sin(a2)
-    turning = c1 * c2 * real(speed, xp) + 0.5 * xp.sin(2.0 * phi) * (s1 * c2 * r1 - c1 * s2 * r2)
-    return turning / ((c1 * xp.cos(phi)) ** 2 + (c2 * xp.sin(phi)) ** 2)
 
 
 def planar_chain(
@@ -232,28 +213,6 @@ def swinging_chain(
     )
 
 
-def rate_effect(joint_angle: ArrayLike, joint_angle_rate: ArrayLike, *, speed: ArrayLike) -> Array:
-    """Return by how much a changing bend raises the speed fluctuation of a joint over the frozen value.
-
-    joint_angle, joint_angle_rate (...) [rad, rad/s]: α and α' at an instant; speed (...) [rad/s]: ω_1.
-    Returns (...): δ with the rate over δ without.
-    √(1 + (α'/(ω_1 sin α))²), exact: over all yoke positions the ratio of ω_2, Book (97), spreads over
-    δ = tan α √(sin²α + (α'/ω_1)²), see `speed_range`. For small joint angles
-    √(1 + (α'/(α ω_1))²): below `FREEZE` · α ω_1 it adds less than 5 %. Book's threshold α' < 0.1 … 0.2 ω_1 holds for
-    the speed, not for its speed fluctuation.
-    """
-    xp = namespace(joint_angle, joint_angle_rate, speed)
-    alpha, rate, omega = (real(part, xp) for part in (joint_angle, joint_angle_rate, speed))
-    return xp.sqrt(1.0 + (rate / (omega * xp.sin(alpha))) ** 2)
-
-
-def may_freeze(joint_angle: ArrayLike, joint_angle_rate: ArrayLike, *, speed: ArrayLike) -> Array:
-    """Tell whether a joint angle may be frozen at each instant: \\|α'\\| ≤ 0.3 α \\|ω_1\\|; array of bool (...)."""
-    xp = namespace(joint_angle, joint_angle_rate, speed)
-    alpha, rate, omega = (real(part, xp) for part in (joint_angle, joint_angle_rate, speed))
-    return xp.abs(rate) <= FREEZE * alpha * xp.abs(omega)
-
-
 # How does a joint turn while its angle varies at random? The angle is normal and stationary, the plane at rest.
 
 NODES = 64
@@ -337,46 +296,6 @@ def rate_deviation(frequency: ArrayLike, density: ArrayLike) -> float:
     density (m,) [unit²·s/rad]: one-sided density there, linear between.
     """
     return math.sqrt(paths.rate_variance(frequency, density))
-
-
-def sideband_gain(mean: float) -> float:
-    """Return κ = tan(ᾱ/2)/cos²(ᾱ/2), the amplitude by which the lead of a joint grows with its bend.
-
-    κ = dτ/dα with the lead τ sin 2θ + …, τ = tan²(α/2); about ᾱ/2 for small bends.
-    """
-    half = 0.5 * mean
-    return math.tan(half) / math.cos(half) ** 2
-
-
-def sidebands(at: ArrayLike, *, mean: float, frequency: ArrayLike, density: ArrayLike, speed: float) -> Array:
-    """Return the two-sided spectrum of the random part of the driven angle φ_2.
-
-    at (...) [rad/s]: frequencies, of either sign; mean [rad]: ᾱ.
-    frequency (m,) [rad/s]: corners of the one-sided spectrum of the joint angle, rising; density (m,) [rad²·s/rad].
-    speed [rad/s]: ω_1.
-    Returns (...) [rad²·s/rad].
-    S(Ω) = κ²/4 [S_α(Ω - 2ω_1) + S_α(Ω + 2ω_1)] with the two-sided S_α, the start phase being uniform; variance
-    κ² σ_α²/2. To first order in the deviation of the joint angle; the higher orders 4ω_1 … are smaller by τ.
-    """
-    omega = np.asarray(at, dtype=float)
-    below, above = (paths.two_sided(frequency, density, omega + shift) for shift in (-2.0 * speed, 2.0 * speed))
-    result: Array = 0.25 * sideband_gain(mean) ** 2 * (below + above)
-    return result
-
-
-def random_joint_angle_path(
-    times: ArrayLike, *, mean: float, frequency: ArrayLike, density: ArrayLike, seed: int, components: int | None = None
-) -> Jet:
-    """Return one sample path of a random bend: α, α', α'' arrays (t,) [rad, rad/s, rad/s²].
-
-    times (t,) [s]; mean [rad]: ᾱ; frequency (m,) [rad/s]: corners of the one-sided spectrum, rising.
-    density (m,) [rad²·s/rad]: the spectrum there; seed: the same seed gives the same path.
-    components: number of cosines; enough not to repeat within the times by default.
-    """
-    at = np.atleast_1d(np.asarray(times, dtype=float))
-    count = components or paths.enough_components(frequency, float(at[-1] - at[0]))
-    path = paths.sample_path(frequency, density, at, seed=seed, components=count)
-    return plus((np.full(at.shape, mean), np.zeros(at.shape), np.zeros(at.shape)), path)
 
 
 def _transfer(joint_angle: Array, theta: Array) -> tuple[Array, Array]:

@@ -64,23 +64,6 @@ def swings(sine: Array, cosine: Array, joint_angle: Array) -> tuple[Array, Array
     return xp.tan(joint_angle) * xp.abs(sine) / size, xp.sin(joint_angle) * xp.abs(cosine) / rest
 
 
-def efficiency_at(angle: Array, joint_angle: Array, drag: Array, *, backwards: bool = False) -> Array:
-    """Return the efficiency of a joint at an instant, friction acting on itself.
-
-    angle (...) [rad]: joint angle θ; joint_angle (...) [rad]: α.
-    drag (...): κ = μ d_c/d: friction moment of a pair of journals over the couple of the cross.
-    backwards: power flows from the driven shaft to the driving one: the load drives, as in coasting.
-    Returns (...): zero or less where the joint locks.
-    (1 - κ tan θ_2)/(1 + κ tan θ_1) with the angles of Book (103), tan θ_1 = tan α |sin θ|, sin θ_2 = sin α
-    |cos θ|; backwards 1 and 2 change places.
-    """
-    xp = namespace(angle, joint_angle, drag)
-    driving, driven = swings(xp.sin(angle), xp.cos(angle), joint_angle)
-    if backwards:
-        driving, driven = driven, driving
-    return (1.0 - drag * driven) / (1.0 + drag * driving)
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JointFriction:
     """What friction takes in single joints over a turn; leading axes are those of joint angles and coefficients."""

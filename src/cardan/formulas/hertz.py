@@ -65,18 +65,3 @@ def point_contact(
     pressure = np.cbrt(1.5 * load * both**2 / (math.pi * ratio * whole**2))
     short = pressure * whole / both
     return PointContact(pressure=pressure, long=ratio * short, short=short)
-
-
-def line_pressure(force: ArrayLike, curvature: ArrayLike, length: ArrayLike) -> Array:
-    """Return the largest pressure of two steel cylinders that touch along a line, by Hertz.
-
-    force (...) [N]: F; curvature (...) [1/m]: 1/R, sum of both; length (...) [m]: L, of the line.
-
-    p_0 = √(F E*/(π L R)).
-
-    >>> print(f"{line_pressure(1000.0, 1 / 0.005, 0.01) / 1e6:.1f} MPa")
-    848.9 MPa
-    """
-    load, bent, along = floats(force, curvature, length)
-    found: Array = np.sqrt(load * CONTACT_MODULUS * bent / (math.pi * along))
-    return found

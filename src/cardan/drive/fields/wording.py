@@ -88,11 +88,6 @@ def counted(path: str) -> str:
     return " · ".join(told)
 
 
-def with_key(path: str) -> str:
-    """Return what stands at a path in words, with the key that is typed for it."""
-    return f"{in_words(path)} ({key_of(path)})"
-
-
 def in_words(path: str, *, inside: str = "", doc: str = "") -> str:
     """Return what stands at a path of the drive file, in words, with parts counted as people count them.
 

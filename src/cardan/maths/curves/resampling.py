@@ -22,9 +22,6 @@ TAPS = 24
 BETA = 9.0
 """Of the Kaiser windows: what is cut is below 1e-4 of what was there."""
 
-PASSED = 0.8
-"""Share of half the rate up to which values are kept as they are, to a part in ten thousand."""
-
 BLOCK = 1 << 16
 """Points read at once; bounds the memory."""
 
@@ -71,19 +68,6 @@ def _continued(values: Array, count: int) -> Array:
     head = 2.0 * values[0] - values[count:0:-1]
     tail = 2.0 * values[-1] - values[-2 : -count - 2 : -1]
     return np.concatenate([head, values, tail])
-
-
-def read_at(values: Array, place: Array) -> Array:
-    """Return a record between its values, by Kaiser's windowed sinc.
-
-    values (n,): at even steps, n at least 2; place (m,): where: 0 is the first value, n − 1 the last one.
-    Returns (m,): within 10⁻⁴ of the amplitude for what is slower than `PASSED` of half the rate, away from the ends.
-    """
-    padded = _padded(values)
-    found = np.empty(place.size)
-    for first in range(0, place.size, BLOCK):
-        found[first : first + BLOCK] = _read(padded, place[first : first + BLOCK])
-    return found
 
 
 def _padded(values: Array) -> Array:

@@ -329,11 +329,3 @@ def influence(joint_angle: ArrayLike, angle: ArrayLike, *, branch: ArrayLike = I
         (-c / square, -s * sp / square, -near, -s * cp * near, -s * sp * cp / square),
     )
     return xp.stack([xp.stack([entry + none for entry in row], axis=-1) for row in rows], axis=-2)
-
-
-def unwrapped(angle: Array, period: float) -> Array:
-    """Return angles along the last axis without jumps of a period."""
-    xp = namespace(angle)
-    steps = angle[..., 1:] - angle[..., :-1]
-    jumps = xp.cumulative_sum(-period * xp.round(steps / period), axis=-1)
-    return xp.concat((angle[..., :1], angle[..., 1:] + jumps), axis=-1)

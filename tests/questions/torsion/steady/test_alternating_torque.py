@@ -11,8 +11,7 @@ from cardan import InputError
 from cardan.questions.torsion.model.inputs import Constant, Swinging
 from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
 from cardan.questions.torsion.model.torsional_modes import straight_waves
-from cardan.questions.torsion.steady.alternating_torque import some_motions, torque_swings
-from cardan.questions.torsion.steady.run_stability import floquet
+from cardan.questions.torsion.steady.alternating_torque import torque_swings
 from cardan.questions.torsion.steady.steady import periodic_response, steady_orbits
 from cardan.questions.torsion.steady.two_frequencies import grouped, side_bands
 
@@ -76,12 +75,6 @@ def test_with_backlash_the_straight_line_is_added() -> None:
         torque_swings(replace(loose, torques=(*loose.torques, *one)), [40.0]).swing for one in ((other,), ())
     )
     np.testing.assert_allclose((both - alone)[0], np.abs(waves.torque))
-
-
-def test_some_of_the_motions_keep_their_stability() -> None:
-    found = torque_swings(LINE, SPEEDS)
-    whole, part = floquet(found.orbit), floquet(some_motions(found.orbit, np.asarray([4, 1])))
-    np.testing.assert_allclose(part.spectral_radius, whole.spectral_radius.reshape(-1)[[4, 1]], rtol=1e-9)
 
 
 def test_standing_still_is_refused_and_a_stop_leaves_the_rest() -> None:

@@ -13,7 +13,7 @@ from cardan.maths.periodic.harmonics import HarmonicBalance, Status, harmonic_ba
 from cardan.questions.torsion.model.inputs import Swinging
 from cardan.questions.torsion.model.side_bands import side_waves
 from cardan.questions.torsion.model.torsional_balance import element_torques
-from cardan.questions.torsion.model.torsional_layouts import Turning, chosen, leading, period_of
+from cardan.questions.torsion.model.torsional_layouts import Turning, leading, period_of
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
 from cardan.questions.torsion.model.torsional_modes import straight_waves
 from cardan.texts import _
@@ -159,18 +159,3 @@ def _beside(model: TorsionalModel, loose: tuple[Torque, ...], omega: Array) -> A
         waves = straight_waves(model, torque.station, law.amplitude, law.frequency * np.abs(omega))
         found = found + np.abs(waves.torque)
     return found
-
-
-def some_motions(orbit: Orbit, rows: Array) -> Orbit:
-    """Return some of the motions, counted through their leading axes, in one axis.
-
-    orbit (...), rows (b,) of int.
-    """
-    return Orbit(
-        model=chosen(orbit.model, orbit.angle_error, rows, moments=False),
-        speed=orbit.speed.reshape(-1)[rows],
-        period=orbit.period,
-        coefficient=orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])[rows],
-        force=orbit.force.reshape(-1)[rows],
-        pieces={k: orbit.pieces[int(row)] for k, row in enumerate(rows) if int(row) in orbit.pieces},
-    )
