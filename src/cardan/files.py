@@ -56,10 +56,7 @@ def refusal(error: OSError) -> str:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file; a failure leaves what was there before.
-
-    Raises InputError: the file cannot be written.
-    """
+    """Write a text file; a failure leaves what was there before. Raises InputError: the file cannot be written."""
     write_bytes(path, text.encode("utf-8"))
 
 

@@ -74,10 +74,7 @@ class Table:
 
 
 def printed(table: answer.Table, reader: Reader, depth: Depth = "full") -> Table:
-    """Return a table as a reader sees it.
-
-    table: quantities in SI; reader: units and decimal sign.
-    """
+    """Return a table as a reader sees it. table: quantities in SI; reader: units and decimal sign."""
     columns = [one for one in table.columns if one.depth in SHOWN[depth]]
     cells = [[cell(value, column, reader) for value in column.listed] for column in columns]
     rows = [list(row) for row in zip(*cells, strict=True)]

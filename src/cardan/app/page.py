@@ -286,10 +286,7 @@ def dress() -> None:
 
 
 def build(session: Session, jobs: Jobs, keep: Callable[[Kept], None]) -> None:
-    """Build the page of one window.
-
-    jobs: where long answers are made; keep: keeps what the window works on.
-    """
+    """Build the page of one window. jobs: where long answers are made; keep: keeps what the window works on."""
     ui.colors(primary="#1f4e8c", positive="#1b7f4b", negative="#b3261e", warning="#9a5b00")
     dark = ui.dark_mode({"auto": None, "light": False, "dark": True}[session.choices.theme])
     ui.query("body").classes("cardan")

@@ -55,10 +55,7 @@ class Start:
 
 
 def start(how: Start) -> None:
-    """Run the app until it is interrupted.
-
-    how: where and with which file.
-    """
+    """Run the app until it is interrupted."""
     app, ui, page = nicegui().app, nicegui().ui, pages()
     if not how.folder.is_dir():
         raise refuse(str(how.folder), _("is not a folder"))

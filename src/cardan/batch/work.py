@@ -183,10 +183,7 @@ def made(work: Work, start: int, stop: int, *, keeps: bool) -> tuple[Rows | None
 
 
 def chunks_of(work: Work, rows: int | None = None, *, keeps: bool = True) -> Chunks:
-    """Return the chunks of a sweep.
-
-    rows: rows of a chunk; measured by `rows_for` by default.
-    """
+    """Return the chunks of a sweep. rows: rows of a chunk; measured by `rows_for` by default."""
     return Chunks(work.name, work.size, rows if rows is not None else rows_for(work, keeps=keeps))
 
 

@@ -41,10 +41,7 @@ ROOM = 1.5
 
 
 def reduction_figure(found: MathieuReduction) -> Figure:
-    """Return the chart of stability about the nearest zone with the drive in it, about the first one far from all.
-
-    found: of one drive and speed.
-    """
+    """Return the chart of stability about the nearest zone with the drive in it, about the first one far from all."""
     near = max(1, round(math.sqrt(found.a)))
     near = near if near <= SEEN else 1
     centre = float(near * near)
@@ -236,10 +233,7 @@ def _digits(low: float, high: float) -> int:
 
 
 def book_figure(found: BookComparison) -> Figure:
-    """Return the output's angle error, exact and by the series of first and second order, and what these miss.
-
-    found: of one drive.
-    """
+    """Return the output's angle error, exact and by the series of first and second order, and what these miss."""
     angle = np.asarray(found.angle) / deg
     exact, first, second = (np.asarray(row) / deg for row in (found.exact, found.first_order, found.second_order))
     upper = Panel(

@@ -86,10 +86,7 @@ def answer(known: Catalogue) -> Answer:
 
 
 def answer_of_table(known: Catalogue, name: str) -> Answer:
-    """Return the rows of a table: the most important for people, for programs as a file has them.
-
-    name: one of `TABLES`.
-    """
+    """Return the rows of a table: the most important for people, for programs as a file has them."""
     who = _looking(name)
     rows = list(known.tables.get(name, {}).values())
     usual = [row_flat(row) for row in rows]
@@ -223,10 +220,7 @@ def _said(value: Any, who: Reader) -> str:
 
 
 def answer_of_keys(name: str) -> Answer:
-    """Return the keys that a row of a table can have.
-
-    name: one of `TABLES`.
-    """
+    """Return the keys that a row of a table can have."""
     keys = list(row_keys(name))
     text = _("{table}: a row can have {count} keys; any unit of the dimension is read.")
     return Answer(

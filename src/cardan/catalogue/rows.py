@@ -401,10 +401,7 @@ class RowKey(NamedTuple):
 
 
 def row_keys(table: str) -> Iterator[RowKey]:
-    """Yield the keys that a row of a table can have, those of inner tables after their own.
-
-    table: one of `TABLES`.
-    """
+    """Yield the keys that a row of a table can have, those of inner tables after their own."""
     yield from _of_class(TABLES[table], "")
 
 

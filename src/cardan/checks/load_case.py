@@ -248,10 +248,7 @@ def _unit_loads(chain: Chain, torque_at: str) -> TurnLoads:
 
 
 def blocks(chain: Chain) -> Iterator[tuple[slice, Chain]]:
-    """Yield the drives of a chain in blocks that fit the cache: their rows, and their chain.
-
-    chain (..., n).
-    """
+    """Yield the drives of a chain in blocks that fit the cache: their rows, and their chain. chain (..., n)."""
     outer, joints = chain.joint_angle.shape[:-1], chain.joints
     count = math.prod(outer)
     flat = {

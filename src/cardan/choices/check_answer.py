@@ -187,10 +187,7 @@ def answer(drive: Drive, result: Checked, *, sources: bool = False, missing: boo
 
 
 def sentence(verdicts: Sequence[Verdict]) -> Say | str:
-    """Return in a sentence how verdicts came out.
-
-    verdicts: all of a drive.
-    """
+    """Return in a sentence how verdicts came out."""
     result = Checked(verdicts=tuple(verdicts))
     binding, failed = result.binding, result.failed
     if not binding:

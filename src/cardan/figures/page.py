@@ -61,10 +61,7 @@ class Page:
 
 
 def laid_out(figure: Figure, *, words: bool) -> Page:
-    """Return where the parts of a figure stand.
-
-    words: draw title, sentence and source too: in a file of its own.
-    """
+    """Return where the parts of a figure stand. words: draw title, sentence and source too: in a file of its own."""
     letters = int((figure.width - 0.2) / (0.87 * LETTER))
     heading = _lines(figure.title, 0.66 * letters) if words else ()
     top = 0.08 + 0.24 * len(heading)

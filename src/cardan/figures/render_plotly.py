@@ -24,10 +24,7 @@ FONT = "Inter, 'Segoe UI', 'Helvetica Neue', Arial, sans-serif"
 
 
 def render(figures: Figure | Sequence[Figure]) -> str:
-    """Return a page with figures, the drawing program included.
-
-    figures: what to draw, from the top.
-    """
+    """Return a page with figures, the drawing program included."""
     several = (figures,) if isinstance(figures, Figure) else tuple(figures)
     blocks = "\n".join(
         f"<figure><figcaption><h1>{escape(figure.title)}</h1></figcaption>{fragment(figure)}"

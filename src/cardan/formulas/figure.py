@@ -38,10 +38,7 @@ def _names() -> dict[str, str]:
 
 
 def variants_figure(found: Variants) -> Figure:
-    """Return the amplification over the frequency with each absorber and damper.
-
-    found: of one inertia ratio.
-    """
+    """Return the amplification over the frequency with each absorber and damper."""
     best = float(np.min(found.peak))
     curves = []
     for kind, row in zip(found.kinds, found.amplification, strict=True):
@@ -71,10 +68,7 @@ def variants_figure(found: Variants) -> Figure:
 
 
 def before_after_figure(found: AbsorberResponse) -> Figure:
-    """Return the amplification with an absorber beside that without, and the twist of its spring.
-
-    found: of one setting.
-    """
+    """Return the amplification with an absorber beside that without, and the twist of its spring."""
     size, bare = np.asarray(found.amplification), np.asarray(found.bare)
     twist = np.abs(np.asarray(found.twist))
     most = float(np.max(size[np.isfinite(size)], initial=0.0))
@@ -131,10 +125,7 @@ def _upright(rows: Array, peak: float) -> Axis:
 
 
 def run_up_figure(found: RunUp) -> Figure:
-    """Return the response over time, with the passing of the resonance and the peak.
-
-    found: of one run.
-    """
+    """Return the response over time, with the passing of the resonance and the peak."""
     panel = Panel(
         series=(
             Rule(value=found.passing_time, upright=True, text=_("frequencies meet")),
@@ -164,10 +155,7 @@ def run_up_figure(found: RunUp) -> Figure:
 
 
 def joint_run_up_figure(found: JointRunUp) -> Figure:
-    """Return the torque behind a joint over the input speed, with the speed of order 2 and the peak.
-
-    found: of one run.
-    """
+    """Return the torque behind a joint over the input speed, with the speed of order 2 and the peak."""
     speed, most = found.acceleration * np.asarray(found.time) / rpm, found.peak_torque
     panel = Panel(
         series=(

@@ -68,10 +68,7 @@ class Plan:
 
 
 def read_plan(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Plan:
-    """Return the plan that a file describes.
-
-    path: a ``.toml`` file, or ``.json`` with the same tables.
-    """
+    """Return the plan that a file describes. path: a ``.toml`` file, or ``.json`` with the same tables."""
     where = Path(path)
     text, form = text_of(where)
     return plan_of(text, folder=where.parent, form=form, name=str(where), catalogues=catalogues)

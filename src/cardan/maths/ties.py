@@ -60,10 +60,7 @@ def foremost_on(curve: ArrayLike, *, least: bool = False) -> Array:
 
 
 def largest(values: ArrayLike) -> tuple[int, ...]:
-    """Return the places of all values that are the largest but for rounding, in rising order.
-
-    values (n,).
-    """
+    """Return the places of all values that are the largest but for rounding, in rising order. values (n,)."""
     return tuple(int(k) for k in np.flatnonzero(alike(values)))
 
 

@@ -21,10 +21,7 @@ def shown(value: float, key: Key, unit: str = "") -> str:
 
 
 def allowed(key: Key, unit: str = "", *, mirrored: bool = False) -> str:
-    """Return the allowed range of a key in words.
-
-    unit: unit of the words; the preferred one when empty.
-    """
+    """Return the allowed range of a key in words. unit: unit of the words; the preferred one when empty."""
     low, above, high, below = key.low, key.above, key.high, key.below
     if mirrored:
         low, above, high, below = (0.0 - bound for bound in (high, below, low, above))

@@ -205,10 +205,7 @@ def _in_poses(on: Subject) -> tuple[float, str]:
 
 
 def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
-    """Yield what the reader must not overlook.
-
-    pages: parts of the report that may have such of their own.
-    """
+    """Yield what the reader must not overlook. pages: parts of the report that may have such of their own."""
     limits = _limits(pages)
     yield from (Words(text=one.text, tone="warning") for one in doubts(on.drive))
     yield from (alarm for page in pages if page is not limits for alarm in page.alarms)

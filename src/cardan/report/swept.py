@@ -44,10 +44,7 @@ class Wanted:
     ask: tuple[str, ...] = ("speed_fluctuation",)  # names of questions
 
     def axes(self) -> tuple[GridAxis, ...]:
-        """Return what varies.
-
-        Raises InputError: all that is missing or wrong, a sweep of too many points.
-        """
+        """Return what varies. Raises InputError: all that is missing or wrong, a sweep of too many points."""
         problems, axes = [], []
         if not self.vary:
             problems.append(Problem("vary", _("missing; a sweep varies at least one key")))

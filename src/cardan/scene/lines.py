@@ -94,10 +94,7 @@ class _Paper:
 
 
 def drawn_round(build: Build, size: float) -> Drawn:
-    """Return lines, areas and labels round the bodies of a drive, and the switches of their groups.
-
-    size [m].
-    """
+    """Return lines, areas and labels round the bodies of a drive, and the switches of their groups. size [m]."""
     paper = _Paper(build=build)
     for draw in (_axes, _planes, _joint_angles, _yokes):
         draw(paper)

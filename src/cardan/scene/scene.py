@@ -298,10 +298,7 @@ MOST = 5
 
 
 def shapes(drive: Drive, build: Build, size: float) -> tuple[tuple[SceneMode, ...], dict[str, str]]:
-    """Return the mode shapes of a drive, and which keys would allow those that are missing.
-
-    size [m].
-    """
+    """Return the mode shapes of a drive, and which keys would allow those that are missing. size [m]."""
     modes: list[SceneMode] = []
     missing: dict[str, str] = {}
     try:

@@ -147,10 +147,7 @@ def _bare(drive: Drive) -> set[str]:
 
 
 class Sheet:
-    """One answer.
-
-    name: which of `cardan.register.QUESTIONS`; jobs: where it is made if it takes long.
-    """
+    """One answer. name: which of `cardan.register.QUESTIONS`; jobs: where it is made if it takes long."""
 
     def __init__(self, name: str, session: Session, jobs: Jobs, export: Export | None) -> None:
         self.name = name

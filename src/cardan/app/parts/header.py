@@ -27,10 +27,7 @@ LOOK = 2.0  # seconds between two looks whether somebody else changed the file
 
 
 class Header:
-    """The top of the page.
-
-    jobs: where reports are made.
-    """
+    """The top of the page. jobs: where reports are made."""
 
     def __init__(self, session: Session, jobs: Jobs) -> None:
         self.session = session
@@ -300,10 +297,7 @@ def _dimensions() -> dict[str, str]:
 
 
 class VariantsMenu:
-    """The menu of the variants.
-
-    jobs: where they are compared.
-    """
+    """The menu of the variants. jobs: where they are compared."""
 
     def __init__(self, session: Session, jobs: Jobs) -> None:
         self.session = session

@@ -59,10 +59,7 @@ def _pressed(button: ui.button, *, on: bool) -> None:
 
 
 class View:
-    """The view in space with its controls.
-
-    jobs: where heavy files are drawn.
-    """
+    """The view in space with its controls. jobs: where heavy files are drawn."""
 
     def __init__(self, session: Session, jobs: Jobs) -> None:
         self.session = session

@@ -92,10 +92,7 @@ class SceneView(Element, component="cardan_scene.js", esm={"cardan-scene": "js"}
         self._ask("mode", index)
 
     def play(self, on: bool) -> None:
-        """Turn the drive, or hold it.
-
-        A page opens turning, unless its user asks the system for reduced motion.
-        """
+        """Turn the drive, or hold it. A page opens turning, unless its user asks the system for reduced motion."""
         self.playing = on
         self._ask("play", on)
 

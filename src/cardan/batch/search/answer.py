@@ -23,10 +23,7 @@ SHOWN = 12  # points of a choice that people are shown
 
 
 def answer(found: Optimum | ParetoSet | Sensitivity | Boundary) -> Answer:
-    """Return what there is to say of what a design found.
-
-    found: as its ``run`` returns it.
-    """
+    """Return what there is to say of what a design found."""
     if isinstance(found, Optimum):
         return answer_of_optimum(found)
     if isinstance(found, ParetoSet):

@@ -68,10 +68,7 @@ def uses_figure(found: Strength) -> Figure:
 
 
 def bars_of(rows: list[tuple[str, float, str]]) -> Panel:
-    """Return bars of utilisations with the limit drawn in.
-
-    rows: name, utilisation and role, from the top.
-    """
+    """Return bars of utilisations with the limit drawn in. rows: name, utilisation and role, from the top."""
     size = np.asarray([100.0 * min(used, MOST) for _name, used, _role in rows])
     at = np.arange(len(rows), 0, -1, dtype=float)
     top = max(float(np.max(size, initial=0.0)), 100.0)

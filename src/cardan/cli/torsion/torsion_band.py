@@ -104,10 +104,7 @@ def stepped(said: Answer, words: Sequence[str], given: Sequence[str], out: Path 
 
 
 def written(file: Path, text: str, out: Path, edited: Callable[[], str], better: Drive) -> None:
-    """Write a better drive.
-
-    out: where to write it, TOML or JSON; edited: makes the new text of a TOML file.
-    """
+    """Write a better drive. out: where to write it, TOML or JSON; edited: makes the new text of a TOML file."""
     if is_json(out, text):
         asked = loads(text, form=form_of(file, text), folder=file.parent).duty  # not the one of the command line
         content = dumps(replace(better, duty=asked), form="json" if out.suffix.lower() == ".json" else "toml")

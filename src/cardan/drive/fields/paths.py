@@ -149,10 +149,7 @@ def pose_drives(drive: P) -> tuple[P, ...]:
 
 
 def pose_problems(drive: Described, *, whole: bool) -> Iterator[Problem]:
-    """Yield what is wrong with the poses of a drive.
-
-    drive: the drive; it need not be checked yet.
-    """
+    """Yield what is wrong with the poses of a drive."""
     bare = copy(drive)
     object.__setattr__(bare, "poses", ())
     object.__setattr__(bare, "shafts", drive.all_shafts())

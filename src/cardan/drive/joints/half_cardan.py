@@ -291,10 +291,7 @@ def deviation(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
 
 
 def ratio(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
-    """Return the speed ratio where equal elastic pairs share the torque.
-
-    The derivative of `deviation` + φ1.
-    """
+    """Return the speed ratio where equal elastic pairs share the torque. The derivative of `deviation` + φ1."""
     phi, alpha = floats(angle, joint_angle)
     return shared_turn.course(phi, _tau(alpha), pairs)[1]
 

@@ -68,10 +68,7 @@ def unstretched(data: bytes) -> bytes:
 
 
 def put(sheet: Any, row: int, column: int, value: object, form: Any = None) -> None:
-    """Write a value into a cell: what is not finite as a sign, nothing as an empty cell.
-
-    row, column: from 0.
-    """
+    """Write a value into a cell: what is not finite as a sign, nothing as an empty cell. row, column: from 0."""
     if hasattr(value, "item"):
         value = value.item()
     if isinstance(value, bool):

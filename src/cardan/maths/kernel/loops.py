@@ -259,10 +259,7 @@ def _solved(axes: tuple[Array, Array, Array], seats: tuple[Array, ...], volume: 
 
 
 def link(alpha: Array, angle: Array, length: Array, slide: Array) -> Array:
-    """Return the homogeneous matrices from frame i+1 to frame i, order (1, x, y, z); array (..., 4, 4).
-
-    Book (147).
-    """
+    """Return the homogeneous matrices from frame i+1 to frame i, order (1, x, y, z); array (..., 4, 4). Book (147)."""
     xp = namespace(alpha, angle, length, slide)
     c, s, cp, sp = xp.cos(alpha), xp.sin(alpha), xp.cos(angle), xp.sin(angle)
     a, d = real(length, xp), real(slide, xp)

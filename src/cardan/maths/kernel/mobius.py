@@ -87,10 +87,7 @@ def ratio(pair: Pair, w: Array) -> Array:
 
 
 def ratio_slope(pair: Pair, w: Array) -> Array:
-    """Return the derivative of `ratio` by the input angle [1/rad].
-
-    -2 Re(k̄ · 2i b̄ w)/|k|⁴ with k = b̄ w + ā.
-    """
+    """Return the derivative of `ratio` by the input angle [1/rad]. -2 Re(k̄ · 2i b̄ w)/|k|⁴ with k = b̄ w + ā."""
     k = _kernel(pair, w)
     xp = namespace(k)
     return 4.0 * xp.imag(xp.conj(k) * xp.conj(pair[1]) * w) / _square(k) ** 2

@@ -37,10 +37,7 @@ def derivative(one: Array) -> Array:
 
 
 def roots(one: Array) -> Array:
-    """Return all roots, complex; the leading coefficient must not be 0.
-
-    Eigenvalues of the companion matrix.
-    """
+    """Return all roots, complex; the leading coefficient must not be 0. Eigenvalues of the companion matrix."""
     degree = one.shape[-1] - 1
     companion = np.zeros((*one.shape[:-1], degree, degree))
     companion[..., np.arange(1, degree), np.arange(degree - 1)] = 1.0

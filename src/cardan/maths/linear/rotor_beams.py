@@ -164,10 +164,7 @@ def round_section(
 
 
 def divided(whole: Line, parts: ArrayLike) -> Line:
-    """Return the same line with each beam cut into equal parts.
-
-    parts (e,) of int: into how many.
-    """
+    """Return the same line with each beam cut into equal parts. parts (e,) of int: into how many."""
     count = np.asarray(parts, dtype=int)
     node = np.concatenate(([0], np.cumsum(count)))
     total, hinges = int(node[-1]), len(whole.hinged)

@@ -656,10 +656,7 @@ def _bounds(result: Accuracy) -> Table:
 
 
 def answer_of_allocation(drive: Drive, found: Allocation, *, written: Path | None = None) -> Answer:
-    """Return what there is to say of the cheapest tolerances.
-
-    written: file they were written into.
-    """
+    """Return what there is to say of the cheapest tolerances. written: file they were written into."""
     side = _side(found)
     return Answer(
         name="accuracy",

@@ -55,10 +55,7 @@ def mode_name(part: Part, name: str = "") -> str:
 
 
 def speeds_figure(found: CriticalSpeeds) -> Figure:
-    """Return the critical speeds beside the speeds of running.
-
-    found: of one drive.
-    """
+    """Return the critical speeds beside the speeds of running."""
     count = min(len(found.actual), SHOWN)
     actual = np.asarray(found.actual[:count]) / rpm
     at = np.arange(count, 0, -1, dtype=float)
@@ -144,10 +141,7 @@ def _role(found: CriticalSpeeds, k: int) -> str:
 
 
 def shapes_figure(found: CriticalSpeeds) -> Figure:
-    """Return the shapes in which the line whirls, with joints and supports.
-
-    found: of one drive.
-    """
+    """Return the shapes in which the line whirls, with joints and supports."""
     count = min(len(found.speed), SHOWN)
     place = np.asarray(found.place) / mm
     across = axis(_("place along the line from joint 1"), "mm", [place], dimension="length", margin=0.04, count=8)
@@ -233,10 +227,7 @@ def speed_map_figures(found: CriticalSpeedMap) -> tuple[Figure, ...]:
 
 
 def speed_map_figure(found: CriticalSpeedMap) -> Figure:
-    """Return critical speeds over the stiffness of a support or the length of a shaft.
-
-    found: over one quantity.
-    """
+    """Return critical speeds over the stiffness of a support or the length of a shaft."""
     stiff = found.over == "stiffness"
     unit = 1e3 if stiff else mm
     value, speed = np.asarray(found.value) / unit, np.asarray(found.speed) / rpm
@@ -333,10 +324,7 @@ def order_name(order: float) -> str:
 
 
 def response_figure(found: RotorResponse) -> Figure:
-    """Return the amplitudes of the orders over the speed, with the speeds of running and where whirling grows.
-
-    found: of one shaft.
-    """
+    """Return the amplitudes of the orders over the speed, with the speeds of running and where whirling grows."""
     speed = found.steady.speed / rpm
     rows = {order: found.steady.order_amplitude(order) / MICRO for order in ORDERS}
     top = max(float(np.nanmax(row)) for row in rows.values()) or 1.0
@@ -450,10 +438,7 @@ def _way(z: Array, title: str, reach: float, *, role: str = "accent") -> Panel:
 
 
 def orbits_figure(found: RotorResponse) -> Figure:
-    """Return the ways of the shaft's centre about its middle at a third, at half and near the critical speed.
-
-    found: of one shaft.
-    """
+    """Return the ways of the shaft's centre about its middle at a third, at half and near the critical speed."""
     critical = found.rotor.critical
     wanted = [(1.0 / 3.0, _("a third of the critical speed")), (0.5, _("half")), (0.9, _("nine tenths"))]
     turn = np.linspace(0.0, 2.0 * np.pi, POINTS)

@@ -29,10 +29,7 @@ SURE = 0.6  # confidence below which the reader is warned
 
 
 def answer(found: Examination) -> Answer:
-    """Return what there is to say of a recording of a drive.
-
-    found: as of `cardan.recordings.examine`.
-    """
+    """Return what there is to say of a recording of a drive. found: as of `cardan.recordings.examine`."""
     findings = found.findings
     title = _("Diagnosis of {name}").format(name=found.signal.name) if found.signal.name else _("Diagnosis")
     shows = () if found.expected is None else (_should_appear(found.expected, found),)
@@ -52,10 +49,7 @@ def answer(found: Examination) -> Answer:
 
 
 def answer_of_signs(signs: Signs, findings: Sequence[Finding]) -> Answer:
-    """Return what there is to say of orders and symptoms alone.
-
-    findings: as of `cardan.recordings.diagnose`.
-    """
+    """Return what there is to say of orders and symptoms alone."""
     return Answer(
         name="diagnosis",
         title=_("Diagnosis by signs"),

@@ -20,10 +20,7 @@ __all__ = ["answer", "answer_of_list", "by_torque", "grows"]
 
 
 def answer(found: Expected, made: Signal | None = None, path: Path | None = None) -> Answer:
-    """Return what there is to say of a fault of a drive.
-
-    made: a recording of it; path: where that was written.
-    """
+    """Return what there is to say of a fault of a drive. made: a recording of it; path: where that was written."""
     channels = [] if made is None else [one.name for one in made.channels]
     span = Quantity(0.0 if made is None else made.duration, "time")
     written = {} if made is None else {"recording": {"path": str(path), "duration": span, "channels": channels}}
@@ -97,10 +94,7 @@ def grows(power: float, *, amplified: bool) -> str:
 
 
 def by_torque(share: tuple[float, float, float]) -> str:
-    """Return how an order follows the torque, in words.
-
-    share: a, b, c of the factor |a + bτ + c|τ||.
-    """
+    """Return how an order follows the torque, in words. share: a, b, c of the factor |a + bτ + c|τ||."""
     still, signed, sized = share
     if signed:
         return _("changes with its sense")

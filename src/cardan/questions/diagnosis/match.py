@@ -51,10 +51,7 @@ class Cause:
 
 
 def symptoms(known: Catalogue | None = None) -> tuple[str, ...]:
-    """Return every symptom that a fault of the catalogue has, in its order.
-
-    known: the shipped one when not given.
-    """
+    """Return every symptom that a fault of the catalogue has, in its order. known: the shipped one when not given."""
     rows = (known or catalogue()).rows(Fault).values()
     return tuple(dict.fromkeys(symptom for row in rows for symptom in row.symptoms))
 

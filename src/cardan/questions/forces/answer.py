@@ -103,10 +103,7 @@ def ask(drive: Drive) -> Carried:
 
 
 def followed(drive: Drive, found: Forces) -> Carried:
-    """Return what a drive carries as drawn with what it carries while it moves, where the file says how fast.
-
-    found: as drawn.
-    """
+    """Return what a drive carries as drawn with what it carries while it moves, where the file says how fast."""
     inside: dict[str, Any] = {"inner": inner_loads(drive, found), "thrusts": thrusts(drive, found)}
     if not drive.movements:
         return Carried(forces=found, **inside)
@@ -146,10 +143,7 @@ def over_movement(drive: Drive) -> Callable[[Array], Array] | None:
 
 
 def answer(drive: Drive, result: Carried, curves: Forces | None = None) -> Answer:
-    """Return what there is to say of what a drive carries.
-
-    curves: at the positions whose curves are asked for.
-    """
+    """Return what there is to say of what a drive carries. curves: at the positions whose curves are asked for."""
     found = result.forces
     shown = found if curves is None else curves
     machines, own, drive = machines_of(drive), drive, machine_held(drive) if found.reaction is not None else drive

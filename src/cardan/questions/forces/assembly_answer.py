@@ -75,10 +75,7 @@ def otherwise(drive: Drive) -> str:
 
 
 def answer(drive: Drive, result: AssemblyForces, curves: AssemblyForces | None = None) -> Answer:
-    """Return what there is to say of the forces of assembly.
-
-    curves: at the positions whose curves are asked for.
-    """
+    """Return what there is to say of the forces of assembly. curves: at the positions whose curves are asked for."""
     shown = result if curves is None else curves
     machines, drive = machines_of(drive), machine_held(drive)
     return Answer(

@@ -271,10 +271,7 @@ ROUNDING = 1e-9
 
 
 def senses(found: Forces) -> tuple[Forces, ...]:
-    """Return the forces, and those with the splines sliding back where that differs.
-
-    found: of one drive.
-    """
+    """Return the forces, and those with the splines sliding back where that differs."""
     return (found,) if found.reverse is None else (found, found.reverse)
 
 

@@ -87,10 +87,7 @@ def _held(found: Life) -> Iterator[Curve]:
 
 
 def methods_figure(found: Life) -> Figure:
-    """Return the lives of the joint that fails first, by each method.
-
-    found: with a joint whose life is limited.
-    """
+    """Return the lives of the joint that fails first, by each method."""
     i = found.governing - 1
     kind = found.bearings.convention[i]
     named = [
@@ -138,10 +135,7 @@ def methods_figure(found: Life) -> Figure:
 
 
 def parts_figure(found: Life) -> Figure:
-    """Return time and damage of the parts of a duty cycle, in the joint or support that fails first.
-
-    found: of a duty cycle with several parts.
-    """
+    """Return time and damage of the parts of a duty cycle, in the joint or support that fails first."""
     damage, held = 100.0 * found.first_damage, found.governing_support
     of_joint, of_support = (
         _("Shares of time and of damage in joint {number}"),

@@ -29,10 +29,7 @@ HEAVY = 0.5
 
 
 def clamped(joint_angle: ArrayLike) -> Array:
-    """Tell whether book and makers count a joint angle as 3°, array (...) of bool.
-
-    joint_angle (...) [rad].
-    """
+    """Tell whether book and makers count a joint angle as 3°, array (...) of bool. joint_angle (...) [rad]."""
     (alpha,) = floats(joint_angle)
     return alpha < LEAST_JOINT_ANGLE * (1.0 - ROUNDING)
 

@@ -174,10 +174,7 @@ def map_figures(found: LossMap) -> tuple[Figure, ...]:
 
 
 def map_figure(found: LossMap) -> Figure:
-    """Return efficiency and power loss over the torque, a curve for each of some speeds.
-
-    found: over speed and torque.
-    """
+    """Return efficiency and power loss over the torque, a curve for each of some speeds."""
     torque = np.asarray(found.torque)
     share, loss = 100.0 * np.asarray(found.efficiency), np.asarray(found.heat)
     chosen = np.unique(np.linspace(0, found.speed.size - 1, min(found.speed.size, LINES)).round().astype(int))

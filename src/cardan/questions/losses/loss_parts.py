@@ -215,10 +215,7 @@ def rubbing_of(joints: Sequence[Joint], *, many: bool) -> Callable[[Motion], tup
 
 
 def trouble(train: Train) -> str:
-    """Return why the forces on the supports are not determinate, in one sentence; empty where they are.
-
-    train: one drive.
-    """
+    """Return why the forces on the supports are not determinate, in one sentence; empty where they are."""
     held = _held(train, np.zeros(1))[1]
     more = held.unknowns - held.equations
     if more > 0:

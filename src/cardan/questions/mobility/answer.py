@@ -96,10 +96,7 @@ def turned(thing: Drive | Mechanism, progress: Callable[[float], object] | None 
 
 
 def answer(thing: Drive | Mechanism, result: Mobility, around: Turned | None = None) -> Answer:
-    """Return what there is to say of the mobility of a drive or of any mechanism.
-
-    around: over a turn of the input.
-    """
+    """Return what there is to say of the mobility of a drive or of any mechanism. around: over a turn of the input."""
     return _answer(thing, result, working(result.mechanism, most=SHOWN, links=isinstance(thing, Mechanism)), around)
 
 

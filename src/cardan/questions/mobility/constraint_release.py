@@ -211,10 +211,7 @@ def repaired(mechanism: Mechanism, repair: Repair) -> Mechanism:
 
 
 def advice(change: Change, mechanism: Mechanism) -> str:
-    """Return a change as a sentence.
-
-    mechanism: its frame is not told.
-    """
+    """Return a change as a sentence."""
     if change.bearing:
         link = next(link for link in change.links if link != mechanism.frame)
         where = change.joint

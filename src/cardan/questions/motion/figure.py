@@ -34,10 +34,7 @@ def motion_figures(found: Motion) -> tuple[Figure, ...]:
 
 
 def motion_figure(found: Motion) -> Figure:
-    """Return speed ratio, angle error and acceleration of every shaft over the input angle.
-
-    found: motion of one drive.
-    """
+    """Return speed ratio, angle error and acceleration of every shaft over the input angle."""
     angle = np.asarray(found.angle) / deg
     angle_error = np.asarray(found.angle_error) / deg
     known = found.speed is not None
@@ -148,10 +145,7 @@ def equivalence_figures(found: EquivalentJoint) -> tuple[Figure, ...]:
 
 
 def speed_fluctuation_figure(found: EquivalentJoint) -> Figure:
-    """Return how uneven every shaft turns.
-
-    found: of one drive.
-    """
+    """Return how uneven every shaft turns."""
     share = 100.0 * np.ravel(np.asarray(found.shaft_speed_fluctuation))
     at = np.arange(2, len(share) + 2)
     texts = tuple(Quantity(value / 100.0, "share", 3) for value in share.tolist())
@@ -185,10 +179,7 @@ def speed_fluctuation_figure(found: EquivalentJoint) -> Figure:
 
 
 def orders_figure(found: EquivalentJoint) -> Figure:
-    """Return the exact harmonics of the output's angle error.
-
-    found: of one drive, or of every shaft of one drive: then the last is drawn.
-    """
+    """Return the exact harmonics of the output's angle error."""
     amplitude = np.asarray(found.harmonics(ORDERS)).reshape(-1, ORDERS)[-1] / deg
     orders = 2.0 * np.arange(1, ORDERS + 1)
     even = bool(np.ravel(np.asarray(found.shaft_speed_fluctuation))[-1] < SYNCHRONOUS)

@@ -97,10 +97,7 @@ Evenness: TypeAlias = EquivalentJoint | Swing
 
 
 def swing(drive: Drive) -> Swing:
-    """Return how uneven every shaft of a drive is, seen over one turn.
-
-    drive: with joints of any kinds.
-    """
+    """Return how uneven every shaft of a drive is, seen over one turn."""
     angle = np.arange(PLACES) * (2.0 * np.pi / PLACES)
     found = motion(drive, angle)
     ratio, slope, angle_error = (part[1:] for part in (found.shaft_ratio, found.shaft_slope, found.angle_error))

@@ -46,10 +46,7 @@ def _compared(found: Phasing) -> list[YokeSetting]:
 
 
 def polygon_figure(found: Phasing) -> Figure:
-    """Return the phase polygon as built and with the best yoke angles, in the Poincaré disk.
-
-    found: what the yoke angles can do.
-    """
+    """Return the phase polygon as built and with the best yoke angles, in the Poincaré disk."""
     shown = [found.as_built, *found.settings[:1]]
     if len(found.settings) > 1 and len(found.as_built.vertex) > 3:
         shown = [*shown, found.settings[1]]
@@ -157,10 +154,7 @@ def _side(start: complex, end: complex) -> Array:
 
 
 def settings_figure(found: Phasing) -> Figure:
-    """Return what is left by each setting of the yokes.
-
-    found: what the yoke angles can do.
-    """
+    """Return what is left by each setting of the yokes."""
     shown = _compared(found)
     share = 100.0 * np.asarray([one.speed_fluctuation for one in shown])
     at = np.arange(len(shown), 0, -1, dtype=float)
@@ -223,10 +217,7 @@ def settings_figure(found: Phasing) -> Figure:
 
 
 def steering_figure(found: Phasing) -> Figure:
-    """Return the speed ratio of a steering column from lock to lock, as specified and in its best setting.
-
-    found: what the yoke angles can do, of a steering column.
-    """
+    """Return the speed ratio of a steering column from lock to lock, as specified and in its best setting."""
     shown = found.steering[:2]
     looks = (("muted", "dashed", 1.4), ("accent", "solid", 2.0))
     turn = shown[0].angle / deg
@@ -256,10 +247,7 @@ def steering_figure(found: Phasing) -> Figure:
 
 
 def sensitivity_figure(found: Phasing) -> Figure:
-    """Return what one degree of error of each yoke costs at the best setting.
-
-    found: what the yoke angles can do.
-    """
+    """Return what one degree of error of each yoke costs at the best setting."""
     best = found.settings[0]
     cost = 100.0 * np.maximum(best.one_off, 0.0)
     number = np.arange(2, len(cost) + 2)
@@ -322,10 +310,7 @@ def layout_figures(found: Layout) -> tuple[Figure, ...]:
 
 
 def joint_angles_figure(found: Layout) -> Figure:
-    """Return the joint angles before and after.
-
-    found: a drive with its joints moved.
-    """
+    """Return the joint angles before and after."""
     before, after = np.asarray(found.joint_angle_before) / deg, np.asarray(found.joint_angle) / deg
     number = np.arange(1, len(after) + 1)
     upright = axis(_("Joint angle"), "deg", [before, after], dimension="angle", include=(0.0,), least=1.0, count=4)

@@ -57,10 +57,7 @@ def examined_map(found: Examination) -> Figure:
 
 
 def causes_figure(findings: Sequence[Finding]) -> Figure:
-    """Return the probability of the likeliest causes.
-
-    findings: by falling score.
-    """
+    """Return the probability of the likeliest causes."""
     shown = findings[:SHOWN]
     size = np.asarray([100.0 * one.score for one in shown])
     at = np.arange(len(shown), 0, -1, dtype=float)
@@ -78,10 +75,7 @@ def causes_figure(findings: Sequence[Finding]) -> Figure:
 
 
 def verdict(findings: Sequence[Finding]) -> Text:
-    """Return in one sentence what a recording comes to, never surer than it is.
-
-    findings: by falling score.
-    """
+    """Return in one sentence what a recording comes to, never surer than it is."""
     first, second = findings[0], findings[1]
     share, other = (Quantity(one.score, "share", decimals=0) for one in (first, second))
     if first.score < LIKELY:

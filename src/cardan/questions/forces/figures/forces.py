@@ -47,10 +47,7 @@ def forces_figures(found: Forces, drive: Drive | None = None) -> tuple[Figure, .
 
 
 def torques_figure(found: Forces) -> Figure:
-    """Return the torque and the secondary couple of every shaft over the input angle, and the couples seen end on.
-
-    found: of one drive.
-    """
+    """Return the torque and the secondary couple of every shaft over the input angle, and the couples seen end on."""
     angle = np.asarray(found.angle) / deg
     torque, couple = np.asarray(found.shaft_torque), np.asarray(found.bending_couple)
     return Figure(
@@ -326,10 +323,7 @@ class Worst:
 
 
 def worst(found: Forces) -> Worst:
-    """Return the largest force on any support, of both ways of sliding; the first of those alike but for rounding.
-
-    found: of one drive with supports.
-    """
+    """Return the largest force on any support, of both ways of sliding; the first of those alike but for rounding."""
     size = np.stack([frames.norm(np.asarray(one.reaction)) for one in senses(found)])
     peaks = np.max(size, axis=-1)
     sense, support = (int(part) for part in np.unravel_index(int(foremost(np.ravel(peaks))), peaks.shape))

@@ -76,10 +76,7 @@ def moving_reactions_figure(found: MovingForces, names: Sequence[str] = ()) -> F
 
 
 def moving_torques_figure(found: MovingForces) -> Figure:
-    """Return torque and secondary couple of every shaft over the movement.
-
-    found: of one drive.
-    """
+    """Return torque and secondary couple of every shaft over the movement."""
     torque, couple = np.asarray(found.forces.shaft_torque), np.asarray(found.forces.bending_couple)
     bent = found.extreme(couple)
     worst = int(foremost(bent.high))

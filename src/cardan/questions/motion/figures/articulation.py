@@ -25,10 +25,7 @@ def articulation_figures(found: Articulation) -> tuple[Figure, ...]:
 
 
 def joint_angles_figure(found: Articulation) -> Figure:
-    """Return bends and unevenness over time.
-
-    found: a drive over the instants of a movement.
-    """
+    """Return bends and unevenness over time."""
     times = np.asarray(found.times)
     joint_angle = np.asarray(found.joint_angle) / deg
     share = 100.0 * np.asarray(found.speed_fluctuation)
@@ -113,10 +110,7 @@ def joint_angles_figure(found: Articulation) -> Figure:
 
 
 def sliding_figure(found: Articulation) -> Figure:
-    """Return how far the shafts slide, over time.
-
-    found: a drive over the instants of a movement.
-    """
+    """Return how far the shafts slide, over time."""
     times = np.asarray(found.times)
     ones = [one for one in found.splines if one.slides]
     curves: list[Series] = [Rule(value=0.0, dash="solid", role="faint")]

@@ -116,10 +116,7 @@ class Task:
 
 
 class Settings:
-    """A drive with an absorber of any setting, run at any speeds.
-
-    bare [N·m]: largest swing without.
-    """
+    """A drive with an absorber of any setting, run at any speeds. bare [N·m]: largest swing without."""
 
     def __init__(self, task: Task, bare: float) -> None:
         self.task, self.lost = task, LOST * bare
@@ -179,10 +176,7 @@ class Host:
 
 
 def hosts(drive: Drive, train: TorsionalTrain, *, pieces: int = 1) -> tuple[Host, ...]:
-    """Return the stations on which something can hang, along the power flow.
-
-    pieces: stretches of its bodies there.
-    """
+    """Return the stations on which something can hang, along the power flow. pieces: stretches of its bodies there."""
     found: list[Host] = []
     for shaft in drive.shafts:
         line = shaft_line(drive, shaft, pieces, [])

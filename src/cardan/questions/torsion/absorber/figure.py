@@ -28,10 +28,7 @@ def absorber_figures(found: Absorber) -> tuple[Figure, ...]:
 
 
 def absorber_figure(found: Absorber) -> Figure:
-    """Return the largest alternating torque over the speed without an absorber, by its closed form and at its best.
-
-    found: of one drive.
-    """
+    """Return the largest alternating torque over the speed without an absorber, by its closed form and at its best."""
     speed = found.speed / rpm
     judged = list(found.judged)
     curves = [np.max(one[:, judged], axis=-1) for one in (found.before, found.closed, found.after)]
@@ -85,10 +82,7 @@ def kinds() -> dict[str, str]:
 
 
 def unstable(speed: Array, curve: Array, at: Array) -> Iterator[Curve]:
-    """Yield marks where the motion of a curve is unstable.
-
-    speed, curve (s,); at (k,): speeds of unstable motions.
-    """
+    """Yield marks where the motion of a curve is unstable. speed, curve (s,); at (k,): speeds of unstable motions."""
     if len(at):
         rows = [int(np.argmin(np.abs(speed - one))) for one in at]
         yield Curve(x=speed[rows], y=curve[rows], label=_("unstable"), role="failed", width=0.0, marker=4.0)

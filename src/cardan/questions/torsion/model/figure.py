@@ -47,10 +47,7 @@ def modes_figures(found: TorsionModes) -> tuple[Figure, ...]:
 
 
 def campbell_figure(found: TorsionModes) -> Figure:
-    """Return natural frequencies and orders over the input speed, with their meetings and zones of growth.
-
-    found: of one drive.
-    """
+    """Return natural frequencies and orders over the input speed, with their meetings and zones of growth."""
     low, top = _window(found)
     high = _height(found, top)
     ticks_x, ticks_y = steps(low, top, 8), steps(0.0, high, 6)
@@ -195,10 +192,7 @@ def _campbell_sentence(found: TorsionModes) -> Text:
 
 
 def shapes_figure(found: TorsionModes) -> Figure:
-    """Return the shapes of the lowest modes along the line, with the joints and the nodes.
-
-    found: of one drive.
-    """
+    """Return the shapes of the lowest modes along the line, with the joints and the nodes."""
     train = found.train
     line = list(train.line)
     positions = _along(train, train.position)

@@ -244,10 +244,7 @@ def _as_built(old: NodeRule, new: NodeRule) -> list[Text]:
 
 
 def rule_reasons(rule: NodeRule) -> tuple[Text, ...]:
-    """Return what the joints do to one mode: where each stands beside the node, and what their phases leave.
-
-    rule: of one mode.
-    """
+    """Return what the joints do to one mode: where each stands beside the node, and what their phases leave."""
     return tuple(_rule_reasons(rule))
 
 

@@ -25,10 +25,7 @@ def torsion_design_figures(found: OptimisedTorsion) -> tuple[Figure, ...]:
 
 
 def calm_figure(found: OptimisedTorsion) -> Figure:
-    """Return the largest alternating torque over the speed as built and at best, and how the joints excite the mode.
-
-    found: of one drive.
-    """
+    """Return the largest alternating torque over the speed as built and at best, and how the joints excite the mode."""
     speed, judged = found.speed / rpm, list(found.judged)
     curves = [np.max(one[:, judged], axis=-1) for one in (found.before, found.after)]
     dot = 5.0 if len(speed) == 1 else 0.0

@@ -86,10 +86,7 @@ def stability_figures(found: Stability) -> tuple[Figure, ...]:
 
 
 def multipliers_figure(found: Stability) -> Figure:
-    """Return the multipliers in the complex plane, with the circle that they are to stay within.
-
-    found: of one drive at one speed.
-    """
+    """Return the multipliers in the complex plane, with the circle that they are to stay within."""
     turn = np.linspace(0.0, 2.0 * math.pi, 181)
     values = found.multipliers[np.isfinite(found.multipliers)]
     out = np.abs(values) > 1.0
@@ -120,10 +117,7 @@ def multipliers_figure(found: Stability) -> Figure:
 
 
 def growth_figure(found: Stability) -> Figure:
-    """Return the growth rate over one quantity, unstable ranges shaded.
-
-    found: over one path.
-    """
+    """Return the growth rate over one quantity, unstable ranges shaded."""
     (over,) = map_axes(found)
     values = over.values
     rate = np.where(np.isfinite(found.growth_rate), found.growth_rate, np.nan)
@@ -168,10 +162,7 @@ def _bands(found: Stability, over: MapAxis) -> Iterator[Band]:
 
 
 def map_figure(found: Stability) -> Figure:
-    """Return the unstable part of a map over two quantities, with where the drive stands.
-
-    found: over two paths.
-    """
+    """Return the unstable part of a map over two quantities, with where the drive stands."""
     axes = map_axes(found)
     turned = axes[1].key == SPEED
     wide, high = axes[::-1] if turned else axes

@@ -64,10 +64,7 @@ def lacking(drive: Drive) -> Lacking:
 
 
 def ask(drive: Drive, *, progress: Callable[[float], object] | None = None) -> TorsionResponse:
-    """Return the steady motions over the operating range of a drive.
-
-    drive: with a range of speeds.
-    """
+    """Return the steady motions over the operating range of a drive."""
     between = drive.duty.speed_range
     assert between is not None
     low, high = max(between[0], SLOWEST * between[1]), between[1]

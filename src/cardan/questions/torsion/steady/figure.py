@@ -59,10 +59,7 @@ def looks(train: TorsionalTrain, elements: Sequence[int]) -> Iterator[tuple[int,
 
 
 def response_figure(found: TorsionResponse) -> Figure:
-    """Return the torques over a turn and the orders of the one that alternates most.
-
-    found: at one speed.
-    """
+    """Return the torques over a turn and the orders of the one that alternates most."""
     turn = max(2.0 * math.pi, found.steady.period)
     angle = np.linspace(0.0, turn, 721)
     traces = found.steady.at(angle)

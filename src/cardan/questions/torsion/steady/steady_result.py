@@ -160,10 +160,7 @@ def _curves(drives: TorsionalModel, motion: tuple[Array, Array, Array], force: A
 
 
 def read_off(orbit: Orbit, count: int) -> Found:
-    """Return orders 0 … ``count`` of the base, extremes and residuals of motions.
-
-    orbit (...); count: K.
-    """
+    """Return orders 0 … ``count`` of the base, extremes and residuals of motions. orbit (...); count: K."""
     harmonics = orbit.coefficient.shape[-1]
     samples = max(8 * (harmonics + 1), 2 * count + 2)
     angle = orbit.period * np.arange(samples) / samples

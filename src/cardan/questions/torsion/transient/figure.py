@@ -21,10 +21,7 @@ def transient_figures(found: Transient) -> tuple[Figure, ...]:
 
 
 def transient_figure(found: Transient) -> Figure:
-    """Return torques and speeds over time.
-
-    found: of one drive.
-    """
+    """Return torques and speeds over time."""
     motion = found.motion
     names = found.train.elements
     ends = motion.extremes
