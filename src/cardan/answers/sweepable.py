@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
-from cardan.units import DIMENSIONS
+from cardan.units import DIMENSIONS, dimension_of
 
 MODES = 3  # how many natural frequencies and critical speeds are told
 
@@ -26,6 +26,14 @@ class OutputColumn:
     def factor(self) -> float:
         """SI units in one unit of the column."""
         return DIMENSIONS[self.dimension][self.unit] if self.dimension else 1.0
+
+    @classmethod
+    def of(cls, name: str, text: str) -> OutputColumn:
+        """Return the column of a quantity: the end of its name is its unit, which tells the dimension."""
+        words = name.partition("[")[0].split("_")
+        ends = ("_".join(words[k:]) for k in range(1, len(words)))
+        unit = next(end for end in ends if dimension_of(end))
+        return cls(name=name, dimension=dimension_of(unit), unit=unit, text=text)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -191,11 +191,8 @@ COLUMNS = (
             OutputColumn(name="mathieu_a", text=mark("parameter a, natural frequency over speed, squared")),
             OutputColumn(name="mathieu_q", text=mark("parametric term q")),
             OutputColumn(name="mathieu_growth", text=mark("rate of growth per radian of the input, damping counted")),
-            OutputColumn(
-                name="mathieu_distance_percent",
-                dimension="share",
-                unit="percent",
-                text=mark("change of the speed that leads into the nearest zone; 0 within it"),
+            OutputColumn.of(
+                "mathieu_distance_percent", mark("change of the speed that leads into the nearest zone; 0 within it")
             ),
         ),
         of_result=_column_values,

@@ -465,12 +465,7 @@ COLUMNS = (
             "unconfirmed ratings"
         ),
         told=(
-            OutputColumn(
-                name="utilisation_percent",
-                dimension="share",
-                unit="percent",
-                text=mark("greatest utilisation of a limit"),
-            ),
+            OutputColumn.of("utilisation_percent", mark("greatest utilisation of a limit")),
             OutputColumn(name="failed_checks", text=mark("how many checks fail")),
             OutputColumn(
                 name="unconfirmed_checks", text=mark("how many checks are met or failed by unconfirmed ratings")

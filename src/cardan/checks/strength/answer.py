@@ -509,15 +509,8 @@ COLUMNS = (
             "unconfirmed ratings"
         ),
         told=(
-            OutputColumn(
-                name="strength_used_percent",
-                dimension="share",
-                unit="percent",
-                text=mark("greatest use of the strength of a part"),
-            ),
-            OutputColumn(
-                name="rated_torque_Nm", dimension="torque", unit="Nm", text=mark("torque that uses the strength up")
-            ),
+            OutputColumn.of("strength_used_percent", mark("greatest use of the strength of a part")),
+            OutputColumn.of("rated_torque_Nm", mark("torque that uses the strength up")),
             OutputColumn(name="unconfirmed_limits", text=mark("how many limits rest on unconfirmed ratings")),
         ),
         of_one=_column_values,

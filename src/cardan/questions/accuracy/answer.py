@@ -784,18 +784,10 @@ COLUMNS = (
         name="tolerance",
         doc=mark("what the tolerances of the drive leave open at its output"),
         told=(
-            OutputColumn(
-                name="error_arcmin", dimension="angle", unit="arcmin", text=mark("largest error of the output angle")
-            ),
-            OutputColumn(
-                name="error_change_arcmin", dimension="angle", unit="arcmin", text=mark("change of it over a turn")
-            ),
-            OutputColumn(
-                name="shift_mm", dimension="length", unit="mm", text=mark("largest shift of the output along itself")
-            ),
-            OutputColumn(
-                name="shaft_off_mm", dimension="length", unit="mm", text=mark("largest way of a shaft across itself")
-            ),
+            OutputColumn.of("error_arcmin", mark("largest error of the output angle")),
+            OutputColumn.of("error_change_arcmin", mark("change of it over a turn")),
+            OutputColumn.of("shift_mm", mark("largest shift of the output along itself")),
+            OutputColumn.of("shaft_off_mm", mark("largest way of a shaft across itself")),
         ),
         of_one=_column_values,
         counts=("error",),

@@ -556,11 +556,9 @@ COLUMNS = (
         doc=mark("bending critical speeds of the real shafts, lowest first"),
         told=(
             *each("critical_speed", "angular_speed", "rpm", mark("bending critical speed")),
-            OutputColumn(
-                name="critical_clearance_percent",
-                dimension="share",
-                unit="percent",
-                text=mark("distance of the speeds held from the nearest critical speed or half of one, over it"),
+            OutputColumn.of(
+                "critical_clearance_percent",
+                mark("distance of the speeds held from the nearest critical speed or half of one, over it"),
             ),
         ),
         of_one=_swept,

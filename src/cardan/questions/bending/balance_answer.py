@@ -261,30 +261,21 @@ COLUMNS = (
     SweepQuestion(
         name="mass",
         doc=mark("mass of the shafts between the joints"),
-        told=(OutputColumn(name="mass_kg", dimension="mass", unit="kg", text=mark("mass of the shafts")),),
+        told=(OutputColumn.of("mass_kg", mark("mass of the shafts")),),
         of_one=_mass,
     ),
     SweepQuestion(
         name="balance",
         doc=mark("permissible unbalance at the highest speed, the rotating force of unbalance, and the share used"),
         told=(
-            OutputColumn(
-                name="permissible_unbalance_g_mm",
-                dimension="unbalance",
-                unit="g_mm",
-                text=mark("least permissible unbalance of a shaft"),
+            OutputColumn.of("permissible_unbalance_g_mm", mark("least permissible unbalance of a shaft")),
+            OutputColumn.of(
+                "unbalance_force_N",
+                mark("largest rotating force of unbalance, of the permissible one where none was measured"),
             ),
-            OutputColumn(
-                name="unbalance_force_N",
-                dimension="force",
-                unit="N",
-                text=mark("largest rotating force of unbalance, of the permissible one where none was measured"),
-            ),
-            OutputColumn(
-                name="unbalance_used_percent",
-                dimension="share",
-                unit="percent",
-                text=mark("largest measured unbalance of a tolerance plane over the permissible one"),
+            OutputColumn.of(
+                "unbalance_used_percent",
+                mark("largest measured unbalance of a tolerance plane over the permissible one"),
             ),
         ),
         of_result=_column_values,

@@ -356,27 +356,10 @@ COLUMNS = (
         name="line_whirl",
         doc=mark("largest whirl of the whole line at the speeds in use, where and at which speed, and on its supports"),
         told=(
-            OutputColumn(
-                name="line_whirl_um", dimension="displacement", unit="um", text=mark("largest whirl of the line")
-            ),
-            OutputColumn(
-                name="line_whirl_speed_rpm",
-                dimension="angular_speed",
-                unit="rpm",
-                text=mark("speed at which the line whirls most"),
-            ),
-            OutputColumn(
-                name="line_whirl_place_mm",
-                dimension="length",
-                unit="mm",
-                text=mark("place behind joint 1 at which the line whirls most"),
-            ),
-            OutputColumn(
-                name="line_support_force_N",
-                dimension="force",
-                unit="N",
-                text=mark("largest alternating force on a support that gives way"),
-            ),
+            OutputColumn.of("line_whirl_um", mark("largest whirl of the line")),
+            OutputColumn.of("line_whirl_speed_rpm", mark("speed at which the line whirls most")),
+            OutputColumn.of("line_whirl_place_mm", mark("place behind joint 1 at which the line whirls most")),
+            OutputColumn.of("line_support_force_N", mark("largest alternating force on a support that gives way")),
         ),
         of_result=_column_values,
     ),

@@ -358,15 +358,8 @@ COLUMNS = (
         name="whirl",
         doc=mark("largest whirl of a shaft by itself, with an unbalance or a crack, and in how many ranges it grows"),
         told=(
-            OutputColumn(
-                name="whirl_um",
-                dimension="displacement",
-                unit="um",
-                text=mark("largest whirl amplitude of an order, of a shaft by itself"),
-            ),
-            OutputColumn(
-                name="whirl_speed_rpm", dimension="angular_speed", unit="rpm", text=mark("speed at which it is so")
-            ),
+            OutputColumn.of("whirl_um", mark("largest whirl amplitude of an order, of a shaft by itself")),
+            OutputColumn.of("whirl_speed_rpm", mark("speed at which it is so")),
             OutputColumn(name="unstable_ranges", text=mark("ranges of speed in which whirling grows by itself")),
         ),
         of_result=_column_values,

@@ -550,13 +550,9 @@ COLUMNS = (
         name="forces",
         doc=mark("largest secondary couple, support force and input torque over a turn"),
         told=(
-            OutputColumn(
-                name="couple_Nm", dimension="torque", unit="Nm", text=mark("largest secondary couple of a shaft")
-            ),
-            OutputColumn(name="support_N", dimension="force", unit="N", text=mark("largest radial force on a support")),
-            OutputColumn(
-                name="input_torque_Nm", dimension="torque", unit="Nm", text=mark("largest torque at the input")
-            ),
+            OutputColumn.of("couple_Nm", mark("largest secondary couple of a shaft")),
+            OutputColumn.of("support_N", mark("largest radial force on a support")),
+            OutputColumn.of("input_torque_Nm", mark("largest torque at the input")),
         ),
         of_one=_column_values,
         counts=("movement",),

@@ -332,18 +332,8 @@ COLUMNS = (
         name="assembly",
         doc=mark("largest forces that misalignment makes over a turn, and the degree of static indeterminacy"),
         told=(
-            OutputColumn(
-                name="misalignment_support_N",
-                dimension="force",
-                unit="N",
-                text=mark("largest force of misalignment on a support"),
-            ),
-            OutputColumn(
-                name="misalignment_joint_N",
-                dimension="force",
-                unit="N",
-                text=mark("largest force of misalignment in a joint"),
-            ),
+            OutputColumn.of("misalignment_support_N", mark("largest force of misalignment on a support")),
+            OutputColumn.of("misalignment_joint_N", mark("largest force of misalignment in a joint")),
             OutputColumn(name="indeterminacy", text=mark("degree of static indeterminacy")),
         ),
         of_result=_column_values,

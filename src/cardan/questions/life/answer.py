@@ -535,7 +535,7 @@ COLUMNS = (
     SweepQuestion(
         name="life",
         doc=mark("life of the bearings of joints and supports, the shortest of them"),
-        told=(OutputColumn(name="life_h", dimension="time", unit="h", text=mark("life of the drive")),),
+        told=(OutputColumn.of("life_h", mark("life of the drive")),),
         of_one=lambda drive: (ask(drive).drive,),
         counts=("pose", "movement", "case"),
     ),

@@ -432,8 +432,8 @@ COLUMNS = (
         name="losses",
         doc=mark("efficiency and heat at the speed and torque of the duty"),
         told=(
-            OutputColumn(name="efficiency_percent", dimension="share", unit="percent", text=mark("efficiency")),
-            OutputColumn(name="heat_W", dimension="power", unit="W", text=mark("heat of the drive")),
+            OutputColumn.of("efficiency_percent", mark("efficiency")),
+            OutputColumn.of("heat_W", mark("heat of the drive")),
         ),
         of_one=_column_values,
         counts=("pose", "movement", "case"),

@@ -373,8 +373,8 @@ def _told_of(mechanism: Mechanism) -> tuple[OutputColumn, ...]:
     text = mark("largest input force") if mechanism.slides else mark("largest input torque")
     return (
         OutputColumn(name=f"input_{load}_{unit}", dimension=load, unit=unit, text=text),
-        OutputColumn(name="joint_force_N", dimension="force", unit="N", text=mark("largest force in a joint")),
-        OutputColumn(name="efficiency_percent", dimension="share", unit="percent", text=mark("efficiency")),
+        OutputColumn.of("joint_force_N", mark("largest force in a joint")),
+        OutputColumn.of("efficiency_percent", mark("efficiency")),
     )
 
 

@@ -392,14 +392,9 @@ def _told(mechanism: Mechanism) -> tuple[OutputColumn, ...]:
     return (
         OutputColumn(name=f"ratio_min{end}", dimension=by.ratio, unit=unit, text=mark("least ratio of the output")),
         OutputColumn(name=f"ratio_max{end}", dimension=by.ratio, unit=unit, text=mark("largest ratio of the output")),
-        OutputColumn(
-            name="speed_fluctuation_percent",
-            dimension="share",
-            unit="percent",
-            text=mark("speed fluctuation of the output"),
-        ),
-        OutputColumn(name="turn_deg", dimension="angle", unit="deg", text=mark("angle through which the output turns")),
-        OutputColumn(name="travel_mm", dimension="length", unit="mm", text=mark("way by which the output slides")),
+        OutputColumn.of("speed_fluctuation_percent", mark("speed fluctuation of the output")),
+        OutputColumn.of("turn_deg", mark("angle through which the output turns")),
+        OutputColumn.of("travel_mm", mark("way by which the output slides")),
     )
 
 

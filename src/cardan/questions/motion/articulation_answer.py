@@ -501,19 +501,9 @@ COLUMNS = (
         name="movement",
         doc=mark("what the movements of the drive ask: joint angle, speed fluctuation, stroke of the splines"),
         told=(
-            OutputColumn(
-                name="moving_joint_angle_deg",
-                dimension="angle",
-                unit="deg",
-                text=mark("greatest joint angle while it moves"),
-            ),
-            OutputColumn(
-                name="moving_speed_fluctuation_percent",
-                dimension="share",
-                unit="percent",
-                text=mark("greatest speed fluctuation while it moves"),
-            ),
-            OutputColumn(name="stroke_mm", dimension="length", unit="mm", text=mark("stroke of the splines")),
+            OutputColumn.of("moving_joint_angle_deg", mark("greatest joint angle while it moves")),
+            OutputColumn.of("moving_speed_fluctuation_percent", mark("greatest speed fluctuation while it moves")),
+            OutputColumn.of("stroke_mm", mark("stroke of the splines")),
         ),
         of_one=_column_values,
         counts=("movement",),

@@ -41,21 +41,17 @@ class Motions(Protocol):
         """Largest accelerations over the square of the speed: output, drive, coast (n, 1 or 3)."""
 
 
-def _acceleration(name: str, text: str) -> OutputColumn:
-    return OutputColumn(name=name, dimension="angular_acceleration", unit="rad_s2", text=text)
-
-
 def _inside(drive: Drive) -> tuple[OutputColumn, ...]:
-    output = _acceleration("output_acceleration_rad_s2", mark("largest angular acceleration of the output"))
+    output = OutputColumn.of("output_acceleration_rad_s2", mark("largest angular acceleration of the output"))
     if len(drive.joints) == 1:
         return (output,)
     return (
         output,
-        _acceleration(
+        OutputColumn.of(
             "drive_acceleration_rad_s2",
             mark("largest angular acceleration of intermediate shafts, the input turning uniformly"),
         ),
-        _acceleration(
+        OutputColumn.of(
             "coast_acceleration_rad_s2",
             mark("largest angular acceleration of intermediate shafts, the output turning uniformly"),
         ),
@@ -70,25 +66,17 @@ def _each(values: Array) -> list[Array]:
     return [values[..., k] for k in range(values.shape[-1])]
 
 
-def _share(name: str, text: str) -> OutputColumn:
-    return OutputColumn(name=name, dimension="share", unit="percent", text=text)
-
-
-def _angle(name: str, text: str) -> OutputColumn:
-    return OutputColumn(name=name, dimension="angle", unit="deg", text=text)
-
-
 COLUMNS = (
     SweepQuestion(
         name="speed_fluctuation",
         doc=mark("speed fluctuation δ of the output: largest less smallest speed ratio"),
-        told=(_share("speed_fluctuation_percent", mark("speed fluctuation of the output")),),
+        told=(OutputColumn.of("speed_fluctuation_percent", mark("speed fluctuation of the output")),),
         of_many=lambda found: (found.output.speed_fluctuation,),
     ),
     SweepQuestion(
         name="alpha_eq",
         doc=mark("equivalent joint angle: that of the single Hooke joint with the speed fluctuation of the drive"),
-        told=(_angle("alpha_eq_deg", mark("equivalent angle")),),
+        told=(OutputColumn.of("alpha_eq_deg", mark("equivalent angle")),),
         of_many=lambda found: (found.output.joint_angle,),
     ),
     SweepQuestion(
@@ -103,7 +91,7 @@ COLUMNS = (
     SweepQuestion(
         name="angle_error",
         doc=mark("how far the output leads the input at most, about its mean"),
-        told=(_angle("angle_error_deg", mark("largest lead of the output")),),
+        told=(OutputColumn.of("angle_error_deg", mark("largest lead of the output")),),
         of_many=lambda found: (found.output.max_angle_error,),
     ),
     SweepQuestion(
@@ -117,7 +105,7 @@ COLUMNS = (
         name="shaft_speed_fluctuation",
         doc=mark("speed fluctuation of every shaft that a joint drives"),
         told=lambda drive: tuple(
-            _share(f"shaft_speed_fluctuation_percent[{k}]", mark("speed fluctuation of a shaft"))
+            OutputColumn.of(f"shaft_speed_fluctuation_percent[{k}]", mark("speed fluctuation of a shaft"))
             for k in range(1, len(drive.joints) + 1)
         ),
         of_many=lambda found: _each(found.each.speed_fluctuation),
@@ -126,22 +114,21 @@ COLUMNS = (
         name="joint_angle",
         doc=mark("joint angle of every joint"),
         told=lambda drive: tuple(
-            _angle(f"joint_angle_deg[{i}]", mark("joint angle of a joint")) for i in range(len(drive.joints))
+            OutputColumn.of(f"joint_angle_deg[{i}]", mark("joint angle of a joint")) for i in range(len(drive.joints))
         ),
         of_many=lambda found: _each(found.joint_angle),
     ),
     SweepQuestion(
         name="greatest_joint_angle",
         doc=mark("largest joint angle"),
-        told=(_angle("greatest_joint_angle_deg", mark("greatest joint angle of a joint")),),
+        told=(OutputColumn.of("greatest_joint_angle_deg", mark("greatest joint angle of a joint")),),
         of_many=lambda found: (namespace(found.joint_angle).max(found.joint_angle, axis=-1),),
     ),
     SweepQuestion(
         name="length",
         doc=mark("length of every shaft between two joints, of drives given by joint centres"),
         told=lambda drive: tuple(
-            OutputColumn(name=f"length_mm[{k}]", dimension="length", unit="mm", text=mark("length of a shaft"))
-            for k in range(1, len(drive.joints))
+            OutputColumn.of(f"length_mm[{k}]", mark("length of a shaft")) for k in range(1, len(drive.joints))
         ),
         of_many=lambda found: _each(found.lengths),
         needs_centres=True,

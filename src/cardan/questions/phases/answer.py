@@ -761,17 +761,9 @@ COLUMNS = (
         name="phasing",
         doc=mark("least and largest speed fluctuation of the output by other yoke angles"),
         told=(
-            OutputColumn(
-                name="least_speed_fluctuation_percent",
-                dimension="share",
-                unit="percent",
-                text=mark("least speed fluctuation by other yoke angles"),
-            ),
-            OutputColumn(
-                name="largest_speed_fluctuation_percent",
-                dimension="share",
-                unit="percent",
-                text=mark("largest speed fluctuation by other yoke angles"),
+            OutputColumn.of("least_speed_fluctuation_percent", mark("least speed fluctuation by other yoke angles")),
+            OutputColumn.of(
+                "largest_speed_fluctuation_percent", mark("largest speed fluctuation by other yoke angles")
             ),
         ),
         of_result=lambda found: (found.speed_fluctuation_min, found.speed_fluctuation_max),

@@ -85,11 +85,7 @@ COLUMNS = (
     SweepQuestion(
         name="alternating_torque",
         doc=mark("largest alternating torque of torsional vibration at the speed of the duty"),
-        told=(
-            OutputColumn(
-                name="alternating_torque_Nm", dimension="torque", unit="Nm", text=mark("largest alternating torque, ±")
-            ),
-        ),
+        told=(OutputColumn.of("alternating_torque_Nm", mark("largest alternating torque, ±")),),
         of_result=lambda found: worst(found.running)[:1],
         needs_speed=True,
     ),

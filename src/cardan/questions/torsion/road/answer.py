@@ -408,18 +408,9 @@ COLUMNS = (
         name="road",
         doc=mark("torsional vibration along the movement: largest torque, time in resonance, unstable time, reversals"),
         told=(
-            OutputColumn(
-                name="road_torque_Nm", dimension="torque", unit="Nm", text=mark("largest torque along the movement")
-            ),
-            OutputColumn(
-                name="road_resonance_percent",
-                dimension="share",
-                unit="percent",
-                text=mark("share of the time in resonance"),
-            ),
-            OutputColumn(
-                name="road_unstable_percent", dimension="share", unit="percent", text=mark("share of the time unstable")
-            ),
+            OutputColumn.of("road_torque_Nm", mark("largest torque along the movement")),
+            OutputColumn.of("road_resonance_percent", mark("share of the time in resonance")),
+            OutputColumn.of("road_unstable_percent", mark("share of the time unstable")),
             OutputColumn(name="road_reversals_per_hour", text=mark("reversals of the torque per hour")),
         ),
         of_result=_column_values,

@@ -539,18 +539,10 @@ COLUMNS = (
         name="orders",
         doc=mark("largest alternating torque over the operating range, and the speed at which it is so"),
         told=(
-            OutputColumn(
-                name="worst_alternating_torque_Nm",
-                dimension="torque",
-                unit="Nm",
-                text=mark("largest alternating torque over the operating range, ±"),
+            OutputColumn.of(
+                "worst_alternating_torque_Nm", mark("largest alternating torque over the operating range, ±")
             ),
-            OutputColumn(
-                name="worst_torque_speed_rpm",
-                dimension="angular_speed",
-                unit="rpm",
-                text=mark("speed of the largest alternating torque"),
-            ),
+            OutputColumn.of("worst_torque_speed_rpm", mark("speed of the largest alternating torque")),
         ),
         of_result=worst,
     ),

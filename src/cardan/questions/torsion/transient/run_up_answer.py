@@ -196,11 +196,7 @@ COLUMNS = (
     SweepQuestion(
         name="run-up",
         doc=mark("largest torque during the run-up of the duty"),
-        told=(
-            OutputColumn(
-                name="run_up_torque_Nm", dimension="torque", unit="Nm", text=mark("largest torque during run-up")
-            ),
-        ),
+        told=(OutputColumn.of("run_up_torque_Nm", mark("largest torque during run-up")),),
         of_result=_column_values,
     ),
 )
