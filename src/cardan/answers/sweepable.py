@@ -46,7 +46,7 @@ class SweepQuestion:
     told: Sequence[OutputColumn] | Callable[[Any], Sequence[OutputColumn]]
     # drive -> the numbers in SI; an `InputError` where it has none
     of_one: Callable[[Any], Sequence[float]] | None = None
-    # `cardan.questions.motion.columns.Motions` -> the numbers in SI, one array (n,) each: of what motion alone decides,
+    # `cardan.questions.motion.answer.Motions` -> the numbers in SI, one array (n,) each: of what motion alone decides,
     # asked of all drives at once
     of_many: Callable[[Any], Sequence[Any]] | None = None
     # what the question itself asks of a drive -> the numbers in SI. One of the three is given.

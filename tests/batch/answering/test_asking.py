@@ -26,7 +26,7 @@ from cardan.batch.work import Status
 from cardan.drive.duty import Duty
 from cardan.drive.fields.paths import with_values
 from cardan.io import loads
-from cardan.questions.motion.columns import COLUMNS as MOTION
+from cardan.questions.motion.answer import COLUMNS as MOTION
 from cardan.questions.torsion.transient.answer import largest
 from cardan.questions.torsion.transient.run_up_answer import follow
 from cardan.register import QUESTIONS

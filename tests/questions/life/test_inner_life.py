@@ -13,7 +13,7 @@ from cardan.io.drive_file import loads
 from cardan.joints import DoubleCardan, Tripod
 from cardan.questions.life import answer as life_answer
 from cardan.questions.life.bearing_life import MILLION, swing_damage
-from cardan.questions.life.inner_life import bearing_damage
+from cardan.questions.life.bearing_loads import bearing_damage
 from cardan.questions.life.life import life
 
 BEND = 0.3

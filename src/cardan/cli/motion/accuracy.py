@@ -8,8 +8,8 @@ from math import inf
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
+from cardan.cli.shared.apply import write_changed
 from cardan.cli.shared.asked import keys_of
-from cardan.cli.shared.changed import write_changed
 from cardan.cli.shared.options import option
 from cardan.cli.shared.output import check_common, check_target
 from cardan.cli.shared.progress import watching

@@ -8,9 +8,8 @@ from typing import Annotated, Any
 from cardan.choices import bearing_layouts_answer
 from cardan.choices.bearing_layouts import KEPT
 from cardan.cli.shared import mechanisms
-from cardan.cli.shared.apply import check_copy
+from cardan.cli.shared.apply import check_copy, is_json
 from cardan.cli.shared.asked import keys_of
-from cardan.cli.shared.changed import is_json
 from cardan.cli.shared.options import flag, option
 from cardan.cli.shared.output import check_common, write_text
 from cardan.cli.shared.progress import watching

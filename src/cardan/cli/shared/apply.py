@@ -1,4 +1,4 @@
-"""Writes the yoke angles of a setting into a drive file, its comments kept."""
+"""Writes changed values, or the yoke angles of a setting, into a drive file, its comments kept."""
 
 from __future__ import annotations
 
@@ -6,11 +6,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from cardan.cli.shared.changed import write_changed
-from cardan.cli.shared.output import SUFFIXES, check_new, check_target
+from cardan.cli.shared.output import SUFFIXES, check_new, check_target, write_text
 from cardan.cli.shared.source import STDIN
 from cardan.drive.drive import Drive
+from cardan.drive.fields.paths import with_values
 from cardan.errors import refuse
+from cardan.io import dumps
+from cardan.io.edit import edit
 from cardan.questions.phases.answer import advised, every_setting
 from cardan.questions.phases.phases import Phasing
 from cardan.questions.phases.setting import YokeSetting, values_of
@@ -55,3 +57,21 @@ def named(settings: Sequence[YokeSetting], label: str) -> YokeSetting:
         labels = "; ".join(one.label for one in settings)
         raise refuse("--apply", _("there is no setting {label}; there are {labels}").format(label=label, labels=labels))
     return near[0]
+
+
+def write_changed(drive: Drive, text: str, values: Mapping[str, Any], out: Path) -> None:
+    """Write a drive file with other values.
+
+    drive: the drive as it stands in the file; values: path with unit -> value; out: where to, TOML or JSON.
+    """
+    if is_json(out, text):
+        form = "json" if out.suffix.lower() == ".json" else "toml"
+        written = dumps(with_values(drive, values), form=form)
+    else:
+        written = edit(text, values) if values else text
+    write_text(out, written, "--out")
+
+
+def is_json(out: Path, text: str) -> bool:
+    """Return whether a file is written or was read as JSON, so that there are no comments to keep."""
+    return out.suffix.lower() == ".json" or text.lstrip().startswith("{")

@@ -9,6 +9,7 @@ from cardan.batch.answer import answer, over
 from cardan.batch.engine.cluster import Cluster
 from cardan.batch.engine.engines import Engine, InProcess, Processes
 from cardan.batch.engine.running import run
+from cardan.batch.search.answer import answer as design_answer
 from cardan.batch.table.swept import read_sweep
 from cardan.cli.shared.failure import about
 from cardan.cli.shared.options import argument, flag, option
@@ -17,10 +18,9 @@ from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import AsCsv, AsJson, MoreRows, Plot
 from cardan.cli.shared.tell import tell
 from cardan.errors import Problem, check, refuse
+from cardan.io.plan_designs import design_of
 from cardan.io.plan_file import Plan, read_plan
 from cardan.texts import _
-
-from .sweep_design import designed
 
 HELD = 200_000  # a table of at most so many points is held without a folder
 
@@ -127,3 +127,16 @@ def _engine(read: Plan, engine: str | None, workers: int | None, scheduler: str 
     if kind == "processes":
         return Processes(workers=count)
     return InProcess()
+
+
+def designed(read: Plan, file: Path, name: str, *, json: bool, csv: bool, plot: Path | None) -> int:
+    """Run a design of a plan and tell what it found.
+
+    name: table of the design; json, csv: ``--json`` and ``--csv``; plot: ``--plot``.
+    """
+    with about(str(file)):
+        design = design_of(read, name)
+    with keeping(_("choosing points")) as progress, about(str(file)):
+        found = design.run(progress)
+    title = read.title or read.drive.name or file.stem
+    return ended(tell(design_answer(found), name=title, json=json, csv=csv, plot=plot), progress)

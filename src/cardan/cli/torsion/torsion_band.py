@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import Annotated, Any, TypeAlias
 
 from cardan.answers.answer import FILE, Answer, Remark
-from cardan.cli.shared.apply import check_copy
+from cardan.cli.shared.apply import check_copy, is_json
 from cardan.cli.shared.asked import keys_of
-from cardan.cli.shared.changed import is_json
 from cardan.cli.shared.options import option
 from cardan.cli.shared.output import write_text
 from cardan.cli.shared.source import form_of
