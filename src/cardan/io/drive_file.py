@@ -17,7 +17,7 @@ from cardan.mechanism.mechanism import Mechanism
 from cardan.reading.limits import limits_hold
 from cardan.texts import _
 
-from .reader import drive_from_tree, mechanism_of
+from .reader import drive_from_tree, mechanism_of, read_as
 from .text import describes_mechanism, parsed, text_of
 
 rows = later("cardan.catalogue")
@@ -89,6 +89,10 @@ def loads(
             name,
             _("describes a mechanism, not a drive; of mechanisms cardan tells motion, forces, mobility and a report"),
         )
+    return _drive_of(tree, folder, catalogues)
+
+
+def _drive_of(tree: Mapping[str, Any], folder: str | Path | Enclosed, catalogues: Sequence[str | Path]) -> Drive:
     drive = drive_from_tree(tree, folder=folder_of(folder))
     if not catalogues and not names_rows(drive):
         return drive
@@ -238,6 +242,5 @@ def loads_either(
     catalogues: Sequence[str | Path] = (),
 ) -> Drive | Mechanism:
     """Return the drive or the mechanism that a text describes; see `cardan.io.drive_file.loads`."""
-    if describes_mechanism(parsed(text, form, name)):
-        return loads_mechanism(text, form=form, name=name)
-    return loads(text, folder=folder, form=form, name=name, catalogues=catalogues)
+    tree = parsed(text, form, name)
+    return read_as(Mechanism, tree) if describes_mechanism(tree) else _drive_of(tree, folder, catalogues)
