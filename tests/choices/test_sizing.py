@@ -16,7 +16,7 @@ from cardan.checks.strength.strength import strength
 from cardan.choices.size_search import CHECKS, R20, R40, round_up
 from cardan.choices.sizing import size
 from cardan.choices.sizing_answer import answer
-from cardan.choices.trade_off import front, trade_off
+from cardan.choices.trade_off import trade_off
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty, Limits
 from cardan.drive.fields.paths import with_values
@@ -275,7 +275,6 @@ def test_no_tube_of_the_front_is_beaten():
         truly = np.any([column < value for column, value in zip(every, point, strict=True)], axis=0)
         assert not np.any(beaten & truly)
     assert found.lightest[2] == np.min(found.mass[found.passes])
-    assert front(np.ones((1, 2)), np.ones((1, 2)), np.ones((1, 2)), np.ones((1, 2), dtype=bool)).all()  # equals stay
 
 
 def stepped():

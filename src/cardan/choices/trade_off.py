@@ -17,6 +17,7 @@ from cardan.drive.fields.parts import known_lengths
 from cardan.drive.material import Material
 from cardan.errors import InputError, Problem, refuse
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.curves.pareto import front
 from cardan.texts import _
 
 STRENGTH = ("tube_strength", "tube_fatigue", "shaft_life", "tube_buckling", "twist")
@@ -199,27 +200,19 @@ def trade_off(
         utilisation=used,
         critical=critical,
         passes=fine,
-        best=front(mass, used, -critical, fine),
+        best=_front(mass, used, -critical, fine),
         now=(own.outer, present, own_mass, float(own_used[0]), float(own_ratio[0]) * speed),
         speed=speed if moving else None,
         needed=least * speed if moving else math.nan,
     )
 
 
-def front(mass: Array, used: Array, slow: Array, among: Array) -> Array:
-    """Return which designs no other one beats in all of three respects, each better when smaller.
-
-    mass, used, slow (o, w).
-    among (o, w) of bool: designs that count; others neither win nor beat.
-    """
-    points = np.stack([np.ravel(np.nan_to_num(one, nan=np.inf)) for one in (mass, used, slow)], axis=-1)
-    count = np.ravel(among)
-    found = np.zeros(count.size, dtype=bool)
-    rivals = points[count]
-    for k in np.flatnonzero(count):
-        no_worse = np.all(rivals <= points[k], axis=-1)
-        found[k] = not np.any(no_worse & np.any(rivals < points[k], axis=-1))
-    return found.reshape(np.shape(among))
+def _front(mass: Array, used: Array, slow: Array, among: Array) -> Array:
+    """Return which designs (o, w), of those that count, no other one beats: each size is better when smaller."""
+    found = np.zeros(among.shape, dtype=bool)
+    sizes = np.stack([np.nan_to_num(one, nan=np.inf) for one in (mass, used, slow)], axis=-1)
+    found[among] = front(sizes[among])
+    return found
 
 
 def _wall(drive: Drive, k: int) -> float:
