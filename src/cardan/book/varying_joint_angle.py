@@ -163,8 +163,6 @@ def swinging_chain(
     phase: ArrayLike = 0.0,
     yoke_angle: ArrayLike,
     speed: float,
-    acceleration: float = 0.0,
-    start_phase: float = 0.0,
 ) -> VaryingJointAngle:
     """Return the output motion of a planar drive whose joint angles swing harmonically.
 
@@ -180,10 +178,8 @@ def swinging_chain(
         A quarter turn makes the sine a cosine.
     yoke_angle : array (n-1,) [rad]
         γ_2 … γ_n.
-    speed, acceleration : float [rad/s, rad/s²]
-        ω_1 at time zero and ε_1; φ_1 = ω_1 t + ½ ε_1 t².
-    start_phase : float [rad]
-        ψ_1.
+    speed : float [rad/s]
+        ω_1; φ_1 = ω_1 t.
 
     Returns
     -------
@@ -203,14 +199,7 @@ def swinging_chain(
     middle = np.asarray(mean, dtype=float)
     size, shift = np.asarray(amplitude, dtype=float), np.broadcast_to(np.asarray(phase, dtype=float), middle.shape)
     joint_angles = paths.plus(paths.resting(middle), paths.swing(size, frequency, shift, at))
-    return planar_chain(
-        joint_angles,
-        speed * at + 0.5 * acceleration * at**2,
-        yoke_angle=yoke_angle,
-        speed=speed + acceleration * at,
-        acceleration=acceleration,
-        start_phase=start_phase,
-    )
+    return planar_chain(joint_angles, speed * at, yoke_angle=yoke_angle, speed=speed)
 
 
 # How does a joint turn while its angle varies at random? The angle is normal and stationary, the plane at rest.

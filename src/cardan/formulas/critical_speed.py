@@ -220,9 +220,7 @@ def scaled_speed(speed: ArrayLike, length_ratio: ArrayLike, diameter_ratio: Arra
     return np.asarray(speed, dtype=float) * diameter_ratio / np.asarray(length_ratio, dtype=float) ** 2
 
 
-def longest_tube(
-    speed: ArrayLike, outer: ArrayLike, inner: ArrayLike, *, wear: ArrayLike = 1.0, constant: ArrayLike = BOOK_CONSTANT
-) -> Array:
+def longest_tube(speed: ArrayLike, outer: ArrayLike, inner: ArrayLike, *, wear: ArrayLike = 1.0) -> Array:
     """Return how long a shaft between joints may be for a greatest speed, array (...) [m].
 
     Parameters
@@ -233,19 +231,17 @@ def longest_tube(
         D and d.
     wear : array (...)
         k_n, real over computed critical speed.
-    constant : array (...) [rad·m/s]
-        K, as for `tube_speed`.
 
     Notes
     -----
-    The real critical speed is 1.6 times the greatest speed: L² = k_n K √(D²+d²)/(1.6 n_max).
+    The real critical speed is 1.6 times the greatest speed: L² = k_n K √(D²+d²)/(1.6 n_max), K as for `tube_speed`.
 
     Examples
     --------
     >>> round(float(longest_tube(3000 * rpm, 0.076, 0.072, wear=0.9)), 4)
     1.5411
     """
-    return np.sqrt(wear * constant * np.hypot(outer, inner) / (ARTICLE * np.asarray(speed, dtype=float)))
+    return np.sqrt(wear * BOOK_CONSTANT * np.hypot(outer, inner) / (ARTICLE * np.asarray(speed, dtype=float)))
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

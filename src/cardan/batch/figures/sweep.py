@@ -348,24 +348,21 @@ def heat_figure(
     values: Array,
     *,
     how: str = "",
-    lines: Sequence[Array] = (),
 ) -> Figure:
     """Return a column over two fields as a map, the darker the greater.
 
     x, y (m,), (k,): middles of the columns and rows of the map, rising, or words; values (k, m): nan leaves a hole.
     how: what was made of points that share a cell: a word for the sentence below.
-    lines, sequence of array (p, 2): lines over the map: boundaries.
     """
     places = [levels(one)[0] for one in (x, y)]
     known = values[np.isfinite(values)]
     low, high = (float(np.min(known)), float(np.max(known))) if known.size else (0.0, 1.0)
     cells = Cells(x=_edges(places[0]), y=_edges(places[1]), values=values, low=low, high=high)
-    series: list[Series] = [cells, *(Curve(x=one[:, 0], y=one[:, 1], role="ink", width=1.2) for one in lines)]
     shades = np.linspace(low, high, 65) if high > low else np.asarray([low - 0.5, low + 0.5])
     middle = 0.5 * (shades[1:] + shades[:-1])
     bar = Cells(x=np.asarray([0.0, 1.0]), y=shades, values=middle[:, None], low=low, high=high)
     panels = (
-        Panel(series=tuple(series), x=_fitted(across, x, cells.x), y=_fitted(up, y, cells.y), title=title_of(up)),
+        Panel(series=(cells,), x=_fitted(across, x, cells.x), y=_fitted(up, y, cells.y), title=title_of(up)),
         Panel(
             series=(bar,),
             x=Axis(low=0.0, high=1.0, grid=False),

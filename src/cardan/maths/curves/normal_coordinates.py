@@ -109,10 +109,10 @@ class Chance:
         return inner if abs(inner - bounds[1]) > BOUND * (high - low) else math.nan
 
 
-def grid_of(coordinates: int, *, fewer: int = 1, seed: int = 0) -> Grid:
+def grid_of(coordinates: int, *, fewer: int = 1) -> Grid:
     """Return the rays and radii for functions of some coordinates.
 
-    fewer: by how much fewer radii, and rays where there are several, do; seed: of rays that are drawn.
+    fewer: by how much fewer radii, and rays where there are several, do.
     """
     drawn = coordinates > 2
     if coordinates == 1:
@@ -122,7 +122,7 @@ def grid_of(coordinates: int, *, fewer: int = 1, seed: int = 0) -> Grid:
         ray = np.stack((np.cos(angle), np.sin(angle)), axis=-1)
     else:
         # Whole frames of rays at right angles: means of squares are exact.
-        frame = np.linalg.qr(np.random.default_rng(seed).normal(size=(DRAWN // fewer, coordinates, coordinates)))[0]
+        frame = np.linalg.qr(np.random.default_rng(0).normal(size=(DRAWN // fewer, coordinates, coordinates)))[0]
         some = frame.reshape(-1, coordinates)
         ray = np.concatenate((some, -some))
     steps = 2 * ((RADII[coordinates > 1] - 1) // (2 * fewer))

@@ -497,11 +497,14 @@ def run_figure(number: int, found: CrackedRun) -> Figure:
     )
 
 
-def joined_figure(numbers: tuple[int, int], found: CrackedShafts, *, turns: float = 4.0) -> Figure:
+TURNS = 4  # of two shafts beside a joint that are drawn, the last ones
+
+
+def joined_figure(numbers: tuple[int, int], found: CrackedShafts) -> Figure:
     """Return the ways of two shafts beside a joint over the last turns."""
     panels = []
     for k, number in enumerate(numbers):
-        last = found.angle[:, k] > found.angle[-1, k] - 2.0 * math.pi * turns
+        last = found.angle[:, k] > found.angle[-1, k] - 2.0 * math.pi * TURNS
         path = found.deflection[last, k]
         path = path - np.mean(path)
         reach = 1.15 * float(np.max(np.abs(path))) / MICRO or 1.0
@@ -510,7 +513,7 @@ def joined_figure(numbers: tuple[int, int], found: CrackedShafts, *, turns: floa
     return Figure(
         name="rotor-joined",
         title=_("Ways of the centres of shafts {one} and {two}").format(one=numbers[0], two=numbers[1]),
-        sentence=text.format(turns=f"{turns:g}"),
+        sentence=text.format(turns=TURNS),
         source=_("motion in time of both lowest modes, joined by the exact joint"),
         rows=(Row(panels=tuple(panels), height=3.0),),
         legend=False,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.catalogue import Catalogue, catalogue
+from cardan.catalogue import catalogue
 from cardan.catalogue.rows import JointType
 from cardan.drive.joints import JOINTS, Joint
 from cardan.errors import refuse
@@ -199,11 +199,8 @@ def _law(joint: Joint, joint_angle: float, angle: Array) -> tuple[Array, Array, 
     return outer, ratio, slope
 
 
-def types_of(kind: str, known: Catalogue | None = None) -> tuple[JointType, ...]:
-    """Return the types of the catalogue that turn by the law of a kind.
-
-    kind: a name of `JOINTS`; known: the shipped one when not given.
-    """
-    rows = (known or catalogue()).rows(JointType)
+def types_of(kind: str) -> tuple[JointType, ...]:
+    """Return the types of the shipped catalogue that turn by the law of a kind, a name of `JOINTS`."""
+    rows = catalogue().rows(JointType)
     names = JOINTS[kind].types if kind in JOINTS else ()
     return tuple(rows[name] for name in names if name in rows)
