@@ -162,9 +162,9 @@ def chart_panel(
         left, right = (np.minimum(edge, upper[:, 0]), upper[:, 0]) if r == 0 else (lower[:, r - 1], upper[:, r])
         if np.min(left) > high or np.max(right) < low:
             continue
-        label = _("unstable") if named and not zones else ""
+        listed = _("unstable") if named and not zones else ""
         x = np.clip(np.concatenate((left, right[::-1])), low, high)
-        zones.append(Shape(x=x, y=np.concatenate((q, q[::-1])), role="warning", opacity=0.22, label=label))
+        zones.append(Shape(x=x, y=np.concatenate((q, q[::-1])), role="warning", opacity=0.22, label=listed))
         for side, name in ((left, "b"), (right, "a")) if r else ((right, "a"),):
             inside = np.where((side >= low) & (side <= high), side, np.nan)
             lines.append(Curve(x=inside, y=q, role="ink", width=1.1))

@@ -64,6 +64,7 @@ def test_at_any_speed_the_drive_is_in_the_window(speed):
     there = replace(ONE, speed=speed * rpm)
     figure = drawn(figures.for_result(there)[0])
     panel = figure.panels[0]
+    assert panel.x.label == "a = (ωₑ/ω₁)²"
     assert panel.y.low <= there.q <= panel.y.high
     assert panel.x.low <= there.a <= panel.x.high
     assert ("is stable" in figure.sentence) == bool(exponents(there.a, there.q).stable)
