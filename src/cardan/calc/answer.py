@@ -179,9 +179,7 @@ def _of_many(item: Calculation, rows: list[dict[str, Any]]) -> Answer:
         title=_("Formulas"),
         sentence=f"{item.name}: {_(item.doc)}",
         tables=(
-            Table(
-                columns=[Column(key="", heading=key, values=[_short(row[key]) for row in rows]) for key in rows[0]],
-            ),
+            Table(columns=[Column(key="", heading=key, values=[_short(row[key]) for row in rows]) for key in rows[0]]),
         ),
         remarks=(_source(item),),
         facts={"capability": item.name, "source": _(item.source), "result": rows},

@@ -109,10 +109,7 @@ def _layouts(result: BearingLayouts) -> Table:
             Column(key="bearings", heading=_("bearings"), values=[one.layout.bearings for one in best]),
             Column(key="splines", heading=_("splines"), values=[one.layout.splines for one in best]),
             Column(
-                key="speed_fluctuation",
-                heading="δ",
-                values=[one.speed_fluctuation for one in best],
-                dimension="share",
+                key="speed_fluctuation", heading="δ", values=[one.speed_fluctuation for one in best], dimension="share"
             ),
             *(force if known else ()),
             Column(

@@ -101,13 +101,7 @@ def trade_off_figure(found: TradeOff) -> Figure:
             Row(
                 panels=(
                     panel(
-                        critical,
-                        _("Critical speed"),
-                        "rpm",
-                        "angular_speed",
-                        found.now[4] / rpm,
-                        needed,
-                        named=True,
+                        critical, _("Critical speed"), "rpm", "angular_speed", found.now[4] / rpm, needed, named=True
                     ),
                 ),
                 height=2.0,

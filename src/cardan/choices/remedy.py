@@ -110,8 +110,7 @@ def most_helpful(found: Sequence[Remedy], count: int = 3) -> tuple[Remedy, ...]:
         if not helping:
             break
         best = min(
-            helping,
-            key=lambda one: (one.demand, len(one.breaks) - len(left & {one.title, *one.solves}), one.cost),
+            helping, key=lambda one: (one.demand, len(one.breaks) - len(left & {one.title, *one.solves}), one.cost)
         )
         if best.demand:
             # A lesser demand that is made anyway may as well cure what changes of the drive cured before it.

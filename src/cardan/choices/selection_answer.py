@@ -198,13 +198,7 @@ def _sizes(result: Selection, sizes: Sequence[SizeFit]) -> Table:
                 digits=3,
             ),
             Column(key="", heading=_("torque reserve"), values=_room([one.headroom for one in sizes]), digits=3),
-            Column(
-                key="",
-                heading=_("why"),
-                values=[_why(one, asked) for one in sizes],
-                left=True,
-                wrap=True,
-            ),
+            Column(key="", heading=_("why"), values=[_why(one, asked) for one in sizes], left=True, wrap=True),
             Column(key="", heading=_("source"), values=[one.row.source for one in sizes], left=True, depth="full"),
         ),
         note=say(

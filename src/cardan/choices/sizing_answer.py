@@ -27,11 +27,7 @@ AT_LIMIT = 0.999
 
 
 def answer(
-    drive: Drive,
-    result: Sizing,
-    *,
-    known: Catalogue | None = None,
-    progress: Callable[[float], object] | None = None,
+    drive: Drive, result: Sizing, *, known: Catalogue | None = None, progress: Callable[[float], object] | None = None
 ) -> Answer:
     """Return what there is to say of a sized part."""
     return Answer(

@@ -126,13 +126,7 @@ def load_cases(duty: Duty) -> tuple[LoadCase, ...]:
         between = (min(speeds), max(speeds)) if speeds else None
         speed = 0.5 * sum(between) if between and duty.speed is None else duty.speed
         peak = LoadCase(
-            name=name,
-            torque=most,
-            speed=speed,
-            share=0.0,
-            path=path,
-            speed_range=between,
-            shock_factor=shocks,
+            name=name, torque=most, speed=speed, share=0.0, path=path, speed_range=between, shock_factor=shocks
         )
         found.append(peak)
     return tuple(found)

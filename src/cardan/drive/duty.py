@@ -180,10 +180,7 @@ class Limits:
     spline_pressure: float | None = quantity("stress", None, doc="largest pressure on spline teeth allowed", above=0.0)
     spline_overlap: float | None = quantity("length", None, doc="smallest engaged spline length allowed", above=0.0)
     whirl: float | None = quantity(
-        "displacement",
-        None,
-        doc="largest whirl of the shafts allowed, from their mean position",
-        above=0.0,
+        "displacement", None, doc="largest whirl of the shafts allowed, from their mean position", above=0.0
     )
     safety: float = plain(1.5, doc="safety that yield strengths are divided by", low=1.0)
     fatigue_safety: float = plain(1.5, doc="smallest safety against fatigue", low=1.0)

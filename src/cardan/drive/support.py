@@ -35,8 +35,7 @@ class Support:
     axial_stiffness: float | None = quantity("stiffness", None, doc="axial stiffness", above=0.0)
     tilt_stiffness: float | None = quantity("turning_stiffness", None, doc="stiffness against tilting", above=0.0)
     bearing: str = plain(
-        "",
-        doc="ball bearing, a row of the catalogue: 6208, or 6208-2RS with contact seals; brings bore and ratings",
+        "", doc="ball bearing, a row of the catalogue: 6208, or 6208-2RS with contact seals; brings bore and ratings"
     )
     capacity: float | None = quantity("force", None, doc="dynamic capacity C of its ball bearing", above=0.0)
     static_capacity: float | None = quantity("force", None, doc="static capacity C0 of its ball bearing", above=0.0)

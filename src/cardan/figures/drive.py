@@ -135,14 +135,7 @@ def _meshes(seen: Solids) -> tuple[Mesh, ...]:
 
 
 def _view(
-    drive: Drive,
-    seen: Solids,
-    meshes: Sequence[Mesh],
-    sheet: _Sheet,
-    inch: float,
-    title: str,
-    *,
-    named: bool = True,
+    drive: Drive, seen: Solids, meshes: Sequence[Mesh], sheet: _Sheet, inch: float, title: str, *, named: bool = True
 ) -> Panel:
     """Return a panel; one without a title has no frame either, but the directions of x, y and z."""
     middle, half = 0.5 * (sheet.left + sheet.right), 0.5 * WIDE * inch

@@ -25,14 +25,7 @@ from cardan.register import QUESTIONS
 from cardan.texts import _
 from cardan.version import VERSION
 
-from .answers import (
-    changes_by_laws,
-    found_page,
-    judgement_by_laws,
-    method_by_laws,
-    refused,
-    warnings_by_laws,
-)
+from .answers import changes_by_laws, found_page, judgement_by_laws, method_by_laws, refused, warnings_by_laws
 from .block import Block, Page, Points, Table, Words, key_figures, key_table, page, untold
 from .description import description
 from .look import Line, Look, pieces

@@ -33,11 +33,7 @@ def description(on: Subject) -> Page:
         "angles": _("joint angles and plane twists"),
         "slopes": _("slopes in side and plan view"),
     }[on.drive.form]
-    blocks: list[Block] = [
-        Picture(figure=views_figure(on.drive, on.seen)),
-        _joints(on),
-        _shafts(on),
-    ]
+    blocks: list[Block] = [Picture(figure=views_figure(on.drive, on.seen)), _joints(on), _shafts(on)]
     within = list(inside(on.drive))
     if within:
         blocks.append(_inside(within))

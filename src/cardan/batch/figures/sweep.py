@@ -340,14 +340,7 @@ WIDE = 0.02  # width of a bar of colours beside a map, a share of the map's
 
 
 def heat_figure(
-    across: Column,
-    up: Column,
-    value: Column,
-    x: Array,
-    y: Array,
-    values: Array,
-    *,
-    how: str = "",
+    across: Column, up: Column, value: Column, x: Array, y: Array, values: Array, *, how: str = ""
 ) -> Figure:
     """Return a column over two fields as a map, the darker the greater.
 

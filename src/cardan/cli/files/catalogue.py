@@ -28,13 +28,9 @@ from cardan.units import nearest
 
 
 def catalogue(
-    table: Annotated[
-        str | None,
-        argument("[TABLE]", _("A table, or a word to look for in all of them.")),
-    ] = None,
+    table: Annotated[str | None, argument("[TABLE]", _("A table, or a word to look for in all of them."))] = None,
     row: Annotated[
-        str | None,
-        argument("[ID]", _("A row of the table by any of its names, or a word in its rows.")),
+        str | None, argument("[ID]", _("A row of the table by any of its names, or a word in its rows."))
     ] = None,
     checked: Annotated[
         Path | None,

@@ -43,8 +43,7 @@ def mobility(
         int | None, option("--apply", "LAYOUT", _("Which layout -o writes; the first by default."))
     ] = None,
     out: Annotated[
-        Path | None,
-        option("--out -o", "PATH", _("Write a layout into a copy of FILE, comments kept; may be FILE.")),
+        Path | None, option("--out -o", "PATH", _("Write a layout into a copy of FILE, comments kept; may be FILE."))
     ] = None,
     force: Force = False,
     json: AsJson = False,

@@ -141,10 +141,7 @@ def _nearest(result: CriticalSpeeds) -> tuple[int, float, bool]:
     """Return of modes too near to a held speed the nearest, that speed, and whether half the critical one meets it."""
     found = [
         (abs(math.log(speed / middle)), k, speed, half)
-        for half, near, middles in (
-            (False, result.near, result.actual),
-            (True, result.half_near, 0.5 * result.actual),
-        )
+        for half, near, middles in ((False, result.near, result.actual), (True, result.half_near, 0.5 * result.actual))
         for k, middle in enumerate(middles)
         if near[k]
         for speed in result.steady
@@ -169,11 +166,7 @@ def _modes(drive: Drive, result: CriticalSpeeds) -> Table:
             Column(key="half", heading=_("half-critical"), values=0.5 * result.actual, dimension="angular_speed"),
             Column(key="half_band", heading=_("half-critical band"), values=band, left=True, depth="full"),
             Column(
-                key="at_rest",
-                heading=_("not rotating"),
-                values=result.at_rest,
-                dimension="frequency",
-                unit="per_min",
+                key="at_rest", heading=_("not rotating"), values=result.at_rest, dimension="frequency", unit="per_min"
             ),
         ),
         note=say(
@@ -234,10 +227,7 @@ def _map(varied: CriticalSpeedMap, rows: slice, *, name: str, title: str = "") -
     )
     modes = (
         Column(
-            key=f"critical_{k}",
-            heading=_("mode {number}").format(number=k),
-            values=speeds,
-            dimension="angular_speed",
+            key=f"critical_{k}", heading=_("mode {number}").format(number=k), values=speeds, dimension="angular_speed"
         )
         for k, speeds in enumerate(np.asarray(varied.speed)[rows].T, start=1)
     )
@@ -266,7 +256,7 @@ def _everything(result: CriticalSpeeds) -> Table:
             Column(key="number", values=[part.number for part in parts]),
             Column(key="half_waves", values=[part.waves for part in parts]),
             *(Column(key=key, values=values) for key, values in shares.items()),
-        ),
+        )
     )
 
 

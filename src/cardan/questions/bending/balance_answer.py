@@ -33,10 +33,7 @@ def lacking(drive: Drive) -> Lacking:
     judged = [s for k, s in enumerate(drive.shafts) if 0 < k < len(drive.joints) or s.unbalance]
     speeds = (duty.speed, duty.speed_range, *(case.speed for case in load_cases(duty)))
     bodies = any(shaft.has_body or shaft.mass is not None or shaft.unbalance for shaft in judged)
-    return absent(
-        (any(speeds), "duty.speed_range", "duty.speed"),
-        (bodies, "shafts[1].outer", "shafts[1].mass"),
-    )
+    return absent((any(speeds), "duty.speed_range", "duty.speed"), (bodies, "shafts[1].outer", "shafts[1].mass"))
 
 
 def answer(drive: Drive, result: Balance) -> Answer:
@@ -146,11 +143,7 @@ def _corrections(result: Balance) -> Iterator[Table]:
                     key="position", heading=_("position"), values=[fix.position for fix in fixes], dimension="length"
                 ),
                 Column(
-                    key="angle",
-                    heading=_("angle"),
-                    values=[fix.angle for fix in fixes],
-                    dimension="angle",
-                    decimals=1,
+                    key="angle", heading=_("angle"), values=[fix.angle for fix in fixes], dimension="angle", decimals=1
                 ),
                 Column(
                     key="unbalance",

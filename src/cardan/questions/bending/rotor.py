@@ -357,11 +357,7 @@ def _speeds(one: Rotor, used: tuple[float, float] | None) -> Array:
 
 
 def rotor_run(
-    drive: Drive,
-    *,
-    shaft: int | None = None,
-    damping_ratio: float = DAMPING,
-    progress: Progress | None = None,
+    drive: Drive, *, shaft: int | None = None, damping_ratio: float = DAMPING, progress: Progress | None = None
 ) -> tuple[Rotor, CrackedRun]:
     """Return how a shaft whirls while the speed changes as the `run_up` of the duty says.
 

@@ -23,17 +23,7 @@ from cardan.texts import _, mark, plural
 
 from .assembly import AssemblyForces, Peak, assembly
 from .figures.assembly import misalignment_figures
-from .force_tables import (
-    ROUNDING,
-    curve,
-    from_start,
-    joint_heads,
-    size,
-    support_heads,
-    support_names,
-    together,
-    vector,
-)
+from .force_tables import ROUNDING, curve, from_start, joint_heads, size, support_heads, support_names, together, vector
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 
@@ -178,10 +168,7 @@ def _joints(drive: Drive, result: AssemblyForces, *, loaded: bool) -> Table:
             *joint_heads(drive),
             *_peaks("force", _("force"), "force", result.joint_peak),
             Column(
-                key="gap_max",
-                heading=_("own gap"),
-                values=np.where(gap > CLOSED, gap, 0.0),
-                dimension="displacement",
+                key="gap_max", heading=_("own gap"), values=np.where(gap > CLOSED, gap, 0.0), dimension="displacement"
             ),
         ),
     )

@@ -206,13 +206,7 @@ def support_table(drive: Drive, found: Forces) -> Table:
             Column(key="radial_min", heading=_("radial, least"), values=where("radial", low), dimension="force"),
             Column(key="radial_max", heading=_("largest"), values=where("radial", high), dimension="force"),
             Column(key="radial_max_at", heading=_("at"), values=where("radial", when), dimension="angle", decimals=1),
-            Column(
-                key="radial_mean",
-                heading=_("mean"),
-                values=where("radial", mean),
-                dimension="force",
-                depth="full",
-            ),
+            Column(key="radial_mean", heading=_("mean"), values=where("radial", mean), dimension="force", depth="full"),
             Column(key="axial_min", heading=_("axial, from"), values=where("axial", push), dimension="force"),
             Column(key="axial_max", heading=_("to"), values=where("axial", pull), dimension="force"),
             Column(

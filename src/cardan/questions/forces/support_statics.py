@@ -203,13 +203,7 @@ class Misalignment:
     torque: Array  # (...) [N·m]: torque the input needs beside all others to turn against that energy, without friction
 
 
-def crosses(
-    axis: Array,
-    driving: Array,
-    driven: Array,
-    *,
-    speed: Array | None = None,
-) -> Crosses:
+def crosses(axis: Array, driving: Array, driven: Array, *, speed: Array | None = None) -> Crosses:
     """Return the arms of the crosses with their rates.
 
     axis (..., n+1, 3): directions e_i of the shafts; driving, driven (..., n, 3): arms u_i and v_{i+1}.

@@ -138,12 +138,7 @@ def largest_loads(
     mises = (np.sqrt(4.0 * couple**2 - one**2) for one in (before, after))
     ends = _at_ends(*(peak(one) for one in mises)) if joint_angle.shape[-2] else math.sqrt(3.0) * np.abs(high)
     found = TurnLoads(
-        low=low,
-        high=high,
-        couple=peak(couple),
-        driving=peak(on_driving),
-        driven=peak(on_driven),
-        mises=ends,
+        low=low, high=high, couple=peak(couple), driving=peak(on_driving), driven=peak(on_driven), mises=ends
     )
     return found if chain.laws is None else sprung(found, chain.laws)
 

@@ -236,15 +236,7 @@ def history_figure(found: Life) -> Figure:
         rows=(
             Row(panels=(panel(time, _("Share of the time"), "muted", named=False),), height=1.2),
             Row(
-                panels=(
-                    panel(
-                        damage,
-                        label.format(number=held or found.governing),
-                        "accent",
-                        named=True,
-                    ),
-                ),
-                height=1.2,
+                panels=(panel(damage, label.format(number=held or found.governing), "accent", named=True),), height=1.2
             ),
         ),
     )
@@ -269,7 +261,7 @@ def _unlimited(found: Life) -> Figure:
                         ),
                         y=axis(_("Largest journal force"), "N", [forces], dimension="force", include=(0.0, 1.0)),
                     ),
-                ),
+                )
             ),
         ),
     )

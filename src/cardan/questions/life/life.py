@@ -275,10 +275,7 @@ def _supports(drive: Drive, which: Sequence[int], rows: Sequence[_Row]) -> Suppo
     capacity, static = capacities(drive, which)
     stacked = {name: np.stack([getattr(one, name) for one in loads]) for name in SupportLoads.__dataclass_fields__}
     return SupportLives(
-        number=tuple(k + 1 for k in which),
-        capacity=capacity,
-        static_capacity=static,
-        loads=SupportLoads(**stacked),
+        number=tuple(k + 1 for k in which), capacity=capacity, static_capacity=static, loads=SupportLoads(**stacked)
     )
 
 

@@ -174,11 +174,7 @@ def _parts(drive: Drive, result: Losses) -> Table:
             Column(key="part", heading=_("part"), values=[*names, _("all")], left=True),
             Column(key="power_loss", heading=_("power loss"), values=[*counted, whole], dimension="power"),
             Column(
-                key="share",
-                heading=_("share"),
-                values=[*shares, 1.0 if whole else None],
-                dimension="share",
-                decimals=1,
+                key="share", heading=_("share"), values=[*shares, 1.0 if whole else None], dimension="share", decimals=1
             ),
             Column(key="driving", heading=_("driving yoke"), values=[*sides[0], None], dimension="power"),
             Column(key="driven", heading=_("driven yoke"), values=[*sides[1], None], dimension="power"),

@@ -65,11 +65,7 @@ def loss_parts(found: Losses, drive: Drive | None = None) -> list[LossyPart]:
 
 def _parts(found: Losses, drive: Drive | None) -> Iterator[LossyPart]:
     left_out = {(one.part, one.number) for one in found.uncounted}
-    texts = {
-        "joints": _("joint {number}"),
-        "supports": _("support {number}"),
-        "shafts": _("spline of shaft {number}"),
-    }
+    texts = {"joints": _("joint {number}"), "supports": _("support {number}"), "shafts": _("spline of shaft {number}")}
     rows = (
         *(("joints", k, loss, shaft(k + 1)) for k, loss in enumerate(found.joints, 1)),
         *(("supports", k, loss, "muted") for k, loss in enumerate(found.supports, 1)),

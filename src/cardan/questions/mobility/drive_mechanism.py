@@ -157,12 +157,7 @@ def _row(vector: Array) -> Point:
 
 def _pair(name: str, kind: str, links: tuple[str, str], point: Point, axis: Array, second: Array | None = None) -> Pair:
     return Pair(
-        id=name,
-        type=kind,
-        links=links,
-        point=point,
-        axis=_row(axis),
-        axis2=None if second is None else _row(second),
+        id=name, type=kind, links=links, point=point, axis=_row(axis), axis2=None if second is None else _row(second)
     )
 
 

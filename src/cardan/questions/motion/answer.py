@@ -202,12 +202,7 @@ def _shafts(drive: Drive, result: Turning) -> Table:
                 dimension="angle",
                 decimals=2,
             ),
-            Column(
-                key="speed_fluctuation",
-                heading="δ",
-                values=np.asarray(each.speed_fluctuation),
-                dimension="share",
-            ),
+            Column(key="speed_fluctuation", heading="δ", values=np.asarray(each.speed_fluctuation), dimension="share"),
             Column(key="ratio_min", heading=_("min ratio"), values=ratios(each.ratio_min)),
             Column(key="ratio_max", heading=_("max ratio"), values=ratios(each.ratio_max)),
             Column(key="", heading=_("angle error ±"), values=tidy(each.max_angle_error), dimension="angle", digits=4),

@@ -239,10 +239,7 @@ def _random(drive: Drive, moves: Sequence[Movement]) -> tuple[RandomMotion | Non
 
 
 def _plan(
-    drive: Drive,
-    movement: Movement | Sequence[Movement] | Path | None,
-    times: ArrayLike | None,
-    until: float | None,
+    drive: Drive, movement: Movement | Sequence[Movement] | Path | None, times: ArrayLike | None, until: float | None
 ) -> tuple[Path, Array, float, bool, tuple[Movement, ...]]:
     """Return the path of the points, the instants, the start, whether the instants were chosen here, and what moves."""
     if until is not None and not (times is None and math.isfinite(until) and until > 0.0):

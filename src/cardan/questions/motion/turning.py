@@ -32,11 +32,7 @@ class Turning:
 
 
 def turning(
-    drive: Drive,
-    angle: ArrayLike | None = None,
-    *,
-    speed: float | None = None,
-    listed: ArrayLike | None = None,
+    drive: Drive, angle: ArrayLike | None = None, *, speed: float | None = None, listed: ArrayLike | None = None
 ) -> Turning:
     """Return how a drive turns, and how uniformly.
 

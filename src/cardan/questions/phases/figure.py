@@ -162,12 +162,7 @@ def settings_figure(found: Phasing) -> Figure:
     # The widest reach is beside the point when it dwarfs what is compared.
     top = max(float(np.max(share)), min(high, 2.0 * float(np.max(share))), 1e-3)
     ticks = steps(0.0, 1.16 * top, 5)
-    across = Axis(
-        low=0.0,
-        high=1.16 * top,
-        ticks=ticks,
-        texts=written(ticks),
-    )
+    across = Axis(low=0.0, high=1.16 * top, ticks=ticks, texts=written(ticks))
     upright = Axis(low=0.4, high=len(shown) + 0.6, ticks=tuple(at), texts=tuple(one.label for one in shown), grid=False)
     roles = tuple("muted" if one is found.as_built else "accent" for one in shown)
     bars = Bars(

@@ -232,11 +232,7 @@ def _poses(drive: Drive, poses: Mapping[str, Drive] | None) -> tuple[tuple[str, 
         if len(one.joints) != len(drive.joints)
     ]
     check(problems)
-    return (
-        tuple(name for name, _one in given),
-        [one for _name, one in given],
-        said,
-    )
+    return (tuple(name for name, _one in given), [one for _name, one in given], said)
 
 
 def _shares(said: Sequence[float | None]) -> Array:
@@ -351,12 +347,7 @@ def _each(poses: Chain, yoke_angle: Array) -> Array:
 
 
 def best_for_poses(
-    poses: Chain,
-    share: Array,
-    yoke_angle: Array,
-    free: Sequence[int],
-    known: Array,
-    progress: Progress | None = None,
+    poses: Chain, share: Array, yoke_angle: Array, free: Sequence[int], known: Array, progress: Progress | None = None
 ) -> tuple[Array, Array, bool]:
     """Return the settings with the least worst and with the least mean speed_fluctuation over the poses.
 
@@ -465,12 +456,7 @@ def _min_max(poses: Chain, share: Array, start: Array, free: list[int], scale: f
 
     kept: Any = {"type": "ineq", "fun": room, "jac": room_slope}
     found = scipy.optimize.minimize(
-        top_of,
-        np.append(start[free], top),
-        jac=rise,
-        method="SLSQP",
-        constraints=kept,
-        options=OPTIONS,
+        top_of, np.append(start[free], top), jac=rise, method="SLSQP", constraints=kept, options=OPTIONS
     ).x
     return _put(start, free, found[:-1])
 

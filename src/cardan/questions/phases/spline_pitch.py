@@ -71,12 +71,7 @@ class _Run:
 
 
 def best_pitched(
-    chain: Chain,
-    yoke_angle: Array,
-    teeth: Mapping[int, int],
-    free: Sequence[int] = (),
-    *,
-    count: int = 6,
+    chain: Chain, yoke_angle: Array, teeth: Mapping[int, int], free: Sequence[int] = (), *, count: int = 6
 ) -> Array:
     """Return the settings with the smallest speed fluctuation that splines allow, best first.
 
@@ -159,10 +154,7 @@ def _met(chain: Chain, yoke_angle: Array, places: Mapping[int, Array], run: _Run
     For the half (a, b) up to and with the turn in the middle and the half (p, q) behind it, |b_whole| =
     |p| |a| |u - v| with the points u = b/a*, v = -q/p of the unit disk.
     """
-    cut = min(
-        range(1, len(run.pitched) + 1),
-        key=lambda c: max(math.prod(run.counts[:c]), math.prod(run.counts[c:])),
-    )
+    cut = min(range(1, len(run.pitched) + 1), key=lambda c: max(math.prod(run.counts[:c]), math.prod(run.counts[c:])))
     largest = max(math.prod(run.counts[:cut]), math.prod(run.counts[cut:]))
     if largest > LIMIT:
         raise _too_many(math.prod(run.counts), largest)

@@ -83,13 +83,7 @@ def _most_bent(found: Forces) -> Say | str:
 
 
 def _over_angle(
-    angle: Array,
-    rows: Array,
-    label: str,
-    *,
-    shafts: bool = False,
-    named: bool = False,
-    base: bool = False,
+    angle: Array, rows: Array, label: str, *, shafts: bool = False, named: bool = False, base: bool = False
 ) -> Row:
     curves = [
         Curve(
@@ -105,13 +99,7 @@ def _over_angle(
     ]
     size = float(np.max(np.abs(rows), initial=0.0))
     upright = axis(
-        label,
-        "Nm",
-        [rows],
-        dimension="torque",
-        include=(0.0,) if base else (),
-        least=max(0.02 * size, LEAST),
-        count=4,
+        label, "Nm", [rows], dimension="torque", include=(0.0,) if base else (), least=max(0.02 * size, LEAST), count=4
     )
     return Row(panels=(Panel(series=tuple(curves), x=across(angle, named=named), y=upright),), height=1.35)
 
@@ -184,11 +172,7 @@ def reactions_figure(found: Forces, names: Sequence[str] = ()) -> Figure:
             )
         )
     return Figure(
-        name="reactions",
-        title=_("What the supports carry"),
-        sentence="",
-        source=source,
-        rows=(*rows, *paths),
+        name="reactions", title=_("What the supports carry"), sentence="", source=source, rows=(*rows, *paths)
     )
 
 
