@@ -57,23 +57,18 @@ class Reduction(Protocol):
     @property
     def name(self) -> str:
         """Name among the results of the sweep."""
-        ...
 
     def empty(self) -> State:
         """Return the state that has seen nothing."""
-        ...
 
     def add(self, state: State, rows: Rows, start: int) -> State:
         """Return the state that has also seen rows ``start`` and following."""
-        ...
 
     def merge(self, one: State, other: State) -> State:
         """Return the state that has seen what either has seen."""
-        ...
 
     def result(self, state: State) -> Any:
         """Return what the summary tells: numbers, texts and lists and mappings of them."""
-        ...
 
 
 @runtime_checkable
@@ -83,31 +78,25 @@ class Work(Protocol):
     @property
     def name(self) -> str:
         """Hash of all that decides the rows, the version of the program among it."""
-        ...
 
     @property
     def size(self) -> int:
         """How many points there are."""
-        ...
 
     @property
     def columns(self) -> tuple[Column, ...]:
         """Columns of the table, in order."""
-        ...
 
     @property
     def reductions(self) -> tuple[Reduction, ...]:
         """Summaries that are wanted."""
-        ...
 
     @property
     def provenance(self) -> Mapping[str, Any]:
         """What the rows come from, as JSON can hold it: version, drive, axes, questions, units, seeds."""
-        ...
 
     def evaluate(self, start: int, stop: int) -> Rows:
         """Return rows ``start`` to ``stop``; a point without an answer has nan there and says why by its status."""
-        ...
 
 
 # Pieces of a sweep: idempotent, named by what they hold, of a size that pays and fits.

@@ -50,7 +50,6 @@ class Engine(Protocol):
     @property
     def writes(self) -> bool:
         """Whether its workers see the files of this machine, so that each may write its own."""
-        ...
 
     def run(
         self, task: Callable[[Chunk], T], chunks: Iterable[Chunk], *, heard: Heard | None = None
@@ -62,7 +61,6 @@ class Engine(Protocol):
         iterator.
         Yields Done: as chunks are ready, in any order.
         """
-        ...
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -34,30 +34,24 @@ class Axis(Protocol):
     @property
     def name(self) -> str:
         """What groups of results are called by."""
-        ...
 
     @property
     def fields(self) -> tuple[str, ...]:
         """What varies: paths with units, and facts."""
-        ...
 
     @property
     def facts(self) -> tuple[str, ...]:
         """Those that are no field of the drive but said of a row: its name, a price."""
-        ...
 
     @property
     def size(self) -> int:
         """How many places there are."""
-        ...
 
     def values(self, index: Array) -> dict[str, Array]:
         """Return the values of each field at places ``index`` (k,), arrays (k,)."""
-        ...
 
     def told(self) -> dict[str, Any]:
         """Return the axis as the table of a plan file."""
-        ...
 
 
 @dataclass(frozen=True, kw_only=True)

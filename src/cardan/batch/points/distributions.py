@@ -23,11 +23,9 @@ class Distribution(Protocol):
 
     def at(self, share: Array) -> Array:
         """Return the values (k,) below which the shares (k,) in (0, 1) lie."""
-        ...
 
     def told(self) -> dict[str, Any]:
         """Return the distribution as keys of a plan file."""
-        ...
 
 
 def _told(one: Any) -> dict[str, Any]:

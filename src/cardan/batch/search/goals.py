@@ -30,16 +30,13 @@ class Evaluator(Protocol):
     @property
     def points(self) -> tuple[Column, ...]:
         """One column for each field, in the order of the points."""
-        ...
 
     @property
     def answers(self) -> tuple[Column, ...]:
         """Columns of the answers."""
-        ...
 
     def __call__(self, points: Array) -> Rows:
         """Return the answers at points (N, d), in the units of their columns, nan with a ``status`` where none is."""
-        ...
 
 
 @dataclass(frozen=True, kw_only=True)

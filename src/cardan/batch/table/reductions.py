@@ -45,19 +45,15 @@ class Kind(Protocol):
 
     def empty(self, what: Reduce, count: int) -> State:
         """Return the state of so many groups that have seen nothing."""
-        ...
 
     def add(self, what: Reduce, state: State, part: Part) -> State:
         """Return the state that has also seen a part."""
-        ...
 
     def merge(self, what: Reduce, one: State, other: State) -> State:
         """Return the state that has seen what either has seen."""
-        ...
 
     def value(self, what: Reduce, state: State, group: int, point: Callable[[int], Value]) -> Value:
         """Return what is told of a group; ``point`` gives the point of a row."""
-        ...
 
 
 @dataclass(frozen=True)
