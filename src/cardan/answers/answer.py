@@ -195,7 +195,7 @@ def heads(heading: str, names: Sequence[str], *, chips: Sequence[str] = ()) -> t
     if chips:
         shown = [Cell(value=text, chip=chip) for text, chip in zip(shown, chips, strict=True)]
     return (
-        Column(key="", heading=heading, values=shown, left=True),
+        Column(key="", heading=heading, values=shown),
         Column(key="number", values=numbers, depth="data"),
         Column(key="name", values=list(names), depth="data"),
     )

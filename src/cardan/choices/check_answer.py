@@ -316,10 +316,10 @@ def remedy_table(drive: Drive, result: Checked, *, helpful: bool = False) -> Tab
     return Table(
         title=_("Changes that help most") if helpful else _("Corrective changes (one parameter each)"),
         columns=(
-            Column(key="", heading=heading, values=words if helpful else keys, left=True),
+            Column(key="", heading=heading, values=words if helpful else keys),
             Column(key="", heading=_("now"), values=[_value(one, one.now, helpful) for one in shown]),
             Column(key="", heading=_("to"), values=[_value(one, one.value, helpful) for one in shown]),
-            Column(key="", heading=_("then passes"), values=[_effect(one) for one in shown], left=True, wrap=True),
+            Column(key="", heading=_("then passes"), values=[_effect(one) for one in shown], wrap=True),
         ),
         note=Joined(notes, between=" "),
     )

@@ -336,9 +336,7 @@ def _table(told: Sequence[Told]) -> Table:
     """
     keys = list({key.name: key for one in told for key in one.answer.keys}.values())
     shares = [one.way.share for one in told]
-    columns = [
-        Column(key="condition", heading=_("condition"), values=[_called(one.way.name) for one in told], left=True)
-    ]
+    columns = [Column(key="condition", heading=_("condition"), values=[_called(one.way.name) for one in told])]
     if any(share is not None and 0.0 < share < 1.0 for share in shares):
         columns.append(Column(key="share", heading=_("time"), values=shares, dimension="share", decimals=1))
     for key in keys:
@@ -359,6 +357,6 @@ def _table(told: Sequence[Told]) -> Table:
         )
     if not keys:
         said = [one.answer.sentence for one in told]
-        columns.append(Column(key="answer", heading=_("answer"), values=said, left=True, wrap=True))
+        columns.append(Column(key="answer", heading=_("answer"), values=said, wrap=True))
     depth: Depth = "full" if keys else "brief"
     return Table(name="conditions", title=_("In each condition"), columns=columns, records=True, depth=depth)

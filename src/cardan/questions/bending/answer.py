@@ -158,13 +158,13 @@ def _modes(drive: Drive, result: CriticalSpeeds) -> Table:
         title=_("Critical speeds, the lowest first"),
         columns=(
             Column(key="", heading=_("no."), values=list(range(1, len(result.part) + 1))),
-            Column(key="", heading=_("mode"), values=[mode_name(part) for part in result.part], left=True),
+            Column(key="", heading=_("mode"), values=[mode_name(part) for part in result.part]),
             Column(key="critical", heading=_("computed"), values=result.speed, dimension="angular_speed"),
             Column(key="wear_factor", heading="k_n", values=result.wear, decimals=2),
             Column(key="actual", heading=_("real"), values=actual, dimension="angular_speed"),
             Column(key="ratio", heading=_("margin n_crit/n"), values=over, digits=3),
             Column(key="half", heading=_("half-critical"), values=0.5 * result.actual, dimension="angular_speed"),
-            Column(key="half_band", heading=_("half-critical band"), values=band, left=True, depth="full"),
+            Column(key="half_band", heading=_("half-critical band"), values=band, depth="full"),
             Column(
                 key="at_rest", heading=_("not rotating"), values=result.at_rest, dimension="frequency", unit="per_min"
             ),
@@ -198,12 +198,7 @@ def _shafts(drive: Drive, result: CriticalSpeeds) -> Table:
         title=_("Each shaft by itself"),
         aside=True,
         columns=(
-            Column(
-                key="",
-                heading=_("shaft"),
-                values=[f"{shaft.number} {shaft.name}".strip() for shaft in known],
-                left=True,
-            ),
+            Column(key="", heading=_("shaft"), values=[f"{shaft.number} {shaft.name}".strip() for shaft in known]),
             Column(key="", heading=_("length"), values=[float(b - a) for a, b in spans], dimension="length"),
             Column(key="", heading=_("as a plain tube"), values=alone, dimension="angular_speed"),
             Column(key="", heading=_("in the line, real"), values=own, dimension="angular_speed"),

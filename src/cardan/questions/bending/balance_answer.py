@@ -89,7 +89,6 @@ def _shafts(drive: Drive, result: Balance, name: str = "") -> Table:
                 key="shaft",
                 heading=_("shaft"),
                 values=[f"{one.number} {names.get(one.number, '')}".strip() for one in shafts],
-                left=True,
             ),
             column("mass", _("mass"), "mass", "mass"),
             column("allowed", _("allowed"), "allowed", "unbalance"),
@@ -98,7 +97,7 @@ def _shafts(drive: Drive, result: Balance, name: str = "") -> Table:
             column("unbalance", _("static part"), "unbalance", "unbalance"),
             column("couple", _("couple part"), "couple", "inertia"),
             column("force", _("rotating force"), "force", "force"),
-            Column(key="state", heading="", values=[states[one.balanced] for one in shafts], left=True),
+            Column(key="state", heading="", values=[states[one.balanced] for one in shafts]),
         ),
     )
 

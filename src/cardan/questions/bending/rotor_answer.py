@@ -202,7 +202,7 @@ def _peaks(result: RotorResponse) -> Table:
     return Table(
         title=_("Orders at the speeds in use"),
         columns=(
-            Column(key="order", heading=_("order"), values=[order_name(order) for order in ORDERS], left=True),
+            Column(key="order", heading=_("order"), values=[order_name(order) for order in ORDERS]),
             Column(
                 key="amplitude",
                 heading=_("largest amplitude"),

@@ -133,7 +133,7 @@ def inner_table(drive: Drive, loads: Sequence[InnerLoad]) -> Table:
         records=True,
         columns=(
             Column(key="joint", heading=_("joint"), values=[one.joint for one in loads]),
-            Column(key="part", heading=_("part"), values=[part_name(one) for one in loads], left=True),
+            Column(key="part", heading=_("part"), values=[part_name(one) for one in loads]),
             Column(key="count", values=[one.count for one in loads], depth="data"),
             Column(key="force_max", heading=_("force"), values=[one.high for one in loads], dimension="force"),
             Column(

@@ -209,10 +209,10 @@ def _supports(drive: Drive, result: Life) -> Iterator[Table]:
         title=_("Bearings of the supports"),
         records=True,
         columns=(
-            Column(key="", heading=_("support"), values=names, left=True),
+            Column(key="", heading=_("support"), values=names),
             Column(key="number", values=list(own.number), depth="data"),
             Column(key="name", values=[one.name for one in supports], depth="data"),
-            Column(key="bearing", heading=_("bearing"), values=[one.bearing for one in supports], left=True),
+            Column(key="bearing", heading=_("bearing"), values=[one.bearing for one in supports]),
             Column(key="radial_force", heading=_("radial, largest"), values=most["radial"], dimension="force"),
             Column(key="axial_force", heading=_("axial, largest"), values=axial, dimension="force"),
             Column(

@@ -171,7 +171,7 @@ def _parts(drive: Drive, result: Losses) -> Table:
     shares = [None if loss is None or not whole else loss / whole for loss in counted]
     return Table(
         columns=(
-            Column(key="part", heading=_("part"), values=[*names, _("all")], left=True),
+            Column(key="part", heading=_("part"), values=[*names, _("all")]),
             Column(key="power_loss", heading=_("power loss"), values=[*counted, whole], dimension="power"),
             Column(
                 key="share", heading=_("share"), values=[*shares, 1.0 if whole else None], dimension="share", decimals=1

@@ -168,7 +168,7 @@ def _tables(result: Mobility, counted: Partition | None) -> Iterator[Table]:
     methods, moves, surplus = zip(*rows, strict=True)
     yield Table(
         columns=(
-            Column(key="method", heading=_("method"), values=methods, left=True),
+            Column(key="method", heading=_("method"), values=methods),
             Column(key="mobility", heading=_("mobility"), values=moves),
             Column(key="redundant", heading=_("redundant constraints"), values=surplus),
         ),
@@ -181,7 +181,7 @@ def _tables(result: Mobility, counted: Partition | None) -> Iterator[Table]:
 
 def _joints(result: Mobility, shown: Sequence[JointHold], *, links: bool) -> Table:
     """Return the table of joints, with the links they join where there is room."""
-    between = (Column(key="links", heading=_("between"), values=[" – ".join(one.links) for one in shown], left=True),)
+    between = (Column(key="links", heading=_("between"), values=[" – ".join(one.links) for one in shown]),)
     gap = (
         Column(
             key="misalignment", heading=_("part error"), values=[one.misalignment for one in shown], dimension="length"
@@ -190,16 +190,12 @@ def _joints(result: Mobility, shown: Sequence[JointHold], *, links: bool) -> Tab
     return Table(
         title=_("What part errors can load"),
         columns=(
-            Column(key="joint", heading=_("joint"), values=[one.id for one in shown], left=True),
-            Column(key="kind", heading=_("kind"), values=[_(PAIRS[one.type].name) for one in shown], left=True),
+            Column(key="joint", heading=_("joint"), values=[one.id for one in shown]),
+            Column(key="kind", heading=_("kind"), values=[_(PAIRS[one.type].name) for one in shown]),
             *(between if links else ()),
             *(gap if result.misalignment else ()),
             Column(
-                key="strained_by",
-                heading=_("redundant constraint"),
-                values=[strain(one) for one in shown],
-                left=True,
-                wrap=True,
+                key="strained_by", heading=_("redundant constraint"), values=[strain(one) for one in shown], wrap=True
             ),
         ),
     )

@@ -191,7 +191,6 @@ def _shafts(drive: Drive, result: Turning) -> Table:
                     Cell(value=f"{shaft.number} {name}".strip(), chip=colour(shaft_role(shaft.number)))
                     for shaft, name in zip(behind, named, strict=True)
                 ],
-                left=True,
             ),
             Column(key="number", values=[shaft.number for shaft in behind], depth="data"),
             Column(key="name", values=[shaft.name for shaft in behind], depth="data"),

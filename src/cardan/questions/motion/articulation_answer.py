@@ -154,7 +154,6 @@ def _shafts(drive: Drive, found: Articulation) -> Table:
                     Cell(value=f"{one.shaft} {name}".strip(), chip=colour(shaft_role(one.shaft)))
                     for one, name in zip(ones, names, strict=True)
                 ],
-                left=True,
             ),
             length("length_min", _("shortest"), [one.length_min for one in ones]),
             length("length_max", _("longest"), [one.length_max for one in ones]),
@@ -184,7 +183,7 @@ def _shafts(drive: Drive, found: Articulation) -> Table:
             ),
             length("engaged_min", _("engaged"), limited([one.engaged_min for one in ones], "engaged")),
             length("gap_min", _("gap"), limited([one.gap_min for one in ones], "gap")),
-            Column(key="limits", heading=_("limits"), values=[_state(drive, one) for one in ones], left=True),
+            Column(key="limits", heading=_("limits"), values=[_state(drive, one) for one in ones]),
         ),
         note=say(note, span=_time(np.ptp(found.times))),
     )
@@ -216,7 +215,6 @@ def _worst_instants(found: Articulation) -> Table:
                 key="what",
                 heading=_("what"),
                 values=[names.get(one.what, one.what).format(number=one.number) for one in found.worst],
-                left=True,
             ),
             Column(key="value", heading=_("value"), values=[_value(one) for one in found.worst]),
             Column(key="time", heading=_("at"), values=[one.time for one in found.worst], dimension="time", digits=3),

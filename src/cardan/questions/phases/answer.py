@@ -165,7 +165,7 @@ def settings_table(drive: Drive, shown: Sequence[YokeSetting]) -> Table:
         return Table(
             title=title,
             columns=(
-                Column(key="setting", heading=_("setting"), values=[one.label for one in shown], left=True),
+                Column(key="setting", heading=_("setting"), values=[one.label for one in shown]),
                 *(
                     Column(
                         key=f"shaft_{k}",
@@ -226,7 +226,7 @@ def _poses(found: Phasing, shown: Sequence[YokeSetting]) -> Table:
     return Table(
         title=_("Speed fluctuation δ in each pose"),
         columns=(
-            Column(key="setting", heading=_("setting"), values=[one.label for one in some], left=True),
+            Column(key="setting", heading=_("setting"), values=[one.label for one in some]),
             *(
                 Column(
                     key=name,
@@ -253,7 +253,6 @@ def _costs(drive: Drive, found: Phasing) -> Table:
                 key="shaft",
                 heading=_("shaft"),
                 values=[Cell(value=str(k), chip=colour(shaft_role(k))) for k in range(2, len(drive.joints) + 1)],
-                left=True,
             ),
             *(
                 Column(
@@ -364,7 +363,7 @@ def _steering(found: Phasing) -> Table:
         title=_("As a steering column: speed ratio of output to wheel, from lock to lock"),
         records=True,
         columns=(
-            Column(key="setting", heading=_("setting"), values=[one.setting.label for one in every], left=True),
+            Column(key="setting", heading=_("setting"), values=[one.setting.label for one in every]),
             Column(
                 key="start_phase",
                 heading=_("first yoke ψ₁"),
