@@ -2,7 +2,7 @@
 
 from .drive.accuracy import Cost as Cost
 from .drive.accuracy import Error as Error
-from .drive.crack import ShaftCrack as ShaftCrack
+from .drive.accuracy import Inspection as Inspection
 from .drive.cross import Cross as Cross
 from .drive.described import Input as Input
 from .drive.described import Output as Output
@@ -14,7 +14,6 @@ from .drive.duty import History as History
 from .drive.duty import Limits as Limits
 from .drive.duty import Upkeep as Upkeep
 from .drive.duty import Vehicle as Vehicle
-from .drive.inspection import Inspection as Inspection
 from .drive.joint_parts import Needles as Needles
 from .drive.joint_parts import Rating as Rating
 from .drive.joint_parts import Section as Section
@@ -35,9 +34,10 @@ from .drive.movement import Hitch as Hitch
 from .drive.movement import Oscillation as Oscillation
 from .drive.movement import Parallel as Parallel
 from .drive.movement import Random as Random
-from .drive.pose import Pose as Pose
 from .drive.profile_tube import Profile as Profile
+from .drive.settings import Pose as Pose
 from .drive.settings import Settings as Settings
+from .drive.settings import Steering as Steering
 from .drive.settings import TitleBlock as TitleBlock
 from .drive.shaft import Bond as Bond
 from .drive.shaft import Layup as Layup
@@ -46,11 +46,11 @@ from .drive.shaft import Ply as Ply
 from .drive.shaft import PointMass as PointMass
 from .drive.shaft import Segment as Segment
 from .drive.shaft import Shaft as Shaft
+from .drive.shaft import ShaftCrack as ShaftCrack
 from .drive.shaft import Spline as Spline
 from .drive.shaft import Unbalance as Unbalance
 from .drive.station import Absorber as Absorber
 from .drive.station import Pendulum as Pendulum
 from .drive.station import Station as Station
 from .drive.station import ToNext as ToNext
-from .drive.steering import Steering as Steering
 from .drive.support import Support as Support

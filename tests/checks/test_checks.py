@@ -12,11 +12,11 @@ from cardan.catalogue import completed
 from cardan.checks import CHECKS, Verdict, check, design, utilisation
 from cardan.checks.load_case import Case
 from cardan.checks.torsion.line import NO_MODEL
+from cardan.drive.accuracy import Inspection
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty, Limits, Upkeep, Vehicle
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.paths import pose_drives, read, with_values
-from cardan.drive.inspection import Inspection
 from cardan.drive.material import Material
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.kinematics_model import chain

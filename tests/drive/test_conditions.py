@@ -8,7 +8,7 @@ import pytest
 from cardan.drive.conditions import conditions, gathered, load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Case, Duty, Harmonic
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.errors import InputError
 from cardan.io import example
 from cardan.units import deg, rpm

@@ -18,7 +18,7 @@ from cardan.drive.joints.tracta import tilt
 from cardan.drive.models.dynamics_model import lengths_off, place_of, train
 from cardan.drive.models.geometry import geometry_from_points
 from cardan.drive.models.kinematics_model import as_hooke, mixed, refuse_kinds
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.drive.shaft import Layup, Ply, Shaft
 from cardan.drive.yokes import yoke_mass
 from cardan.joints import ConstantVelocity

@@ -16,7 +16,7 @@ from cardan.drive.accuracy import Error
 from cardan.drive.duty import Case
 from cardan.drive.joints import JOINTS
 from cardan.drive.movement import Harmonic
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.errors import InputError
 from cardan.io import loads
 from cardan.questions.gathering import gather, principal

@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 from cardan import Drive
 from cardan.catalogue import completed, material
-from cardan.drive.crack import ShaftCrack
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Case, Duty, Limits, Vehicle
 from cardan.drive.fields.keys import spelled
@@ -33,7 +32,7 @@ from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Random, Spectrum, Table
 from cardan.drive.profile_tube import Profile
 from cardan.drive.settings import Settings
-from cardan.drive.shaft import PointMass, Shaft, Spline
+from cardan.drive.shaft import PointMass, Shaft, ShaftCrack, Spline
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
 from cardan.io import dumps, loads

@@ -14,7 +14,7 @@ from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Case, Duty
 from cardan.drive.movement import Harmonic, Hitch
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.drive.shaft import Shaft
 from cardan.questions.gathering import gather, principal, ways
 from cardan.questions.motion.standing import still

@@ -15,7 +15,7 @@ from cardan.answers.reader import Reader
 from cardan.drive.conditions import in_poses
 from cardan.drive.cross import Cross
 from cardan.drive.joint_parts import Needles
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.io.examples import example
 from cardan.questions.gathering import gather
 from cardan.questions.life.life import life

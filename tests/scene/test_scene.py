@@ -14,7 +14,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.joints import JOINTS
 from cardan.drive.models.geometry import geometry
 from cardan.drive.movement import Harmonic
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.errors import InputError
 from cardan.figures import palette
 from cardan.io import example_names

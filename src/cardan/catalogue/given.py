@@ -16,7 +16,7 @@ from cardan.drive.fields.wording import in_words
 from cardan.drive.joint_parts import Rating
 from cardan.drive.joints.hooke import Hooke
 from cardan.drive.movement import Movement
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.reading.fields import fields_of, scaled
 from cardan.texts import _
 

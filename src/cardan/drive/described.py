@@ -11,11 +11,9 @@ from .duty import Duty, Limits
 from .joints import Joint
 from .joints.joint import Point
 from .movement import Movement
-from .pose import Pose
-from .settings import Settings, TitleBlock
+from .settings import Pose, Settings, Steering, TitleBlock
 from .shaft import Shaft
 from .station import Station
-from .steering import Steering
 from .support import Support
 
 Form: TypeAlias = Literal["points", "angles", "slopes"]

@@ -1,8 +1,9 @@
-"""What holds for the drive as a whole, and the title block of its report."""
+"""What holds for the drive as a whole: surroundings, poses, how it steers; and the title block of its report."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from cardan.units import plain, quantity
 
@@ -33,3 +34,26 @@ class TitleBlock:
     checked_by: str = plain("", doc="who checked the report, in its head")
     date: str = plain("", doc="date of the report, told in its head")
     logo: str = plain("", doc="PNG or SVG file with the logo in the head of the report, beside this file")
+
+
+Value: TypeAlias = float | tuple[float, ...] | bool | str
+Change: TypeAlias = tuple[str, Value]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Pose:
+    """A named set of changed fields and the share of time spent so."""
+
+    name: str = plain(doc="name of the pose")
+    share: float | None = quantity("share", None, doc="share of running time in this pose", low=0.0, high=1.0)
+    set: tuple[Change, ...] = plain(doc='changed fields by path: { "joints[1].centre_mm" = [1200, 0, -150] }')
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Steering:
+    """What a drive is to do as a steering column; its start position is straight ahead."""
+
+    lock: float = quantity("angle", doc="turn of the steering wheel from straight ahead to either lock", above=0.0)
+    centre_ratio: float = plain(
+        1.0, doc="speed ratio of output to steering wheel wanted straight ahead: 1 as uniform as can be", above=0.0
+    )

@@ -7,25 +7,21 @@ from collections.abc import Iterator
 from dataclasses import is_dataclass
 from typing import Any, get_args, get_origin
 
-from cardan.drive.accuracy import Cost, Error, Tolerance
-from cardan.drive.crack import ShaftCrack
+from cardan.drive.accuracy import Cost, Error, Inspection, Tolerance
 from cardan.drive.cross import Cross
 from cardan.drive.described import Input, Output
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Case, Duty, Harmonic, History, Limits, Upkeep, Vehicle
 from cardan.drive.fields.keys import KINDS, NAMED, written
-from cardan.drive.inspection import Inspection
 from cardan.drive.joint_parts import Needles, Rating, Section, Yoke
 from cardan.drive.joints import JOINTS
 from cardan.drive.machine import LAWS, Engine, EngineHarmonic, Event, RunUp
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
-from cardan.drive.pose import Pose
 from cardan.drive.profile_tube import Profile
-from cardan.drive.settings import Settings, TitleBlock
-from cardan.drive.shaft import Bond, Layup, Notch, Ply, PointMass, Segment, Shaft, Spline, Unbalance
+from cardan.drive.settings import Pose, Settings, Steering, TitleBlock
+from cardan.drive.shaft import Bond, Layup, Notch, Ply, PointMass, Segment, Shaft, ShaftCrack, Spline, Unbalance
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
-from cardan.drive.steering import Steering
 from cardan.drive.support import Support
 from cardan.mechanism.load import LinkMass, Load
 from cardan.mechanism.mechanism import Mechanism, Pair

@@ -23,7 +23,7 @@ from cardan.drive.conditions import used_speeds
 from cardan.drive.cross import Cross
 from cardan.drive.joint_parts import Needles
 from cardan.drive.joints import Hooke
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.questions.life.life import life
 from cardan.questions.life.rainflow import rainflow
 from cardan.units import deg, mm, rpm

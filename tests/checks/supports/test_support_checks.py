@@ -11,7 +11,7 @@ from cardan.checks import check
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Case, Duty
 from cardan.drive.movement import Harmonic
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.drive.support import Support
 from cardan.questions.life.life import life
 from cardan.units import deg, hour, rpm

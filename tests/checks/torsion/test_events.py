@@ -26,7 +26,7 @@ from cardan.drive.joint_parts import Needles
 from cardan.drive.joints import Hooke
 from cardan.drive.machine import Event, RunUp
 from cardan.drive.material import Material
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
 from cardan.questions.life.rainflow import rainflow

@@ -12,7 +12,7 @@ from cardan.drive.described import Input, Output
 from cardan.drive.duty import Duty, Limits
 from cardan.drive.fields.validity import point_problems
 from cardan.drive.joints import Hooke
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.drive.shaft import Shaft, Spline
 from cardan.reading.ranges import HUGE, allowed, in_range, out_of_range, shown
 from cardan.units import Key, deg

@@ -12,7 +12,7 @@ from cardan import Drive, InputError, equivalent_joint, forces, motion
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import geometry, in_form
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 

@@ -10,7 +10,7 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader, significant
 from cardan.checks.checks import check
 from cardan.drive.duty import Case, Duty, Limits
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.questions.bending.answer import answer, answer_of_map, ask, lacking
 from cardan.questions.bending.bending import bending_speeds, critical_speed_map
 from cardan.questions.gathering import gather

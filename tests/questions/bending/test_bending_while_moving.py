@@ -16,7 +16,7 @@ from cardan.drive.conditions import in_poses
 from cardan.drive.duty import Case, Duty
 from cardan.drive.material import Material
 from cardan.drive.movement import Harmonic
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.support import Support
 from cardan.formulas.critical_speed import uniform_speed

@@ -10,11 +10,10 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import eigh
 
 from cardan import Drive, InputError
-from cardan.drive.crack import ShaftCrack
 from cardan.drive.duty import Duty
 from cardan.drive.machine import RunUp
 from cardan.drive.material import Material
-from cardan.drive.shaft import Shaft, Unbalance
+from cardan.drive.shaft import Shaft, ShaftCrack, Unbalance
 from cardan.questions.bending.bending import bending_speeds
 from cardan.questions.bending.line_run import line_run
 from cardan.questions.bending.line_whirl import line_whirl

@@ -10,11 +10,10 @@ import pytest
 from scipy.integrate import dblquad
 
 from cardan import Drive, InputError
-from cardan.drive.crack import ShaftCrack
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
 from cardan.drive.material import Material
-from cardan.drive.shaft import PointMass, Shaft, Unbalance
+from cardan.drive.shaft import PointMass, Shaft, ShaftCrack, Unbalance
 from cardan.drive.support import Support
 from cardan.formulas.crack_compliance import crack_compliance
 from cardan.questions.bending.cracked_rotor import Crack, cracked_rotor

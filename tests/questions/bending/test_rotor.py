@@ -8,9 +8,8 @@ import pytest
 
 from cardan import Drive, InputError
 from cardan.drive.body import weight
-from cardan.drive.crack import ShaftCrack
 from cardan.drive.machine import RunUp
-from cardan.drive.shaft import PointMass, Shaft, Unbalance
+from cardan.drive.shaft import PointMass, Shaft, ShaftCrack, Unbalance
 from cardan.io import example
 from cardan.questions.bending.cracked_rotor import cracked_rotor
 from cardan.questions.bending.rotor import joined_rotors, rotor, rotor_response, rotor_run

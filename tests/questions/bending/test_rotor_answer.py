@@ -7,7 +7,7 @@ import pytest
 from cardan.answers.data import data
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
-from cardan.drive.crack import ShaftCrack
+from cardan.drive.shaft import ShaftCrack
 from cardan.io import example
 from cardan.questions.bending.rotor import rotor_response
 from cardan.questions.bending.rotor_answer import answer, ask, lacking

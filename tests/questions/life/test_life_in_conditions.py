@@ -14,7 +14,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Case, Duty, History
 from cardan.drive.joint_parts import Needles
 from cardan.drive.movement import Harmonic, Hitch
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.errors import InputError
 from cardan.questions.life.answer import answer
 from cardan.questions.life.bearing_life import bearing_life

@@ -14,7 +14,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Case, Duty, Harmonic
 from cardan.drive.joint_parts import Needles
 from cardan.drive.movement import Harmonic as Swing
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.drive.shaft import Spline
 from cardan.drive.support import Support
 from cardan.errors import InputError

@@ -12,7 +12,7 @@ from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Case, Duty
 from cardan.drive.movement import Harmonic, Hitch
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.questions.losses.answer import answer
 from cardan.questions.losses.losses import losses
 from cardan.units import deg, rpm

@@ -8,7 +8,7 @@ import pytest
 
 from cardan import Drive, InputError
 from cardan.drive.movement import Harmonic, Hitch
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.drive.shaft import Shaft, Spline
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.standing import still

@@ -8,8 +8,7 @@ import pytest
 from cardan import Drive, InputError, phases
 from cardan.drive.joints import JOINTS
 from cardan.drive.models.wobble import wobbling
-from cardan.drive.pose import Pose
-from cardan.drive.steering import Steering
+from cardan.drive.settings import Pose, Steering
 from cardan.io.drive_file import loads
 from cardan.questions.motion.motion import motion
 from cardan.questions.phases.own_laws import Search, course_of

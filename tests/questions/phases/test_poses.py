@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError, phases
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.units import deg
 from tests.builders import closing
 

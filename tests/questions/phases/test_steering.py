@@ -10,9 +10,8 @@ import scipy
 from cardan.answers.reader import USUAL
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import pose_drives
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose, Steering
 from cardan.drive.shaft import Shaft, Spline
-from cardan.drive.steering import Steering
 from cardan.io import load
 from cardan.io.edit import edit
 from cardan.questions.phases.answer import answer

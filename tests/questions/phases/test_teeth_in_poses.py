@@ -9,7 +9,7 @@ import scipy
 
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import pose_drives
-from cardan.drive.pose import Pose
+from cardan.drive.settings import Pose
 from cardan.drive.shaft import Shaft, Spline
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.phases import spline_pitch as module

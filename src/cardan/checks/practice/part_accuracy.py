@@ -9,7 +9,7 @@ from cardan.catalogue.rows import PartLimit
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.drive.inspection import Inspection
+from cardan.drive.accuracy import Inspection
 from cardan.texts import _, mark
 
 NAMES = {

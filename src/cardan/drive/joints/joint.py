@@ -62,9 +62,8 @@ from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 
-from cardan.drive.accuracy import Error, Tolerance
+from cardan.drive.accuracy import Error, Inspection, Tolerance
 from cardan.drive.cross import Cross
-from cardan.drive.inspection import Inspection
 from cardan.drive.joint_parts import Needles, Rating, Yoke
 from cardan.errors import Problem
 from cardan.later import later

@@ -16,7 +16,7 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.kinematics_model import Chain
-from cardan.drive.steering import Steering
+from cardan.drive.settings import Steering
 from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import peaks
 from cardan.maths.kernel import frames, mobius, polygon
