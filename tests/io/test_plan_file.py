@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cardan import InputError
-from cardan.batch.table.reduction import Reduce
+from cardan.batch.table.reductions import Reduce
 from cardan.io.plan_file import plan_of, read_plan
 from cardan.sweeps import GridAxis, Normal, SampledAxis, TableAxis, Uniform
 

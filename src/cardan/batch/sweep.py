@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.batch.table.reduction import Reduce
+from cardan.batch.table.reductions import Reduce
 from cardan.catalogue import Catalogue, shortened
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import tree_of

@@ -14,8 +14,7 @@ from cardan.batch.points.distributions import DISTRIBUTIONS, METHODS, Distributi
 from cardan.batch.points.fields import present, spots_of, spread_out
 from cardan.batch.search.goals import limit_of
 from cardan.batch.sweep import SweepWork, listed, work_of
-from cardan.batch.table.reduction import BINS, Reduce
-from cardan.batch.table.reductions import KINDS, reduce_of
+from cardan.batch.table.reductions import BINS, KINDS, Reduce, reduce_of
 from cardan.catalogue import Catalogue, catalogue, known_to
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, check, refuse

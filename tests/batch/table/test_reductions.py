@@ -10,8 +10,7 @@ import pytest
 from cardan import InputError
 from cardan.batch.points.axes import Points
 from cardan.batch.table import summaries
-from cardan.batch.table.reduction import Reduce
-from cardan.batch.table.reductions import KINDS, at_work, reduce_of
+from cardan.batch.table.reductions import KINDS, Reduce, at_work, reduce_of
 from cardan.batch.work import Column
 from cardan.sweeps import GridAxis, TableAxis
 
