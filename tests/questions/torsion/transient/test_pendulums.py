@@ -183,6 +183,8 @@ def test_steady_answers_tell_how_far_pendulums_oscillate_and_that_they_hit_their
         )
         for share in (1.1, 0.9)
     )
+    assert list(strikes(torsion_response(drive(Duty(speed=90.0, torque=LOAD), None)))) == []
+    assert list(strikes(torsion_response(drive(Duty(torque=LOAD), None), speed=[60.0, 90.0]))) == []
     for one, told in ((kept, 0), (struck, 1)):
         assert len(list(strikes(torsion_response(one)))) == told
         assert len(strikes_in_use(one)) == told

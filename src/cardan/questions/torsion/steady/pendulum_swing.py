@@ -36,8 +36,8 @@ def pendulum_swing(found: TorsionResponse) -> Array:
 
 def strikes(found: TorsionResponse) -> Iterator[Remark]:
     """Yield which pendulums would hit their stops, so that the motion told is none that the drive has."""
-    swing = np.nan_to_num(pendulum_swing(found)).reshape(-1, len(found.train.pendulums))
     speed = np.abs(found.speed).reshape(-1)
+    swing = np.nan_to_num(pendulum_swing(found)).reshape(speed.size, len(found.train.pendulums))
     for k, (e, hung) in enumerate(zip(found.train.pendulums, found.train.hung, strict=True)):
         worst = int(np.argmax(swing[:, k]))
         if hung.stop_angle is None or swing[worst, k] <= hung.stop_angle:
