@@ -54,6 +54,17 @@ def test_one_speed(name, share):
 
 
 @pytest.mark.slow
+def test_the_nearest_of_two_zones_is_named_by_all():
+    """From 700 to 1,290 rpm the zone at 1,321 is nearer than that at 669, which grows faster."""
+    drive = example("unstable-drive")
+    drive = replace(drive, duty=replace(drive.duty, speed=1000 * rpm, speed_range=(700 * rpm, 1290 * rpm)))
+    assert "unstable from 1 320.9 to 1 358.7 rpm" in told(of(drive).note, USUAL).replace("\u202f", " ")
+    tone, said = modes_said(drive, torsion_modes(drive), exact=proved_in_use(drive))
+    assert tone == "warning"
+    assert "from 1 320.9 to 1 358.7 rpm, near the operating range" in told(said, USUAL).replace("\u202f", " ")
+
+
+@pytest.mark.slow
 def test_a_sum_of_two_modes_is_seen_by_all():
     drive = combined()
     found = torsion_modes(drive)

@@ -151,7 +151,11 @@ def _judged(drive: Drive, found: TorsionModes, exact: Exact | None) -> tuple[Ton
 def _exactly(exact: Exact, used: tuple[float, float], reach: tuple[float, float]) -> tuple[Tone, Text] | None:
     """Return what the exact equations say of parametric resonance, None where they are proved to be stable."""
     inside = exact.overlapping(*used)
-    for k in (*inside, *exact.overlapping(*reach))[:1]:
+    beside = sorted(
+        exact.overlapping(*reach).tolist(),
+        key=lambda k: max(float(exact.lowest[k]) / used[1], used[0] / float(exact.highest[k])),
+    )
+    for k in (*inside, *beside)[:1]:
         text = _("parametrically unstable from {low:bare} to {high}, near the operating range ({zone})")
         if len(inside):
             text = _("parametrically unstable in the operating range, from {low:bare} to {high} ({zone})")
