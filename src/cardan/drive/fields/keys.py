@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import is_dataclass
-from itertools import islice
+from itertools import islice, tee
 from typing import Any, get_args
 
 from cardan.drive.described import Described
@@ -31,10 +31,10 @@ NAMED: dict[type, str] = {Material: "grade", Ply: "grade", History: "file"}
 def spelled(path: str, root: Any = Described) -> str:
     """Return the path of a field of a file that describes a ``root`` as we write it, with the unit we prefer."""
     steps = []
-    for step, fields_here in _along(path, root):
-        if not fields_here:
+    for step, one in _along(path, root):
+        if one is None:
             return path
-        steps.append(fields_here[0].spelling + step[len(step.partition("[")[0]) :])
+        steps.append(one.spelling + step[len(step.partition("[")[0]) :])
     return ".".join(steps)
 
 
@@ -57,24 +57,32 @@ def in_a_joint(drive: Described, key: str, inner: str = "") -> tuple[str, ...]:
 
 def meant(path: str, root: Any = Described) -> str:
     """Return what a field means that a path without unit leads to, not translated; empty where it leads nowhere."""
-    found = [fields_here for _step, fields_here in _along(path, root)]
-    return found[-1][0].key.doc if all(found) else ""
+    found = [one for _step, one in _along(path, root)]
+    return found[-1].key.doc if found[-1] is not None else ""
 
 
-def _along(path: str, root: Any) -> Iterator[tuple[str, list[Field]]]:
-    """Yield the steps of a path and the fields they may lead to; none where they lead nowhere."""
-    classes: list[Any] = [root]
+def _along(path: str, root: Any) -> Iterator[tuple[str, Field | None]]:
+    """Yield the steps of a path and the field each leads to, of the first kind that has it; None where it has none.
+
+    Kinds are looked at one by one, so that those behind it need not be loaded.
+    """
+    classes: Iterable[Any] = [root]
     for step in path.split("."):
-        name = step.partition("[")[0]
-        fields_here = [fields_of(cls)[name] for cls in classes if name in fields_of(cls)]
-        yield step, fields_here
-        classes = [inner for one in fields_here for inner in _classes(one.type)]
+        here, there = tee(_named(step.partition("[")[0], classes))
+        yield step, next(here, None)
+        classes = (inner for one in there for inner in _classes(one.type))
 
 
-def _classes(hint: Any) -> list[Any]:
-    """Return the classes of the tables that a type holds, every kind of them."""
-    parts = [part for part in (hint, *get_args(hint)) if is_dataclass(part)]
-    return [cls for part in parts for cls in (KINDS[part][0].values() if part in KINDS else [part])]
+def _named(name: str, classes: Iterable[Any]) -> Iterator[Field]:
+    """Yield the fields of a name that classes have."""
+    return (fields_of(cls)[name] for cls in classes if name in fields_of(cls))
+
+
+def _classes(hint: Any) -> Iterator[Any]:
+    """Yield the classes of the tables that a type holds, every kind of them."""
+    for part in (hint, *get_args(hint)):
+        if is_dataclass(part):
+            yield from KINDS[part][0].values() if part in KINDS else (part,)
 
 
 # A drive, or a mechanism, as the nested tables of its file: preferred units, defaults left out, every number exact.

@@ -23,10 +23,10 @@ from cardan.units import deg, mm, plain
 from .common import inner
 from .common import site as drawn
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
+from .common.laws import waved
 from .common.site import Site
 from .joint import CROSS_ONLY, REFUSALS, Joint
 from .joint import Inside as Measure
-from .weiss import waved
 
 PLACES = 64
 """Places of a turn at which the loops are closed one after the other; between them all at once."""

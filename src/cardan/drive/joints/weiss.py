@@ -18,6 +18,7 @@ from cardan.units import deg, plain, quantity
 
 from .common import site as drawn
 from .common.inner import DRIVEN, DRIVING, Contact, InnerPair, Stance, carried, centred
+from .common.laws import waved
 from .common.site import Site
 from .joint import CROSS_ONLY, NO_BEARING, REFUSALS, Inside, Joint, both_or_none, missed
 
@@ -228,7 +229,6 @@ class Weiss(Joint):
 # A law of motion known point by point: its derivatives by its harmonics.
 
 SAMPLES = 256  # places in a turn at which a law is looked at; a joint that turns has no harmonics of half that order
-NOISE = 1e-15  # harmonics below this [rad] are rounding; their derivatives would grow with the order
 
 
 def course(angle: Array, angle_error: Callable[[Array], Array]) -> tuple[Array, Array, Array]:
@@ -243,20 +243,6 @@ def course(angle: Array, angle_error: Callable[[Array], Array]) -> tuple[Array, 
     ['0.078332691', '1.186482990', '-0.704994219']
     """
     return waved(angle, np.asarray(angle_error(np.arange(SAMPLES) * (2.0 * np.pi / SAMPLES)), dtype=float))
-
-
-def waved(angle: Array, samples: Array) -> tuple[Array, Array, Array]:
-    """Return the same of a law given by its leads at even places of a turn, array (p,) [rad]."""
-    theta = np.asarray(angle, dtype=float)
-    if not np.all(np.isfinite(samples)):
-        nothing = theta + np.nan
-        return nothing, nothing, nothing
-    wave = np.fft.rfft(samples) / len(samples)
-    wave[1:] *= 2.0
-    orders = np.flatnonzero(np.abs(wave[: len(samples) // 2]) > NOISE)
-    turn = np.exp(1j * theta[..., None] * orders)
-    parts = wave[orders]
-    return ((turn @ parts).real, 1.0 + (turn @ (1j * orders * parts)).real, (turn @ (-(orders**2) * parts)).real)
 
 
 # Balls between circular grooves whose centres stand off the joint: curved Weiss grooves, offset Rzeppa grooves.

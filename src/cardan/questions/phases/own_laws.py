@@ -15,7 +15,7 @@ import numpy as np
 import scipy
 
 from cardan.drive.drive import Drive
-from cardan.drive.joints.weiss import waved
+from cardan.drive.joints.common.laws import waved
 from cardan.drive.models.kinematics_model import given_chain
 from cardan.maths.arrays import Array
 from cardan.questions.motion.equivalence import SYNCHRONOUS

@@ -252,3 +252,26 @@ def course(angle: Array, tau: Array, places: int) -> tuple[Array, Array, Array]:
 def places(links: int) -> int:
     """Return how many different places links at equal angles take within half a turn: two opposite ones take one."""
     return links // 2 if links % 2 == 0 else links
+
+
+# A law of motion known point by point: its derivatives by its harmonics.
+
+NOISE = 1e-15  # harmonics below this [rad] are rounding; their derivatives would grow with the order
+
+
+def waved(angle: Array, samples: Array) -> tuple[Array, Array, Array]:
+    """Return a smooth law of period 2π with two derivatives, given by its leads at even places of a turn.
+
+    angle (...) [rad]: θ; samples (p,) [rad]: T - θ.
+    Returns angle_error, ratio, slope (...) [rad, 1, 1/rad]: T - θ, T' and T''; nan where the law has none.
+    """
+    theta = np.asarray(angle, dtype=float)
+    if not np.all(np.isfinite(samples)):
+        nothing = theta + np.nan
+        return nothing, nothing, nothing
+    wave = np.fft.rfft(samples) / len(samples)
+    wave[1:] *= 2.0
+    orders = np.flatnonzero(np.abs(wave[: len(samples) // 2]) > NOISE)
+    turn = np.exp(1j * theta[..., None] * orders)
+    parts = wave[orders]
+    return ((turn @ parts).real, 1.0 + (turn @ (1j * orders * parts)).real, (turn @ (-(orders**2) * parts)).real)
