@@ -9,11 +9,13 @@ from cardan.answers.quantity import Quantity, say
 from cardan.answers.question import Lacking
 from cardan.drive.drive import Drive
 from cardan.drive.models.kinematics_model import unlike_hooke
+from cardan.later import later
 from cardan.questions.motion.equivalence import SYNCHRONOUS, each_uniform
 from cardan.texts import _
 
 from .comparison import BookComparison, book_comparison
-from .figure import book_figure
+
+drawn = later("cardan.book.figure")
 
 ALIKE = 5e-4
 """Share of the exact value below which an approximation agrees with it to three digits."""
@@ -71,7 +73,7 @@ def answer(drive: Drive, result: BookComparison) -> Answer:
             rule=Quantity(float(result.rule_of_practice), "angle", decimals=3),
             exact=Quantity(joint_angle, "angle", decimals=3),
         ),
-        figures=lambda: (book_figure(result),),
+        figures=lambda: (drawn().book_figure(result),),
         tables=(
             Table(
                 name="approximations",

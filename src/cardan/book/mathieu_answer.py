@@ -12,13 +12,15 @@ from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
+from cardan.later import later
 from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.model.answer import lacking as lacking_of_torsion
 from cardan.texts import _, mark
 
-from .figure import modes_chart_figure
 from .mathieu_modes import JOINTS, MathieuModes
 from .mathieu_modes import mathieu_modes as _modes
+
+drawn = later("cardan.book.figure")
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 
@@ -65,7 +67,7 @@ def answer(drive: Drive, result: MathieuModes) -> Answer:
         tables=tuple(_tables(result)),
         remarks=(*yokes_estimated(drive), *_remarks(result)),
         keys=tuple(_keys(result)),
-        figures=lambda: (modes_chart_figure(result),),
+        figures=lambda: (drawn().modes_chart_figure(result),),
         facts={
             "speed": Quantity(result.speed, "angular_speed"),
             "nearest_mode": int(result.number[k]),

@@ -11,12 +11,15 @@ from cardan.drive.conditions import LoadCase, under
 from cardan.drive.drive import Drive
 from cardan.drive.machine import Event, RunUp
 from cardan.errors import InputError, Problem
+from cardan.later import later
 from cardan.questions.forces.turn_loads import TurnLoads, case_loads
 from cardan.questions.life.rainflow import Cycles, rainflow
-from cardan.questions.torsion.transient.torsion_transient import event_torque, run_up_torque
 from cardan.texts import _, language
 
 from .load_case import Vibration
+
+transient = later("cardan.questions.torsion.transient.torsion_transient")
+"""How events go on in time: few drives say any."""
 
 CLASSES = (200, 50)
 """Classes of range and of mean into which more different cycles than these have are sorted."""
@@ -67,7 +70,8 @@ def _followed(drive: Drive, event: Event | RunUp | None, _language: str) -> dict
     if isinstance(event, RunUp):
         drive = replace(drive, duty=replace(drive.duty, run_up=event))
     try:
-        torque, shafts = event_torque(drive, event) if isinstance(event, Event) else run_up_torque(drive)
+        known = transient()
+        torque, shafts = known.event_torque(drive, event) if isinstance(event, Event) else known.run_up_torque(drive)
     except InputError as error:
         return error.problems
     if not np.all(np.isfinite(torque)):

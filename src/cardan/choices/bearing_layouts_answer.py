@@ -11,6 +11,7 @@ from cardan.answers.question import Lacking
 from cardan.drive.drive import Drive
 from cardan.drive.models.machine_held import balls_of
 from cardan.errors import refuse
+from cardan.later import later
 from cardan.mechanism.counting import Group, minus_groups
 from cardan.mechanism.layouts import BEARINGS
 from cardan.mechanism.mechanism import PAIRS
@@ -19,7 +20,8 @@ from cardan.texts import _, mark
 
 from .bearing_layouts import BearingLayouts, HeldDrive
 from .bearing_layouts import bearing_layouts as search
-from .bearing_layouts_figure import layouts_figure
+
+drawn = later("cardan.choices.bearing_layouts_figure")
 
 __all__ = ["answer", "ask", "chosen", "lacking", "otherwise", "spelled"]
 
@@ -62,7 +64,7 @@ def answer(drive: Drive, result: BearingLayouts) -> Answer:
         title=_("Statically determinate layouts"),
         sentence=_sentence(result),
         tone="plain" if result.best else "warning",
-        figures=lambda: (layouts_figure(result),) if result.best else (),
+        figures=lambda: (drawn().layouts_figure(result),) if result.best else (),
         tables=(*((_layouts(result),) if result.best else ()), _groups()),
         remarks=(*_remarks(result), *yokes_estimated(drive)),
         facts=_facts(result),

@@ -17,7 +17,6 @@ from cardan.checks.audit.answers_agree import Compared, audit, verdict_on
 from cardan.checks.check import part_of
 from cardan.checks.checks import CHECKS, check
 from cardan.checks.design import design
-from cardan.checks.figure import check_figures
 from cardan.checks.key_figures import key_figures
 from cardan.checks.torsion.line import NO_MODEL
 from cardan.checks.verdict import Verdict
@@ -37,12 +36,15 @@ from cardan.checks.verdict_table import (
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import bare_path
 from cardan.drive.fields.wording import counted, in_words
+from cardan.later import later
 from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.steady.pendulum_swing import strikes_in_use
 from cardan.texts import _, mark, plural
 from cardan.units import dimension_of, factor
 
 from .remedy import Remedy, most_helpful, remedies, typed
+
+drawn = later("cardan.checks.figure")
 
 REMEDIES = 3
 """Remedies shown of each failed verdict; programs get all."""
@@ -166,7 +168,7 @@ def answer(drive: Drive, result: Checked, *, sources: bool = False, missing: boo
         else "good"
         if result.binding
         else "plain",
-        figures=lambda: check_figures(result.told, name=drive.name),
+        figures=lambda: drawn().check_figures(result.told, name=drive.name),
         tables=tuple(_tables(drive, result, sources=sources, missing=missing)),
         remarks=(
             *yokes_estimated(drive),

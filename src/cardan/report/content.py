@@ -139,7 +139,8 @@ def _said(on: Subject, limits: Judged, source_text: str | None, *, full: bool) -
 
 def placed(on: Subject) -> tuple[list[Question], list[Question]]:
     """Return the questions for which the drive file says enough: those of the main part, and those that stand aside."""
-    found = {name: one for name, one in QUESTIONS.items() if not one.lacking(principal(one, on.drive))}
+    some = {name: one for name, one in QUESTIONS.items() if one.place.part != "nowhere"}
+    found = {name: one for name, one in some.items() if not one.lacking(principal(one, on.drive))}
     order = sorted(found.values(), key=lambda one: one.place.order)
     aside = [one for one in order if one.place.part == "aside" or one.place.beside in found]
     return [one for one in order if one.place.part == "main" and one not in aside], aside

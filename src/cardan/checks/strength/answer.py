@@ -24,15 +24,17 @@ from cardan.checks.verdict_table import (
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.torsional_layout import has_torsion
+from cardan.later import later
 from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.steady.pendulum_swing import strikes_in_use
 from cardan.texts import _, mark, plural
 
 from .event_damage import cheapest, event_damages, events_lost, ramp_damages
-from .figure import strength_figures
 from .omitted import LeftOut, Vibration
 from .part_strength import ShaftStrength
 from .strength import LITTLE, Strength, left_out, reached, strength
+
+drawn = later("cardan.checks.strength.figure")
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 
@@ -89,7 +91,7 @@ def answer(drive: Drive, result: Strength) -> Answer:
         title=_("Strength"),
         sentence=_sentence(result) if not tired else _ending(drive, result, tired),
         tone=tone,
-        figures=lambda: strength_figures(result),
+        figures=lambda: drawn().strength_figures(result),
         tables=tuple(_tables(drive, result)),
         remarks=(
             *_remarks(result),

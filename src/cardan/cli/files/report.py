@@ -23,19 +23,22 @@ from cardan.drive.drive import Drive
 from cardan.drive.settings import TitleBlock
 from cardan.errors import Problem, check
 from cardan.files import write_bytes
+from cardan.later import later
 from cardan.mechanism.mechanism import Mechanism
 from cardan.questions.motion.answer import sentence
 from cardan.questions.motion.turning import each_shaft
 from cardan.reading.fields import fields_of
 from cardan.report.block import capital
-from cardan.report.compare import Variant, compared
 from cardan.report.content import Excerpt
 from cardan.report.look import look_of
-from cardan.report.mechanism import content as of_mechanism
 from cardan.report.render.renderer import form_of, renderer_for
 from cardan.report.report import report as write
 from cardan.texts import _
 from cardan.units import rpm
+
+of_mechanism = later("cardan.report.mechanism", of="content")
+several = later("cardan.report.compare")
+"""Reports of a mechanism, and of several drives side by side."""
 
 
 def _headed(name: str) -> Any:
@@ -108,7 +111,7 @@ def report(
         machine = mechanisms.on_duty(drive, speed_rpm)
         block, look = TitleBlock(**head), None if template is None else look_of(template)
         with about(str(file)), watching(_("writing the report")):
-            said = of_mechanism(machine, block, source_text=text, full=full, folder=folder, look=look)
+            said = of_mechanism()(machine, block, source_text=text, full=full, folder=folder, look=look)
             write_bytes(place, renderer_for(place, interactive=interactive)(said))
         return _told(place, said.judgement.text, file, machine, open_=open_, json=json)
     if speed_rpm is not None:
@@ -143,9 +146,9 @@ def _compared(files: Sequence[Path], place: Path, *, open_: bool, json: bool) ->
     variants = []
     for name, file in zip(names, files, strict=True):
         drive = read_with_text(file)[0]
-        variants.append(Variant(name=name, drive=drive, known=known_to(drive, file.parent)))
+        variants.append(several().Variant(name=name, drive=drive, known=known_to(drive, file.parent)))
     with watching(_("comparing the drives")) as progress:
-        page = compared(variants, progress)
+        page = several().compared(variants, progress)
     write_bytes(place, form_of(place, "--out").excerpt(Excerpt(title=", ".join(names), page=page)))
     return _told(place, page.answer, open_=open_, json=json)
 

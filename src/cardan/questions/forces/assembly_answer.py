@@ -16,14 +16,26 @@ from cardan.drive.fields.wording import key_text
 from cardan.drive.models.machine_held import machine_held, machines_of
 from cardan.errors import InputError
 from cardan.figures.figure import Figure
+from cardan.later import later
 from cardan.maths.ties import foremost, largest
 from cardan.questions.assumed import centred_by_housings, held_by_machines
 from cardan.questions.motion.kinds import made_true
 from cardan.texts import _, mark, plural
 
 from .assembly import AssemblyForces, Peak, assembly
-from .figures.assembly import misalignment_figures
-from .force_tables import ROUNDING, curve, from_start, joint_heads, size, support_heads, support_names, together, vector
+from .force_tables import (
+    ROUNDING,
+    curve,
+    from_start,
+    joint_heads,
+    size,
+    support_heads,
+    support_names,
+    together,
+    vector,
+)
+
+drawn = later("cardan.questions.forces.figures.assembly")
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 
@@ -83,7 +95,7 @@ def answer(drive: Drive, result: AssemblyForces, curves: AssemblyForces | None =
 
 
 def _figures(drive: Drive, result: AssemblyForces) -> tuple[Figure, ...]:
-    return misalignment_figures(result, support_names(drive)) if _top(result) > SMALL else ()
+    return drawn().misalignment_figures(result, support_names(drive)) if _top(result) > SMALL else ()
 
 
 def _top(result: AssemblyForces) -> float:

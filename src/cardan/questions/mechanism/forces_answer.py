@@ -11,6 +11,7 @@ from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark,
 from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.mechanism.mechanism import PAIRS, Mechanism
@@ -19,12 +20,13 @@ from cardan.questions.mobility.rounded import rounded
 from cardan.texts import _, mark, plural
 from cardan.units import preferred
 
-from .figure import forces_figures
 from .forces import MechanismForces
 from .forces import mechanism_forces as ask
 from .motion import peak
 from .motion_answer import lacking as motion_lacking
 from .transfer import input_of
+
+drawn = later("cardan.questions.mechanism.figure")
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
@@ -62,7 +64,7 @@ def answer(mechanism: Mechanism, result: MechanismForces, listed: MechanismForce
         title=_("Forces"),
         sentence=_sentence(result),
         tone="failed" if slips else "warning" if held.redundant else "plain",
-        figures=lambda: forces_figures(result),
+        figures=lambda: drawn().forces_figures(result),
         tables=tuple(_tables(result, held)),
         remarks=(*rounded(mechanism), *_remarks(result, held)),
         keys=tuple(_keys(result)),

@@ -13,6 +13,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.errors import refuse
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.ties import tidied
 from cardan.mechanism.mechanism import Mechanism
@@ -20,10 +21,11 @@ from cardan.questions.mobility.rounded import rounded
 from cardan.texts import _, mark
 from cardan.units import deg, preferred
 
-from .figure import motion_figures
 from .motion import WAYS, LinkMotion, MechanismMotion, PartErrors, peak
 from .motion import mechanism_motion as ask
 from .transfer import Input, input_of
+
+drawn = later("cardan.questions.mechanism.figure")
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "sentence"]
 
@@ -49,7 +51,7 @@ def answer(mechanism: Mechanism, result: MechanismMotion, listed: MechanismMotio
         title=_("Motion"),
         sentence=sentence(result),
         tone="plain",
-        figures=lambda: motion_figures(result),
+        figures=lambda: drawn().motion_figures(result),
         tables=tuple(_tables(result, listed)),
         remarks=(*rounded(mechanism), *_remarks(result)),
         keys=tuple(_keys(result)),

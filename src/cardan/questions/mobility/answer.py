@@ -17,6 +17,7 @@ from cardan.drive.fields.wording import key_text
 from cardan.drive.models.machine_held import balls_of, machines_of
 from cardan.errors import InputError, refuse
 from cardan.figures.figure import Figure
+from cardan.later import later
 from cardan.mechanism.counting import Partition, joins, partition
 from cardan.mechanism.mechanism import PAIRS, Mechanism
 from cardan.mechanism.rounding import exactly
@@ -26,10 +27,11 @@ from cardan.texts import _, mark, plural
 
 from .constraint_release import Repair, advice, strain, working
 from .drive_mechanism import SUPPORT, mechanism_of, support_name
-from .figure import closure_figures, mobility_figures, turn_figures
 from .finite_mobility import FiniteMobility, MobilityTurn, finite_mobility, mobility_over_turn, reach
 from .mobility import JointHold, Mobility, mobility
 from .rounded import rounded
+
+drawn = later("cardan.questions.mobility.figure")
 
 __all__ = ["COLUMNS", "Turned", "answer", "ask", "brief", "lacking", "otherwise", "turned"]
 
@@ -134,9 +136,9 @@ def _answer(
 
 
 def _figures(result: Mobility, around: Turned | None) -> tuple[Figure, ...]:
-    over = () if around is None else turn_figures(around.positions)
-    closure = () if around is None or around.closure is None else closure_figures(around.closure)
-    return (*mobility_figures(result), *over, *closure)
+    over = () if around is None else drawn().turn_figures(around.positions)
+    closure = () if around is None or around.closure is None else drawn().closure_figures(around.closure)
+    return (*drawn().mobility_figures(result), *over, *closure)
 
 
 def _tone(result: Mobility, around: Turned | None) -> Tone:

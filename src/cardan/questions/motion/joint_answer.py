@@ -15,14 +15,16 @@ from cardan.answers.quantity import Quantity, Say, say
 from cardan.catalogue.rows import JointType
 from cardan.drive.joints import JOINTS
 from cardan.drive.joints.joint import Inside, Joint
+from cardan.later import later
 from cardan.maths.ties import foremost
 from cardan.reading.fields import fields_of
 from cardan.texts import _, plural
 from cardan.units import deg
 
-from .figures.joint_law import joint_figures
 from .joint_law import JointAngles, JointTurn, joint_over_angles, joint_turn, types_of
 from .kinds import joint_inside, quantity_of
+
+drawn = later("cardan.questions.motion.figures.joint_law")
 
 __all__ = ["Beside", "Named", "answer", "answer_of_kinds", "ask", "sentence_of", "written"]
 
@@ -87,7 +89,7 @@ def answer(result: Beside) -> Answer:
         title=_("Joints by themselves"),
         sentence=_sentence(result),
         tone="warning" if beyond else "plain",
-        figures=lambda: joint_figures(result.turns, result.joint_angles, result.names),
+        figures=lambda: drawn().joint_figures(result.turns, result.joint_angles, result.names),
         tables=tuple(_tables(result)),
         remarks=tuple(_remarks(result)),
         facts=_facts(result),

@@ -8,10 +8,13 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from cardan.errors import MissingExtraError, refuse
+from cardan.later import later
 from cardan.report.content import Content, Excerpt
 from cardan.texts import _
 
-from . import html, typeset, workbook
+from . import html
+
+typeset, workbook = later("cardan.report.render.typeset"), later("cardan.report.render.workbook")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,8 +34,18 @@ HTML = Renderer(written=html.written, excerpt=html.excerpt, interactive=html.int
 RENDERERS: dict[str, Renderer] = {
     ".html": HTML,
     ".htm": HTML,
-    ".pdf": Renderer(written=typeset.written, excerpt=typeset.excerpt, library="typst", extra="pdf"),
-    ".xlsx": Renderer(written=workbook.written, excerpt=workbook.excerpt, library="xlsxwriter", extra="xlsx"),
+    ".pdf": Renderer(
+        written=lambda content: typeset().written(content),
+        excerpt=lambda excerpt: typeset().excerpt(excerpt),
+        library="typst",
+        extra="pdf",
+    ),
+    ".xlsx": Renderer(
+        written=lambda content: workbook().written(content),
+        excerpt=lambda excerpt: workbook().excerpt(excerpt),
+        library="xlsxwriter",
+        extra="xlsx",
+    ),
 }
 """Every form by the ending of its file."""
 

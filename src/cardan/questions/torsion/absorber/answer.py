@@ -13,6 +13,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import tree_of
 from cardan.formulas.damping import LOSS, SHAFT_SOURCE
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.assumed import yokes_estimated
@@ -24,7 +25,8 @@ from cardan.units import deg
 from .absorber import Absorber
 from .absorber import absorber as ask
 from .absorber_search import Setting
-from .figure import absorber_figures
+
+drawn = later("cardan.questions.torsion.absorber.figure")
 
 __all__ = ["answer", "ask", "lacking"]
 
@@ -53,7 +55,7 @@ def answer(drive: Drive, result: Absorber, *, chosen: bool = False) -> Answer:
         tone=tone,
         tables=(_settings(result), _hosts(result), _station(result)),
         remarks=(*_remarks(result, away), *yokes_estimated(drive)),
-        figures=lambda: absorber_figures(result),
+        figures=lambda: drawn().absorber_figures(result),
         facts=_facts(result),
         full=lambda: _curves(result),
     )

@@ -14,16 +14,18 @@ from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.torsional_layout import has_torsion
 from cardan.formulas.damping import SHAFT_SOURCE
+from cardan.later import later
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import alike
 from cardan.questions.assumed import yokes_estimated
 from cardan.texts import _, plural
 
-from .figure import modes_figures
 from .inputs import base_period
 from .torsion import Crossing, Node, TorsionModes, orders
 from .torsion import torsion_modes as ask
 from .torsional_train import TorsionalTrain
+
+drawn = later("cardan.questions.torsion.model.figure")
 
 __all__ = ["answer", "ask", "lacking"]
 
@@ -104,7 +106,7 @@ def answer(drive: Drive, result: TorsionModes, *, exact: Exact | None = None) ->
         title=_("Torsional modes"),
         sentence=Joined([said, "."], between=""),
         tone=tone,
-        figures=lambda: modes_figures(result),
+        figures=lambda: drawn().modes_figures(result),
         tables=tuple(_tables(drive, result, exact)),
         remarks=tuple(_remarks(drive, result, exact)),
         keys=tuple(_keys(result)),

@@ -12,6 +12,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, Text, Written, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
 from cardan.drive.fields.wording import counted
+from cardan.later import later
 from cardan.maths.ties import foremost
 from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.absorber.answer import (
@@ -28,10 +29,11 @@ from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.texts import _
 
 from .designs import Free
-from .figure import torsion_design_figures
 from .modal_excitation import NodeRule
 from .optimise import OptimisedTorsion, Peak, Worst
 from .spread import Spread
+
+drawn = later("cardan.questions.torsion.optimise.figure")
 
 AGREE = 0.02
 """Independent searches whose answers differ by no more than this share agree."""
@@ -71,7 +73,7 @@ def answer(drive: Drive, result: OptimisedTorsion) -> Answer:
         tone=tone,
         tables=(_values(result), _peaks(result)),
         remarks=(*_remarks(result), *_elsewhere(drive), *yokes_estimated(drive)),
-        figures=lambda: torsion_design_figures(result),
+        figures=lambda: drawn().torsion_design_figures(result),
         facts=_facts(result),
         full=lambda: _curves(result),
     )

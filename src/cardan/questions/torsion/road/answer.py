@@ -16,14 +16,16 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.movement import Random
 from cardan.errors import refuse
+from cardan.later import later
 from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.model.answer import assumptions, left_out, nonsynchronous
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.texts import _, mark
 from cardan.units import hour
 
-from .figure import road_figures
 from .road import MULTIPLE, NEAR, SLOW, STRONG, RoadTorsion, road_torsion
+
+drawn = later("cardan.questions.torsion.road.figure")
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
@@ -60,7 +62,7 @@ def answer(drive: Drive, result: RoadTorsion) -> Answer:
         title=_("Torsion along the movement"),
         sentence=_sentence(result) if known else _("no steady motion was found anywhere on the movement."),
         tone=tone,
-        figures=lambda: road_figures(result) if known else (),
+        figures=lambda: drawn().road_figures(result) if known else (),
         tables=(_elements(result), _orders(result), *_damages(result)) if known else (),
         remarks=tuple(_remarks(drive, result)),
         keys=tuple(_keys(result)) if known else (),

@@ -14,6 +14,7 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.machine import Engine
 from cardan.errors import refuse
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.assumed import yokes_estimated
@@ -24,12 +25,13 @@ from cardan.questions.torsion.model.excitation import engine_torque
 from cardan.questions.torsion.model.torsional_modes import main_order
 from cardan.texts import _, mark, plural
 
-from .figure import response_figures
 from .pendulum_swing import strikes
 from .run_stability import Verdict, verdict_words
 from .settling import LONGEST
 from .several import Beside
 from .torsion_response import TorsionResponse, level, peak_refined, torsion_response
+
+drawn = later("cardan.questions.torsion.steady.figure")
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "worst"]
 
@@ -82,7 +84,7 @@ def answer(drive: Drive, result: TorsionResponse) -> Answer:
         title=_("Orders over speed") if swept else _("Torques in steady running"),
         sentence=said,
         tone=tone,
-        figures=lambda: response_figures(result) if found else (),
+        figures=lambda: drawn().response_figures(result) if found else (),
         tables=tables if found else (),
         remarks=tuple(_remarks(drive, result)),
         keys=() if swept or not found else (_key(result),),

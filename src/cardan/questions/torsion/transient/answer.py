@@ -11,6 +11,7 @@ from cardan.answers.answer import FILE, Answer, Column, Remark, Table, Tone, clo
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.drive.drive import Drive
 from cardan.drive.machine import RunUp, TorqueHistory
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.assumed import yokes_estimated
@@ -18,9 +19,10 @@ from cardan.questions.torsion.model.answer import assumptions, left_out
 from cardan.questions.torsion.model.torsional_modes import main_order
 from cardan.texts import _
 
-from .figure import transient_figures
 from .simulation import Status
 from .torsion_transient import Transient
+
+drawn = later("cardan.questions.torsion.transient.figure")
 
 __all__ = ["answer"]
 
@@ -36,7 +38,7 @@ def answer(drive: Drive, result: Transient) -> Answer:
         title=_("Torques and speeds in time"),
         sentence=said,
         tone=tone,
-        figures=lambda: transient_figures(result),
+        figures=lambda: drawn().transient_figures(result),
         tables=(element_table(result, drive.duty.run_up), _station_table(result)),
         remarks=(*remarks(result), *left_out(drive), *_unread(drive), *yokes_estimated(drive), *_next(drive, result)),
         facts=facts(result),

@@ -15,6 +15,7 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.machine import RunUp
 from cardan.errors import refuse
+from cardan.later import later
 from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.answer import left_out
@@ -23,9 +24,10 @@ from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
 from cardan.texts import _, mark
 
 from .answer import element_table, everything, facts, largest, remarks, speed_at
-from .figure import transient_figures
 from .fixed_steps import FixedStep
 from .torsion_transient import AFTER, Transient, transient
+
+drawn = later("cardan.questions.torsion.transient.figure")
 
 # A run-up of the duty followed in time, in steps of one length, unless that takes too long.
 
@@ -113,7 +115,7 @@ def answer(drive: Drive, result: FollowedRunUp) -> Answer:
         title=title,
         sentence=_sentence(result, motion),
         tone="warning" if alarms else "plain",
-        figures=lambda: transient_figures(motion),
+        figures=lambda: drawn().transient_figures(motion),
         tables=(element_table(motion, result.course), *passed),
         remarks=(*alarms, *remarks(motion), *left_out(drive), *estimated),
         keys=(key,),
