@@ -13,6 +13,7 @@ from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.torsional_layout import has_torsion
 from cardan.errors import InputError
+from cardan.formulas.pendulum import pendulum
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
@@ -29,8 +30,8 @@ def pendulum_swing(found: TorsionResponse) -> Array:
     """
     train = found.train
     each = [found.swing[..., e] for e in train.pendulums]
-    held = [one.count * one.mass * one.radius * (one.radius + one.length) for one in train.hung]
-    told = [one / (mass * found.speed**2) for one, mass in zip(each, held, strict=True)]
+    answers = [pendulum(one.mass, one.radius, one.length, 0.0, count=one.count).answer for one in train.hung]
+    told = [answer * one / found.speed**2 for one, answer in zip(each, answers, strict=True)]
     return np.stack(told, axis=-1) if told else np.zeros((*found.speed.shape, 0))
 
 
