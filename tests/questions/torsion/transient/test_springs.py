@@ -10,17 +10,23 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from cardan import Drive, InputError
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.drive.duty import Duty
+from cardan.drive.machine import HarmonicTorque
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station, ToNext
 from cardan.questions.torsion.model.answer import assumptions
 from cardan.questions.torsion.model.torsional_balance import balance, energy, slopes, spring_torque
 from cardan.questions.torsion.model.torsional_train import in_full, torsional_train
+from cardan.questions.torsion.steady.answer import answer
 from cardan.questions.torsion.steady.dynamic_torque import dynamic_torque
+from cardan.questions.torsion.steady.run_stability import Verdict
 from cardan.questions.torsion.steady.torsion_response import torsion_response
 from cardan.questions.torsion.transient.fixed_steps import FixedStep
 from cardan.questions.torsion.transient.torsion_transient import transient
 from cardan.questions.torsion.transient.transient import Adaptive
+from cardan.units import rpm
 
 TWISTS, TORQUES = (-0.2, -0.05, 0.0, 0.05, 0.2), (-700.0, -100.0, 0.0, 100.0, 700.0)
 BEND, SPEED, INERTIA, LOAD = math.radians(12.0), 60.0, 0.4, 80.0
@@ -170,6 +176,34 @@ def test_every_steady_answer_has_tables_and_friction() -> None:
     np.testing.assert_allclose(strong.low[:, 0], found.torque_lowest[:, 0], rtol=1e-6)
     run = transient(rubbing, span=0.2, start="settled", method=FAST).motion
     assert np.max(run.torque[:, 0]) == pytest.approx(found.torque_highest[1, 0], rel=0.01)
+
+
+@pytest.mark.slow
+def test_what_would_grow_without_its_friction_is_not_called_unstable() -> None:
+    """A torque amid the resonance: by `simulate` the torque comes from rest to -75.87 … 269.19 N·m and stays."""
+    buffer = ToNext(
+        twists=tuple(np.radians([-8.0, -3.0, 0.0, 3.0, 8.0])),
+        torques=(-900.0, -100.0, 0.0, 100.0, 900.0),
+        friction=25.0,
+    )
+    made = replace(
+        Drive.from_angles([BEND]),
+        shafts=(Shaft(number=1, length=0.5), Shaft(number=2, length=0.9, outer=0.06, wall=0.003)),
+        stations=(
+            Station(shaft=1, inertia=1.2, to_next=buffer),
+            Station(shaft=1, end="end", inertia=0.05),
+            Station(shaft=2, name="mill", end="end", inertia=0.4),
+        ),
+        duty=Duty(speed=600 * rpm, torque=80.0, torques=(HarmonicTorque(amplitude=60.0, order=1.0, station="mill"),)),
+    )
+    found = torsion_response(made)
+    assert found.torque_lowest[0] == pytest.approx(-75.87, abs=1.5)
+    assert found.torque_highest[0] == pytest.approx(269.19, abs=1.5)
+    assert found.floquet.spectral_radius > 1.2  # its springs and dampers alone
+    assert found.floquet.verdict == Verdict.UNKNOWN
+    said = answer(made, found)
+    assert (said.tone, said.code) == ("warning", 0)
+    assert "is not known: dry friction" in told(said.sentence, USUAL)
 
 
 def test_energy_and_slopes_are_those_of_the_table() -> None:

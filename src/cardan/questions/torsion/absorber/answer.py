@@ -436,5 +436,8 @@ def _stability(found: Any) -> Iterator[Remark]:
         return
     pairs = list(zip(*proof.unproved.T.tolist(), strict=True))[:NAMED]
     where = [say(_("{low:bare} to {high}"), low=speed(low, 4), high=speed(high, 4)) for low, high in pairs]
-    text = _("Stable at the speeds looked at, but not proved at {where}: backlash opens there, or the margin is small.")
+    text = _(
+        "Stable at the speeds looked at, but not proved at {where}: backlash opens or friction slips there, or the "
+        "margin is small."
+    )
     yield Remark(text=say(text, where=Joined(where)), tone="warning")

@@ -109,6 +109,9 @@ def _point(found: Stability) -> tuple[Tone, Text]:
     """Return what becomes of vibration at one point."""
     speed, verdict, rate = _speed(found.speed), int(found.verdict), float(found.growth_rate)
     time = Quantity(math.log(10.0) / abs(rate) if rate else math.inf, "time", 3)
+    if verdict == Verdict.UNKNOWN and np.isfinite(found.spectral_radius):
+        text = _("whether it is stable at {speed} is not known: dry friction sticks and slips.")
+        return "warning", say(text, speed=speed)
     if verdict == Verdict.UNKNOWN:
         return "failed", say(_("no steady motion was found at {speed}."), speed=speed)
     if verdict == Verdict.UNSTABLE:

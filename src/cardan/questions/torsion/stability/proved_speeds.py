@@ -340,6 +340,8 @@ class _Drive:
         there = there & stays_closed(whole, coefficient)
         matrix = np.where(there[:, None, None], matrix, 0.0)
         found = self._reduced(self.energy @ matrix @ self.back, coefficient, whole)
+        if whole.model.rubs and not self.drifts:  # as of `run_stability.floquet`: what grows without friction
+            there = there & (np.max(np.abs(np.linalg.eigvals(found)), axis=-1, initial=0.0) <= 1.0)
         force = np.where(there, force * np.sign(speeds), 0.0)
         return found.reshape(*places.shape, *found.shape[1:]), *(one.reshape(places.shape) for one in (there, force))
 

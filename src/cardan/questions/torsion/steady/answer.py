@@ -126,6 +126,8 @@ def _state(found: TorsionResponse) -> tuple[Tone, Text]:
         return "failed", say(text, rate=rate, zone=found.floquet.zone.name())
     if verdict == Verdict.NEUTRAL:
         return "warning", _("a small disturbance neither grows nor decays.")
+    if verdict == Verdict.UNKNOWN:
+        return "warning", _("whether a small disturbance decays is not known: dry friction sticks and slips.")
     changing = np.sign(found.torque_lowest) * np.sign(found.torque_highest) < 0.0
     if np.any(changing & (np.abs(found.steady.torque.mean) > 1e-6 * np.max(np.abs(found.torque_highest)))):
         return "warning", _("stable, but the torque changes its sign: joints and splines with backlash rattle.")
@@ -146,6 +148,11 @@ def _swept(found: TorsionResponse) -> tuple[Tone, Text]:
         element=found.train.elements[int(e)],
     )
     unstable = found.floquet.verdict == Verdict.UNSTABLE
+    unsure = (found.floquet.verdict == Verdict.UNKNOWN) & np.asarray(found.steady.found)
+    if not np.any(unstable) and np.any(unsure):
+        text = _("whether it is stable at {where} is not known: dry friction sticks and slips.")
+        where = ranges(np.abs(found.speed), unsure, "angular_speed")
+        return "warning", Joined([first, say(text, where=where)], between="; ")
     if not np.any(unstable):
         return "plain", Joined([first, _("stable throughout.")], between="; ")
     where = ranges(np.abs(found.speed), unstable, "angular_speed")
@@ -450,15 +457,16 @@ def _from_yokes(drive: Drive, found: TorsionResponse) -> bool:
 
 
 def _key(found: TorsionResponse) -> KeyFigure:
-    grows = int(found.floquet.verdict) == Verdict.UNSTABLE
+    verdict = int(found.floquet.verdict)
+    grows, unsure = verdict == Verdict.UNSTABLE, verdict == Verdict.UNKNOWN
     return KeyFigure(
         name="alternating_torque",
         title=_("largest alternating torque, ±"),
         place=found.train.elements[int(foremost(found.swing))],
         value=Quantity(float(np.max(found.swing)), "torque"),
         better="",
-        verdict=_("unstable") if grows else _("stable"),
-        tone="failed" if grows else "good",
+        verdict=_("unstable") if grows else _("unknown") if unsure else _("stable"),
+        tone="failed" if grows else "warning" if unsure else "good",
     )
 
 
