@@ -95,3 +95,15 @@ def test_steps_of_a_straight_drive_that_idles_tire_as_beside_next_to_no_torque()
     damage = float(np.max(start_damage(design(loaded), 1, step)))
     assert damage > 1e-4
     assert float(np.max(start_damage(design(idle), 1, step))) == pytest.approx(damage, rel=1e-5)  # of the torque
+
+
+@pytest.mark.parametrize(
+    ("path", "values"),
+    [("duty.speed_rpm", (400.0, 540.0)), ("duty.torque_Nm", (200.0, 300.0)), ("shafts[1].outer_mm", (44.0, 50.0))],
+)
+def test_many_drives_with_starts_are_each_alone(path, values):
+    made = drive(starts=12000.0)
+    (many,) = check(made, only=["start_fatigue"], vary={path: values})
+    each = [check(made, only=["start_fatigue"], vary={path: value})[0].value for value in values]
+    np.testing.assert_allclose(many.value, each, rtol=1e-9)
+    assert np.all(np.asarray(each) > 0.0)

@@ -202,7 +202,7 @@ def _of_turns(design: Design, k: int, section: Section) -> Array:
     rate: Array = np.zeros(design.shape)
     for share, one in stands(design):
         for case in lasting(one):
-            turns = share * np.asarray(case.share) * np.abs(case.speed or 0.0) / (2.0 * math.pi)
+            turns = share * np.asarray(case.share) * np.abs(0.0 if case.speed is None else case.speed) / (2.0 * math.pi)
             rate = rate + turns / np.maximum(fatigue(one, k, section, case).cycles, 1.0)
     return rate
 
