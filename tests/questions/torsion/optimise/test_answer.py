@@ -13,7 +13,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
 from cardan.questions.torsion.optimise.answer import answer, lacking, otherwise, reasons
-from cardan.questions.torsion.optimise.optimise import Grid, optimise_torsion
+from cardan.questions.torsion.optimise.optimise import Grid, Worst, optimise_torsion
 from cardan.report.block import page
 from cardan.texts import speaking
 from cardan.units import deg
@@ -39,6 +39,15 @@ def test_values_and_torques_are_those_of_the_search(found):
     assert list(values.columns[2].values) == [found.values[YOKE]]
     assert next(one for one in peaks.columns if one.key == "after").values == [found.peak_after.torque]
     assert page(said, USUAL).blocks
+
+
+def test_within_tolerances_too_nothing_falls_to_what_it_was(found):
+    worst = Worst(torque=50.0, speed=40.0, element=0, unstable=False, sides=())
+    for after, begins in ((49.9, "within its tolerances nothing that may change"), (20.0, "within its tolerances the")):
+        better = replace(found, worst_before=worst, worst_after=replace(worst, torque=after))
+        said = answer(DRIVE, better)
+        assert told(said.sentence, USUAL).startswith(begins)
+        assert (said.tone == "warning") is (after > 40.0)
 
 
 def test_the_joints_say_why(found):

@@ -9,7 +9,7 @@ import pytest
 
 from cardan import example, torsion_response
 from cardan.answers.data import as_csv
-from cardan.answers.quantity import told
+from cardan.answers.quantity import Quantity, told
 from cardan.answers.reader import USUAL, Reader
 from cardan.questions.torsion.model.answer import ranges
 from cardan.questions.torsion.steady import answer as home
@@ -60,3 +60,12 @@ def test_one_speed_has_its_orders_beside_each_other() -> None:
     assert len(stations.columns[0].values) == len(found.train.model.names)
     apart = [told(one.text, USUAL) for one in said.remarks if "non-synchronous" in told(one.text, USUAL)]
     assert apart[0].startswith("Order 6.8 does not repeat within two turns")
+
+
+def test_rounding_of_a_straight_drive_is_no_alternating_torque() -> None:
+    drive = replace(example("pto-baler"), movements=())
+    found = torsion_response(drive)
+    assert 0.0 < np.max(found.swing) < 1e-9
+    said = home.answer(drive, found)
+    assert "the alternating torque in shaft 2 is ±0 N·m about 150.0 N·m" in told(said.sentence, USUAL)
+    assert said.keys[0].value == Quantity(0.0, "torque")

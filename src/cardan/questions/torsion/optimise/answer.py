@@ -97,6 +97,12 @@ def _sentence(result: OptimisedTorsion) -> tuple[Tone, Say]:
         return "warning", say(text, **values)
     if result.worst_before is not None and result.worst_after is not None:
         before, after = (torque(one.torque) for one in (result.worst_before, result.worst_after))
+        if result.worst_after.torque > LITTLE * result.worst_before.torque and not result.worst_before.unstable:
+            text = _(
+                "within its tolerances nothing that may change makes it vibrate much less; largest alternating torque "
+                "±{after}, {band}."
+            )
+            return "warning", say(text, after=after, band=values["band"])
         text = _("within its tolerances the largest alternating torque falls from ±{before:bare} to ±{after}, {band}.")
         said = say(text, before=before, after=after, band=values["band"])
         return "warning" if result.worst_after.unstable or unstable(result) else "good", said

@@ -29,7 +29,7 @@ from .pendulum_swing import strikes
 from .run_stability import Verdict, verdict_words
 from .settling import LONGEST
 from .several import Beside
-from .torsion_response import TorsionResponse, level, peak_refined, torsion_response
+from .torsion_response import ROUNDING, TorsionResponse, level, peak_refined, torsion_response
 
 drawn = later("cardan.questions.torsion.steady.figure")
 
@@ -100,7 +100,7 @@ def _running(found: TorsionResponse) -> tuple[Tone, Text]:
     if not bool(found.steady.found):
         return "failed", say(_("no steady motion was found at {speed}."), speed=speed)
     e = int(foremost(found.swing))
-    swing = float(found.swing[e])
+    swing = _alternating(found)
     first = say(
         _("at {speed} the alternating torque in {element} is ±{amplitude} about {mean}"),
         speed=speed,
@@ -110,6 +110,12 @@ def _running(found: TorsionResponse) -> tuple[Tone, Text]:
     )
     tone, more = _state(found)
     return tone, Joined([first, more], between="; ")
+
+
+def _alternating(found: TorsionResponse) -> float:
+    """Return the largest alternating torque [N·m], 0 where it is nothing but rounding beside the mean torques."""
+    swing = float(np.max(found.swing))
+    return 0.0 if swing <= ROUNDING * float(np.max(np.abs(found.steady.torque.mean))) else swing
 
 
 def _state(found: TorsionResponse) -> tuple[Tone, Text]:
@@ -463,7 +469,7 @@ def _key(found: TorsionResponse) -> KeyFigure:
         name="alternating_torque",
         title=_("largest alternating torque, ±"),
         place=found.train.elements[int(foremost(found.swing))],
-        value=Quantity(float(np.max(found.swing)), "torque"),
+        value=Quantity(_alternating(found), "torque"),
         better="",
         verdict=_("unstable") if grows else _("unknown") if unsure else _("stable"),
         tone="failed" if grows else "warning" if unsure else "good",
