@@ -28,6 +28,7 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``mechanism``        pins of a cross, a contact, a slide or two axes in the bisecting plane, as the marks above say
 ``centring``         nothing holds its centre beside its mechanism
 ``repeated``         0: no parts alike hold the same
+``fitting``          itself: all its parts fit at once
 ``loaded``           nothing: no load in it is told
 ``rated``            no keys: no bearing in it has a life
 ``pressed``          no keys: no contact in it is judged
@@ -458,6 +459,13 @@ class Joint:
     def half_length(self, apart: float) -> float:
         """Return how far its yokes swing off its centre [m], ``apart`` where it has two crosses that stand so."""
         return 0.0
+
+    def fitting(self) -> Joint:
+        """Return the joint that tells what rubs in it: itself, unless parts that share the torque do not fit at once.
+
+        Rigid, such parts would press each other with any force; with their play they rub as those that fit.
+        """
+        return self
 
     @property
     def alike(self) -> int:

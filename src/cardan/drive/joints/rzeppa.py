@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -110,6 +110,13 @@ class Rzeppa(Joint):
     def alike(self) -> int:
         """Its balls."""
         return self.balls
+
+    def fitting(self) -> Rzeppa:
+        """Return it with grooves alike, at the mean of both offsets, in which all balls fit at once."""
+        if self.driving_offset is None or self.driven_offset is None or self.driving_offset == self.driven_offset:
+            return self
+        mean = 0.5 * (self.driving_offset + self.driven_offset)
+        return replace(self, driving_offset=mean, driven_offset=mean)
 
     def mechanism(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield its grooves with the balls; what holds as much where the grooves are not given."""

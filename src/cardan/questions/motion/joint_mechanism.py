@@ -104,6 +104,8 @@ def each_carried_in(
     joint: Joint, joint_angle: float, angle: ArrayLike, asked: Sequence[tuple[float, bool]], *, loads: bool = False
 ) -> list[JointCarried]:
     """Return the same for several coefficients of friction, and whether the driving shaft drives."""
+    if any(friction for friction, _fed in asked):
+        joint = joint.fitting()
     stance = stance_of(joint, joint_angle, np.atleast_1d(np.asarray(angle, dtype=float)))
     own = tuple(joint.loaded(stance) if loads else joint.mechanism(stance))
     pairs = (*own, *joint.carried(stance))
