@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from cardan import example, forces, losses
+from cardan import InputError, example, forces, losses
 from cardan.drive.models.dynamics_model import place_of, train
 from cardan.drive.models.machine_held import machine_held
 from cardan.io.drive_file import loads
@@ -229,3 +229,27 @@ def test_balls_that_do_not_fit_at_once_rub_as_those_that_do(kind, off):
     alike, unlike = (losses(loads(GROOVED.format(kind=kind, offset=4 + more))) for more in (0.0, off))
     assert unlike.heat == pytest.approx(alike.heat, rel=0.003 if off < 0.1 else 0.04)
     assert unlike.residual < 1e-9
+
+
+def test_a_joint_that_locks_by_its_own_friction_says_where_and_from_which_friction_on():
+    """No number comes of it; with less than the friction told the same joint turns, with more it does not."""
+    text = """format = 1
+[[joints]]
+kind = "pin_coupling"
+joint_angle_deg = 20
+driving_slant_deg = 20
+driven_slant_deg = 24
+driving_distance_mm = 50
+driven_distance_mm = 52
+friction = {mu}
+[duty]
+speed_rpm = 500
+torque_Nm = 10
+"""
+    for ask in (losses, forces):
+        with pytest.raises(InputError, match=r"joints\[0\]\.friction: with a friction of 0\.6 it locks: where") as told:
+            ask(loads(text.format(mu=0.6)))
+    most = float(told.value.problems[0].message.split("below ")[1])
+    assert losses(loads(text.format(mu=0.9 * most))).efficiency > 0.0
+    with pytest.raises(InputError, match="it locks"):
+        losses(loads(text.format(mu=1.05 * most)))

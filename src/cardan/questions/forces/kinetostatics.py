@@ -17,7 +17,7 @@ from cardan.drive.models.kinematics_model import Chain
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.curves.paths import Jet
 from cardan.maths.kernel import frames
-from cardan.questions.motion.joint_mechanism import FEW, STRAIGHT, rubbed_pins, rubbed_push, rubbed_share
+from cardan.questions.motion.joint_mechanism import FEW, STRAIGHT, check_turning, rubbed_pins, rubbed_push, rubbed_share
 from cardan.questions.motion.motion import Motion, motion
 from cardan.questions.motion.moving_chain import Spins, moving_axes, seen
 
@@ -355,6 +355,7 @@ def inner_friction(train: Train, stand: KinematicState, i: int, *, many: bool = 
     normal, aside, theta, alpha, before = seen_by(train, stand, i)
     many = many or np.unique(np.round(alpha, 9)).size > FEW
     shares = rubbed_share(train.kinds[i], alpha, theta, many=many)
+    check_turning(f"joints[{i}].friction", train.kinds[i], alpha, theta, shares[0])
     push = rubbed_push(train.kinds[i], alpha, theta, many=many)
     way = stand.couple_way(i)
     step = frames.dot(way, before) / frames.dot(way, after)

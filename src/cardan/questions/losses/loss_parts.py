@@ -29,7 +29,7 @@ from cardan.questions.forces.reactions import (
     weights,
 )
 from cardan.questions.motion.articulation import articulation
-from cardan.questions.motion.joint_mechanism import rubbed_share
+from cardan.questions.motion.joint_mechanism import check_turning, rubbed_share
 from cardan.questions.motion.motion import Motion
 from cardan.texts import _
 
@@ -205,7 +205,9 @@ def rubbing_of(joints: Sequence[Joint], *, many: bool) -> Callable[[Motion], tup
         for i, joint in enumerate(joints):
             if joint.rubs:
                 alpha = float(np.asarray(moved.joint_angle)[..., i].flat[0])
-                found[:, ..., i, :] = rubbed_share(joint, alpha, theta[..., i, :], many=many)
+                share = rubbed_share(joint, alpha, theta[..., i, :], many=many)
+                check_turning(f"joints[{i}].friction", joint, alpha, theta[..., i, :], share[0])
+                found[:, ..., i, :] = share
         return found[0], found[1]
 
     return rubbing if any(joint.rubs for joint in joints) else None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -17,6 +17,7 @@ from cardan.maths.kernel import frames
 from cardan.mechanism.constraints import FRAME
 from cardan.mechanism.kinetostatics import Carried, Placed, each_carried
 from cardan.mechanism.mechanism import PAIRS
+from cardan.texts import _
 
 BEFORE, ASIDE, NORMAL = np.eye(3)
 """Driving shaft, direction in the plane of the shafts across it toward the driven one, and normal of that plane."""
@@ -169,6 +170,9 @@ NODE = np.radians(1.0)
 FEW = 4
 """Joint angles up to which each is taken by itself."""
 
+HALVINGS = 7
+"""How often the friction at which a joint locks is halved about: to a per cent."""
+
 DIGITS = 12
 """Decimals to which a joint angle counts: two that differ by rounding are one."""
 
@@ -182,6 +186,36 @@ def rubbed_share(joint: Joint, joint_angle: ArrayLike, angle: Array, *, many: bo
     """
     fed, back = _looked_up(_shares, PLACES, joint, joint_angle, angle, many=many)[:, 0]
     return (np.maximum(fed, 0.0), np.maximum(back, 0.0)) if many else (fed, back)
+
+
+def check_turning(field: str, joint: Joint, joint_angle: ArrayLike, angle: Array, share: Array) -> None:
+    """Refuse a joint that its own friction locks.
+
+    field: what the refusal names; share: of `rubbed_share` at joint_angle and angle, while its driving shaft drives.
+    """
+    locked = ~(share < 1.0)
+    if not np.any(locked):
+        return
+    alpha, theta = (np.broadcast_to(one, locked.shape)[locked].flat[0] for one in (joint_angle, angle))
+    mu = joint.friction or 0.0
+    low, high = 0.0, mu
+    with np.errstate(all="ignore"):
+        for _half in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            own = replace(joint, friction=middle)
+            turns = bool(over(_shares(own, round(float(alpha), DIGITS), PLACES)[0, 0], np.asarray(theta)) < 1.0)
+            low, high = (middle, high) if turns else (low, middle)
+    text = _(
+        "with a friction of {friction:.3g} it locks: where its driving mark stands {angle:.4g}° from the plane of the "
+        "shafts, at a joint angle of {joint_angle:.4g}°, all power rubs away; it turns there below {most:.2g}"
+    )
+    if not low:  # pairs of a joint of one's own with a friction of their own lock it
+        text = _(
+            "with the friction of its pairs it locks: where its driving mark stands {angle:.4g}° from the plane of the "
+            "shafts, at a joint angle of {joint_angle:.4g}°, all power rubs away"
+        )
+    place = {"angle": np.degrees(theta) % 360.0, "joint_angle": np.degrees(alpha)}
+    raise refuse(field, text.format(friction=mu, most=low, **place), "out_of_range")
 
 
 def rubbed_push(joint: Joint, joint_angle: ArrayLike, angle: Array, *, many: bool = False) -> Array:
@@ -259,7 +293,9 @@ def _shares(joint: Joint, joint_angle: float, places: int) -> Array:
     found = []
     for one, sense in zip(turned[:2], (1.0, -1.0), strict=False):
         power = np.abs(one.input_torque * one.found.speed[:, 0, 0])
-        found.append((one.loss * power + more) / (power + sense * more))
+        with np.errstate(all="ignore"):
+            share = (one.loss * power + more) / (power + sense * more)
+        found.append(np.where(one.found.locked, np.nan, share) if sense > 0.0 else share)
     return _all_round(joint, np.reshape(np.stack(found), (2, 1, -1)) if found else np.zeros((2, 1, places)), places)
 
 
@@ -304,7 +340,8 @@ def _turned(joint: Joint, joint_angle: float, places: int) -> list[JointCarried]
     count = places // (joint.alike if places % joint.alike == 0 else 1)
     angle = np.arange(count) * (2.0 * np.pi / places)
     mu = joint.friction or 0.0
-    return each_carried_in(joint, joint_angle, angle, [(mu, True), (mu, False), (0.0, True)])
+    with np.errstate(all="ignore"):  # friction that locks grows beyond all numbers
+        return each_carried_in(joint, joint_angle, angle, [(mu, True), (mu, False), (0.0, True)])
 
 
 def _all_round(joint: Joint, rows: Array, places: int) -> Array:
