@@ -38,6 +38,27 @@ def drive_with(kind: str) -> Drive:
     return loads(WHOLE.replace("@", own) + BEARING) if unheld(drive) else drive
 
 
+BEHIND = WHOLE[WHOLE.index("@") + 1 : WHOLE.index("[[shafts]]")]
+"""The second joint of the drive."""
+
+ELSEWHERE = ("articulation", "accuracy", "forces", "losses", "life", "assembly")
+"""Questions that `tests/questions/test_every_joint.py` asks of each kind at both places."""
+
+
+def drive_behind(kind: str) -> Drive:
+    """Return a drive in space, with a spline, whose second joint is of a kind."""
+    keys = KEYS[kind] if kind != "hooke" else BEHIND.split("-150]")[1]
+    own = f'\n\n[[joints]]\nkind = "{kind}"\ncentre_mm = [1000, 60, -150]\n{keys}\n\n'
+    text = WHOLE.replace(BEHIND, own).replace("@", FIRST)
+    if kind == "offset_cross":  # its ball holds the shaft behind it, and a bearing the one before it
+        return loads(text[: text.index("[[supports]]\nshaft = 3")] + BEARING + text[text.index("[duty]") :])
+    drive = loads(text)
+    if unheld(drive):
+        return loads(text + BEARING)
+    sliding = text.replace("number = 2\n", "number = 2\nspline = { friction = 0.1, mean_diameter_mm = 50 }\n")
+    return drive if drive.joints[1].slides else loads(sliding)
+
+
 def told(name: str, drive: Drive) -> str:
     """Return "" where a question is answered, else why not."""
     question = QUESTIONS[name]
@@ -75,6 +96,17 @@ def test_the_page_has_its_head():
 def test_every_cell_is_answered(kind):
     assert {name: reason for name, reason in answered(kind).items() if reason} == {}
     assert row(kind) in PAGE.read_text(encoding="utf8").splitlines()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", JOINTS)
+def test_every_cell_is_answered_behind_another_joint(kind):
+    drive = drive_behind(kind)
+    asked = [name for name in ASKED if name not in ELSEWHERE]
+    refused = {name: why for name in asked if (why := told(name, drive))}
+    if kind == "offset_cross":
+        assert "holds its shaft in a bearing of its own" in refused.pop("layouts")
+    assert refused == {}
 
 
 @pytest.mark.slow
