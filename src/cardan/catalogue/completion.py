@@ -8,7 +8,7 @@ from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 from cardan.drive.drive import Drive
-from cardan.drive.fields.names import by_name, grades
+from cardan.drive.fields.names import by_name, grades, names_rows
 from cardan.drive.joints import Joint, other_kinds
 from cardan.drive.material import Material
 from cardan.drive.shaft import Ply
@@ -37,6 +37,8 @@ def completed(drive: Drive, known: Catalogue | None = None) -> Drive:
     >>> completed(replace(Drive.from_angles([0.1, 0.1]), shafts=(tube,))).shafts[1].material.yield_strength
     245000000.0
     """
+    if not names_rows(drive):
+        return drive
     rows = known or catalogue()
     problems = list(_unknown(drive, rows))
     check(problems)
@@ -142,14 +144,14 @@ def _borne(support: Support, rows: Catalogue) -> Support:
 
 
 def _unborne(support: Support, rows: Catalogue) -> Support:
-    row = rows.rows(Bearing).get(support.bearing)
+    row = rows.rows(Bearing).get(support.bearing) if support.bearing else None
     if row is None:
         return support
     return replace(support, **{name: _under(getattr(support, name), getattr(row, name), rows) for name in BORNE})
 
 
 def _unsized(joint: Joint, rows: Catalogue) -> Joint:
-    row = rows.rows(JointSize).get(joint.size)
+    row = rows.rows(JointSize).get(joint.size) if joint.size else None
     if row is None:
         return joint
     kept = {name: _under(getattr(joint, name), _graded(getattr(row, name), rows), rows) for name in SIZED}

@@ -198,7 +198,8 @@ def in_poses(drive: Drive) -> tuple[Condition, ...]:
     shares = [pose.share for pose in drive.poses]
     left = 1.0 - sum(share for share in shares if share is not None)
     rest = None if None in shares else left if left > ROUNDING else 0.0
-    found = [Condition(drive=replace(drive, poses=()), share=rest, moving=bool(drive.movements))]
+    drawn = replace(drive, poses=()) if drive.poses else drive
+    found = [Condition(drive=drawn, share=rest, moving=bool(drive.movements))]
     for k, (pose, posed) in enumerate(zip(drive.poses, pose_drives(drive), strict=True), start=1):
         moving = bool(posed.movements)
         found.append(Condition(drive=posed, pose=pose.name or str(k), share=pose.share, moving=moving))
@@ -244,7 +245,8 @@ def under(drive: Drive, case: LoadCase) -> Drive:
         bent = tuple(replace(joint, joint_angle=case.joint_angle) for joint in flat.joints)
         return replace(flat, joints=bent, duty=duty)
     moves = tuple(one for one in drive.movements if case.movement in ("", one.name))
-    return replace(drive, duty=duty, movements=moves)
+    alone = duty == drive.duty and moves == drive.movements
+    return drive if alone else replace(drive, duty=duty, movements=moves)
 
 
 def _grown(case: LoadCase) -> tuple[Harmonic, ...]:

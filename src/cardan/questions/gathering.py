@@ -170,10 +170,11 @@ def principal(question: Question, drive: Drive) -> Drive:
     """Return the drive that a question is asked of: as it is, or in its heaviest load case where it lacks a torque."""
     if "case" in question.gathered or not question.lacking(drive):
         return drive
-    loaded = [one for one in conditions(replace(drive, poses=())) if one.torque is not None]
-    if not loaded:
+    bare = replace(drive, poses=()) if drive.poses else drive
+    loaded = [one for one in conditions(bare) if one.torque is not None]
+    heaviest = max(loaded, key=lambda one: abs(one.torque or 0.0)).drive if loaded else drive
+    if heaviest.duty == drive.duty:
         return drive
-    heaviest = max(loaded, key=lambda one: abs(one.torque or 0.0)).drive
     other = replace(drive, duty=heaviest.duty)
     return other if len(question.lacking(other)) < len(question.lacking(drive)) else drive
 

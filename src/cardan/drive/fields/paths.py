@@ -144,7 +144,7 @@ def _as_given(field: str, given: Mapping[str, str]) -> str:
 
 def pose_drives(drive: P) -> tuple[P, ...]:
     """Return the drive in each of its poses, without poses of its own."""
-    bare = replace(drive, poses=())
+    bare = replace(drive, poses=()) if drive.poses else drive
     return tuple(with_values(bare, dict(pose.set)) for pose in drive.poses)
 
 
