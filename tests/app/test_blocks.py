@@ -7,9 +7,9 @@ from pathlib import Path
 import nicegui
 import pytest
 
+from cardan.answers.palette import DARK, ROLES, SHAFTS
 from cardan.app.parts.blocks import _placed, block_html, cell_html, drawn_in_space, table_html
 from cardan.app.parts.verdicts import field_of, lights_html
-from cardan.figures.palette import DARK, ROLES, SHAFTS
 from cardan.figures.render_plotly import described
 from cardan.io import example
 from cardan.register import QUESTIONS

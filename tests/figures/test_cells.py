@@ -8,8 +8,8 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.image import imread
 
+from cardan.answers import palette
 from cardan.answers.reader import Reader
-from cardan.figures import palette
 from cardan.figures.axes import axis
 from cardan.figures.figure import Cells, Figure, Panel, Row
 from cardan.figures.for_reader import for_reader

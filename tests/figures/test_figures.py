@@ -14,12 +14,12 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath
 
 from cardan import figures
+from cardan.answers import palette
 from cardan.answers.reader import USUAL, Reader, reading
 from cardan.book.comparison import book_comparison
 from cardan.book.figure import book_figure
 from cardan.drive.drive import Drive
 from cardan.drive.models.wobble import wobbling
-from cardan.figures import palette
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Bars, Curve
 from cardan.figures.for_reader import for_reader

@@ -9,6 +9,7 @@ import pytest
 
 from cardan import bending_speeds, check, example, forces, torsion_modes
 from cardan import joints as kinds
+from cardan.answers import palette
 from cardan.answers.reader import Reader, reading
 from cardan.drive.drive import Drive
 from cardan.drive.joints import JOINTS
@@ -16,7 +17,6 @@ from cardan.drive.models.geometry import geometry
 from cardan.drive.movement import Harmonic
 from cardan.drive.settings import Pose
 from cardan.errors import InputError
-from cardan.figures import palette
 from cardan.io import example_names
 from cardan.scene.scene import scene, use_colour
 from cardan.units import deg

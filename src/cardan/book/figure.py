@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.palette import shaft
 from cardan.answers.quantity import Quantity, say
 from cardan.answers.reader import significant
 from cardan.figures.axes import across, axis, steps, written
 from cardan.figures.figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
-from cardan.figures.palette import shaft
 from cardan.maths.arrays import Array
 from cardan.maths.periodic.mathieu import LARGEST_Q, boundaries, damped_zone, exponents
 from cardan.texts import _

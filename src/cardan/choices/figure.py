@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from cardan.answers.palette import DASHES
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.checks.strength.figure import bars_of, role
 from cardan.figures.axes import axis
 from cardan.figures.figure import Curve, Figure, Panel, Row, Rule
-from cardan.figures.palette import DASHES
 from cardan.texts import _
 from cardan.units import rpm
 

@@ -9,12 +9,12 @@ from itertools import pairwise
 
 import numpy as np
 
+from cardan.answers.palette import DASHES
 from cardan.answers.reader import raised, significant
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
 from .figure import Axis
-from .palette import DASHES
 
 
 def steps(low: float, high: float, count: int = 5) -> tuple[float, ...]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cardan.answers.palette import shaft as role_of
 from cardan.answers.reader import fixed, half_turn
 from cardan.catalogue.completion import sized
 from cardan.drive.bodies.solids import Solids, solids
@@ -23,7 +24,6 @@ from cardan.units import mm
 from .axes import steps, written
 from .figure import Axis, Curve, Figure, Mesh, Note, Panel, Row, Series, View
 from .page import onto
-from .palette import shaft as role_of
 
 SIDE = View(right=(1.0, 0.0, 0.0), up=(0.0, 0.0, 1.0))
 PLAN = View(right=(1.0, 0.0, 0.0), up=(0.0, 1.0, 0.0))

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cardan.answers.palette import colour, mixed
 from cardan.maths.arrays import Array
 
 from .figure import Axis, Band, Bars, Curve, Figure, Mesh, Panel, Row, Rule, Shape, View
-from .palette import colour, mixed
 
 LETTER = 0.066
 """Width of an average letter of 8.5 pt."""

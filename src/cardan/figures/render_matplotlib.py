@@ -15,7 +15,8 @@ from matplotlib.figure import Figure as Canvas
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import NullLocator
 
-from . import palette
+from cardan.answers import palette
+
 from .figure import Axis, Band, Bars, Cells, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
 from .page import LINE, Box, Entry, Label, Page, facets, labels, laid_out, onto, ranges
 

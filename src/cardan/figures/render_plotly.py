@@ -9,13 +9,13 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from cardan.answers import palette
 from cardan.answers.reader import reader
 from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.texts import language
 from cardan.units import label as printed
 
-from . import palette
 from .figure import Axis, Band, Bars, Cells, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
 from .page import Box, Label, Page, facets, labels, laid_out, onto, ranges
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from cardan.answers import palette
 from cardan.maths.arrays import Array
 
-from . import palette
 from .figure import Axis, Band, Bars, Cells, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
 from .page import LETTER, LINE, Box, Entry, Label, Page, breadth, facets, labels, laid_out, onto, ranges, share
 

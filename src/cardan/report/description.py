@@ -8,6 +8,7 @@ import numpy as np
 
 from cardan.answers import answer
 from cardan.answers.answer import Cell, Column
+from cardan.answers.palette import colour, shaft
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.reader import half_turn
 from cardan.catalogue.given import inputs, sources
@@ -15,7 +16,6 @@ from cardan.drive.body import body_length
 from cardan.drive.conditions import held_speeds, used_speeds
 from cardan.drive.joints.joint import Inside
 from cardan.figures.drive import views_figure, yoke_figure
-from cardan.figures.palette import colour, shaft
 from cardan.maths.arrays import Array
 from cardan.questions.motion.kinds import inside, kind_name, steep
 from cardan.texts import _, plural

@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from cardan.answers import palette
 from cardan.answers.quantity import Quantity
 from cardan.answers.reader import half_turn, reader
 from cardan.drive.bodies.assembly import extent
 from cardan.drive.bodies.build import Build
 from cardan.drive.shapes import floor_frame
-from cardan.figures import palette
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.texts import _

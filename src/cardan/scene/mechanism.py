@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from cardan.answers import palette
 from cardan.drive.bodies.build import Track
-from cardan.figures import palette
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.maths.kernel.meshes import quaternions

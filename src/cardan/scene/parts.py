@@ -8,8 +8,8 @@ from typing import Any, Literal
 
 import numpy as np
 
+from cardan.answers import palette
 from cardan.drive.bodies.build import Track
-from cardan.figures import palette
 from cardan.maths.arrays import Array
 
 DIGITS = 6

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from cardan.answers import palette
 from cardan.answers.quantity import Quantity, told
 from cardan.answers.reader import reader
 from cardan.catalogue.completion import sized
@@ -24,7 +25,6 @@ from cardan.drive.models.kinematics_model import mixed
 from cardan.drive.models.machine_held import machine_held
 from cardan.drive.shapes import floor_frame
 from cardan.errors import InputError, refuse
-from cardan.figures import palette
 from cardan.figures.axes import shaft_name
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames

@@ -13,8 +13,8 @@ import nicegui.elements.plotly  # noqa: F401  registers the plotly.js that NiceG
 from nicegui import ui
 from nicegui.element import Element
 
+from cardan.answers.palette import DARK
 from cardan.figures.figure import Figure
-from cardan.figures.palette import DARK
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.report.block import Block, Cell, Listing, Page, Picture, Points, Table, Words

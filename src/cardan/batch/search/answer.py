@@ -9,7 +9,7 @@ from typing import Any
 from cardan.answers.answer import Answer, Column, Remark, Table
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.batch.work import Column as Field
-from cardan.figures.drawing import for_result
+from cardan.figures import for_result
 from cardan.maths.ties import tidied
 from cardan.texts import _, plural
 from cardan.units import dimension_of, factor

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from cardan.answers.palette import shaft
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.checks.verdict import AMBER, Verdict
 from cardan.checks.verdict_table import MOST, share
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule
-from cardan.figures.palette import shaft
 from cardan.maths.ties import foremost_of
 from cardan.texts import _
 

@@ -29,7 +29,7 @@ from cardan.texts import _
 
 from .output import print_lines, print_text
 
-drawing = later("cardan.figures.drawing")
+drawing = later("cardan.figures")
 """What draws into a file: most commands draw nothing."""
 
 GAP = 2  # blanks between columns

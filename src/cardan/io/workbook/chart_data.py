@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import Tone
-from cardan.figures.palette import colour, mixed
+from cardan.answers.palette import colour, mixed
 from cardan.io.workbook.book import leads_to, put
 from cardan.maths.arrays import Array
 from cardan.texts import _
@@ -34,7 +34,7 @@ class Looks:
     def __call__(self, *, color: str = "", tone: Tone = "plain", **properties: Any) -> Any:
         """Return the format with these properties.
 
-        color: role of the letters' colour, see `cardan.figures.palette`.
+        color: role of the letters' colour, see `cardan.answers.palette`.
         tone: how good what it shows is: paper and letters have its colour; **properties: properties of XlsxWriter.
         """
         wanted = {"valign": "top", **properties}

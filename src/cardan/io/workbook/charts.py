@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.figures import palette
+from cardan.answers import palette
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series, Shape, called
 from cardan.io.workbook.book import words
 from cardan.texts import _

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cardan.answers.palette import shaft
 from cardan.answers.quantity import Quantity, say
 from cardan.figures.axes import across, axis, steps, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule, Series, Shape
-from cardan.figures.palette import shaft
 from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import arcmin, deg, mm

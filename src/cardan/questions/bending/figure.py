@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from cardan.answers.answer import Tone
+from cardan.answers.palette import DASHES, dash_of, shaft
 from cardan.answers.quantity import Quantity, Say, numbered, say
 from cardan.drive.drive import Drive
 from cardan.figures.axes import axis, log_axis, steps, written
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
-from cardan.figures.palette import DASHES, dash_of, shaft
 from cardan.formulas.critical_speed import ARTICLE
 from cardan.maths.arrays import Array
 from cardan.texts import _

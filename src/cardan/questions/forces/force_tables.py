@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import Column, Depth, Table, heads
+from cardan.answers.palette import colour, shaft
 from cardan.answers.quantity import Joined, Quantity, numbered
 from cardan.drive.drive import Drive
 from cardan.drive.joints.joint import Joint
 from cardan.drive.shaft import Shaft
-from cardan.figures.palette import colour, shaft
 from cardan.maths.arrays import Array
 from cardan.maths.curves.cycle_statistics import Turn, harmonics, over_turn
 from cardan.maths.kernel import frames

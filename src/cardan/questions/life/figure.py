@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.palette import dash_of, shaft
 from cardan.answers.quantity import Quantity, Say, Text, say
 from cardan.figures.axes import axis, log_axis, steps, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule
-from cardan.figures.palette import dash_of, shaft
 from cardan.maths.ties import foremost
 from cardan.texts import _
 from cardan.units import hour

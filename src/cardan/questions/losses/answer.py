@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Value, closely
+from cardan.answers.palette import colour
 from cardan.answers.quantity import Joined, Quantity, Say, Text, Written, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
@@ -20,7 +21,6 @@ from cardan.drive.models.machine_held import machines_of
 from cardan.drive.models.wobble import wobbling
 from cardan.errors import refuse
 from cardan.figures.figure import Figure
-from cardan.figures.palette import colour
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost, largest
 from cardan.questions.assumed import held_by_machines, yokes_estimated

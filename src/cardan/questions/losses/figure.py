@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cardan.answers.palette import DASHES, dash_of, shaft
 from cardan.answers.quantity import Quantity, Say, numbered, say
 from cardan.drive.drive import Drive
 from cardan.figures.axes import across, axis, steps, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row
-from cardan.figures.palette import DASHES, dash_of, shaft
 from cardan.maths.ties import foremost
 from cardan.texts import _
 from cardan.units import deg

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from cardan.answers.palette import dash_of, shaft
 from cardan.answers.quantity import say
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.drive import SPACE
 from cardan.figures.figure import Axis, Curve, Figure, Mesh, Note, Panel, Row, Rule, Series, View
 from cardan.figures.page import onto
-from cardan.figures.palette import dash_of, shaft
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.mechanism.mechanism import Mechanism

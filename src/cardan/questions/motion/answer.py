@@ -9,14 +9,14 @@ from typing import Any, Protocol
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone, heads
+from cardan.answers.palette import colour
+from cardan.answers.palette import shaft as shaft_role
 from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.conditions import held_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.models.kinematics_model import given_chain, mixed, unlike_hooke
-from cardan.figures.palette import colour
-from cardan.figures.palette import shaft as shaft_role
 from cardan.later import later
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.ties import foremost

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone, heads
+from cardan.answers.palette import colour
+from cardan.answers.palette import shaft as shaft_role
 from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.models.wobble import wobbling
-from cardan.figures.palette import colour
-from cardan.figures.palette import shaft as shaft_role
 from cardan.later import later
 from cardan.texts import _, mark
 from cardan.units import deg, mm

@@ -8,12 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.palette import dash_of, shaft
 from cardan.answers.quantity import Quantity, Say, Text, say
 from cardan.answers.reader import USUAL
 from cardan.errors import refuse
 from cardan.figures.axes import across, axis, powers_of_ten, shaft_name, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule, Series
-from cardan.figures.palette import dash_of, shaft
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.motion.equivalence import FLOOR, SPECK, SYNCHRONOUS, EquivalentJoint

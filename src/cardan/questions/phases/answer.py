@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone
+from cardan.answers.palette import colour
+from cardan.answers.palette import shaft as shaft_role
 from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.models.kinematics_model import given_chain, mixed, unmapped
 from cardan.drive.models.wobble import wobbling
-from cardan.figures.palette import colour
-from cardan.figures.palette import shaft as shaft_role
 from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost

@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.palette import dash_of, shaft
 from cardan.answers.quantity import Quantity, say
 from cardan.catalogue.completion import sized
 from cardan.drive.bodies.solids import solids
 from cardan.figures.axes import axis, clear_way, steps, written
 from cardan.figures.drive import views_figure
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series
-from cardan.figures.palette import dash_of, shaft
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
 from cardan.maths.ties import foremost

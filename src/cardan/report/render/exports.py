@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from cardan.errors import refuse
+from cardan.figures import SUFFIXES, drawn
 from cardan.figures.columns import drawn_from, named, section
-from cardan.figures.drawing import SUFFIXES, drawn
 from cardan.figures.figure import Figure, Mesh
 from cardan.files import write_bytes
 from cardan.io.formats.json import plain

@@ -9,7 +9,7 @@ from itertools import accumulate
 from typing import Any
 
 from cardan.answers.printed import framed
-from cardan.figures.drawing import pixels
+from cardan.figures import pixels
 from cardan.figures.figure import Figure
 from cardan.figures.page import laid_out
 from cardan.io.workbook.book import leads_to, put, words

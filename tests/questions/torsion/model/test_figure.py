@@ -14,7 +14,7 @@ from cardan.answers.reader import USUAL, Reader
 from cardan.drive.duty import Duty, Harmonic
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Absorber, Pendulum, Station
-from cardan.figures.drawing import for_result, save
+from cardan.figures import for_result, save
 from cardan.figures.figure import Band, Bars, Curve, Figure, Note, Rule, Shape
 from cardan.figures.for_reader import for_reader
 from cardan.questions.torsion.model.figure import campbell_figure, shapes_figure

@@ -10,11 +10,11 @@ from math import isfinite
 import numpy as np
 import scipy
 
+from cardan.answers.palette import DASHES, shaft
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.reader import significant
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
-from cardan.figures.palette import DASHES, shaft
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost_of
 from cardan.questions.diagnosis.expected import Expected, ExpectedOrder

@@ -8,10 +8,10 @@ from math import isfinite
 
 import numpy as np
 
+from cardan.answers.palette import shaft
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row
-from cardan.figures.palette import shaft
 from cardan.maths.ties import foremost, foremost_of
 from cardan.questions.diagnosis.examination import Examination
 from cardan.questions.diagnosis.findings import Finding

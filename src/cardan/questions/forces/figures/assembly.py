@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cardan.answers.palette import shaft
 from cardan.figures.axes import across, axis, support_dashes, support_name
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule, Series
-from cardan.figures.palette import shaft
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.questions.forces.assembly import AssemblyForces

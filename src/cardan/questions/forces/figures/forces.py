@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cardan.answers.palette import dash_of, shaft
 from cardan.answers.quantity import Quantity, Say, numbered, say
 from cardan.catalogue.completion import sized
 from cardan.drive.bodies.solids import solids
@@ -16,7 +17,6 @@ from cardan.figures.axes import across, axis, clear_way, shaft_name, steps, supp
 from cardan.figures.drive import MARGIN, WIDE, space_figure, views_figure
 from cardan.figures.figure import Axis, Curve, Figure, Mesh, Note, Panel, Row, Rule, Series
 from cardan.figures.page import onto
-from cardan.figures.palette import dash_of, shaft
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.maths.ties import foremost, foremost_on

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from cardan.answers.palette import dash_of, shaft
 from cardan.answers.quantity import Quantity, say
 from cardan.figures.axes import axis, shaft_name, support_dashes, support_name
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule, Series
-from cardan.figures.palette import dash_of, shaft
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.forces.moving_forces import MovingForces

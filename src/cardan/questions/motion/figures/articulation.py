@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.palette import dash_of, shaft
 from cardan.answers.quantity import Quantity, say
 from cardan.figures.axes import axis
 from cardan.figures.figure import Axis, Band, Curve, Figure, Panel, Row, Rule, Series
-from cardan.figures.palette import dash_of, shaft
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost_of
 from cardan.questions.motion.articulation import Articulation

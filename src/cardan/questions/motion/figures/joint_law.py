@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cardan.answers.palette import dash_of, shaft
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.figures.axes import angle_axis, axis
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule
-from cardan.figures.palette import dash_of, shaft
 from cardan.maths.arrays import Array
 from cardan.questions.motion.joint_law import JointAngles, JointTurn
 from cardan.texts import _

@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.palette import DASHES, shaft
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Band, Curve, Figure, Note, Panel, Row, Rule, Series
-from cardan.figures.palette import DASHES, shaft
 from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import mm, rpm

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from cardan.answers.palette import shaft
 from cardan.figures.axes import axis
 from cardan.figures.figure import Axis, Curve, Figure, Note, Panel, Row, Series
-from cardan.figures.palette import shaft
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.absorber.figure import logarithmic, unstable
 from cardan.texts import _

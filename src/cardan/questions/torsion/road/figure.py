@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from cardan.answers.palette import DASHES
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.figures.axes import axis
 from cardan.figures.figure import Axis, Band, Curve, Figure, Panel, Row, Rule, Series
-from cardan.figures.palette import DASHES
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.steady.figure import looks, order_bars, worst_elements
 from cardan.texts import _

@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.palette import DASHES, shaft
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.figures.axes import across, axis, steps, written
 from cardan.figures.figure import Axis, Band, Bars, Curve, Dash, Figure, Panel, Row
-from cardan.figures.palette import DASHES, shaft
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain

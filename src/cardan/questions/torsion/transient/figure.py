@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from cardan.answers.palette import DASHES
 from cardan.figures.axes import axis
 from cardan.figures.figure import Curve, Figure, Panel, Row
-from cardan.figures.palette import DASHES
 from cardan.maths.ties import foremost
 from cardan.questions.torsion.steady.figure import looks, worst_elements
 from cardan.texts import _
