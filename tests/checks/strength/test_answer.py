@@ -11,6 +11,7 @@ from cardan.answers.reader import USUAL, Reader, significant
 from cardan.checks.strength.answer import answer, ask, lacking, otherwise
 from cardan.checks.strength.strength import strength
 from cardan.drive.duty import Case, Duty
+from cardan.drive.machine import LinearTorque
 from cardan.io import example
 from cardan.questions.forces.forces import forces
 from cardan.questions.torsion.steady.run_stability import Verdict
@@ -87,6 +88,15 @@ def test_torsional_vibration_is_named_beside_the_torques_without_it():
     weak = replace(drive, limits=replace(drive.limits, twist=0.02))
     assert [one.tone for one in alarms(weak)] == ["failed"]  # what raises its torque; what failed is told by the checks
     assert alarms(example("car-propshaft")) == []
+
+
+def test_a_rating_in_proportion_is_told_where_machines_keep_laws_of_their_own():
+    plain = replace(example("pto-baler"), movements=())
+    law = LinearTorque(standstill=36.9, slope=2.0)
+    driven = replace(plain, duty=replace(plain.duty, load=law))
+    for drive, there in ((plain, False), (driven, True)):
+        said = [told(one.text, USUAL) for one in of(drive).remarks]
+        assert any("keep their laws: the torque rating is in proportion" in one for one in said) is there
 
 
 def test_no_torque_is_told_of_torsional_vibration_that_is_unstable():

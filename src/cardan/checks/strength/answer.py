@@ -94,7 +94,7 @@ def answer(drive: Drive, result: Strength) -> Answer:
         figures=lambda: drawn().strength_figures(result),
         tables=tuple(_tables(drive, result)),
         remarks=(
-            *_remarks(result),
+            *_remarks(drive, result),
             *(replace(one, aside=True) for one in strikes_in_use(drive)),  # torsional vibration tells it too
             *(yokes_estimated(drive) if has_torsion(drive) else ()),
         ),
@@ -307,11 +307,18 @@ def _joints(drive: Drive, result: Strength) -> Table:
     )
 
 
-def _remarks(result: Strength) -> Iterator[Remark]:
+def _remarks(drive: Drive, result: Strength) -> Iterator[Remark]:
     yield from _failed(result)
     yield from (replace(one, aside=True) for one in unconfirmed_remark(result.binding))  # the checks tell it too
     out = result.left_out
     yield from _vibrating(result, runs_up=out is not None and out.runs_up)
+    duty = drive.duty
+    if result.vibration is not None and result.governing and (duty.engine or duty.motor or duty.load or duty.torques):
+        text = _(
+            "Engine, motor, load and further torques keep their laws: the torque rating is in proportion to the "
+            "torques of the duty and what they make of them."
+        )
+        yield Remark(text=text)
     if out is not None:
         yield from _left_out(out)
     left = sum(not one.run for one in result.verdicts)
