@@ -16,6 +16,7 @@ from cardan.drive.joints import JOINTS, Joint
 from cardan.drive.joints.common import inner
 from cardan.drive.joints.common.inner import Stance
 from cardan.drive.joints.joint import REFUSALS
+from cardan.joints import ClemensProfile
 from cardan.mechanism.mechanism import PAIRS
 from cardan.texts import speaking
 from tests.fixtures.toy_joint import TOYS
@@ -154,3 +155,26 @@ def test_what_a_kind_does_not_say_is_said_for_it():
     assert toy.refusal("losses").endswith("cross")
     assert not toy.refusal("articulation")
     assert TOYS[1](joint_angle=0.1).refusal("forces")
+
+
+UNEVEN = {
+    "rzeppa": {"lever_b": 0.35, "lever_c": 0.7},
+    "weiss": {"driving_offset": 0.003, "driven_offset": 0.0033, "groove_radius": 0.03},
+    "pin_coupling": {"driving_distance": 0.05, "driven_distance": 0.06},
+    "clemens": {
+        "driving": ClemensProfile(axial=0.05, radial=0.02, radius=0.06),
+        "driven": ClemensProfile(axial=0.05, radial=0.021, radius=0.06),
+    },
+}
+
+
+@pytest.mark.parametrize("kind", UNEVEN)
+def test_a_law_asked_at_many_joint_angles_is_that_at_each(kind):
+    """The nearest map of a Hooke joint, a row of joint angles at once, also where the joint does not turn at some."""
+    joint = JOINTS[kind](**UNEVEN[kind])
+    for bends in (np.linspace(0.01, 0.7, 70), np.linspace(0.5, 1.5, 5)):
+        with np.errstate(invalid="ignore"):
+            many = joint.near_pair(bends)[1]
+            each = np.asarray([joint.near_pair(np.asarray(one))[1] for one in bends.tolist()])
+        assert np.allclose(many, each, rtol=0.0, atol=1e-15, equal_nan=True)
+    assert np.any(np.abs(many) > 0.0)

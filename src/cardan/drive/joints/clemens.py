@@ -48,6 +48,7 @@ class Clemens(Joint):
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("driving", "hinge_diameter", "hinge_length", "tip_diameter")
     loose: ClassVar[bool] = True
+    many_angles: ClassVar[bool] = True
     law_sizes: ClassVar[tuple[str, ...]] = PROFILES
     steepest: ClassVar[float] = 0.5 * math.pi
     refusals: ClassVar[Mapping[str, str]] = {

@@ -18,6 +18,7 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``centred``          no: what it passes on needs no housing that centres its shafts
 ``loose``            no: it holds its shafts in its centre, but for sliding
 ``twist_spring``     none: it does not give under torque
+``many_angles``      no: its law is asked at one joint angle after the other
 ``law_sizes``        none: its law follows none of its sizes, so that errors of them do nothing to it
 ``place_sizes``      none: its driven shaft stays where it is, whatever its sizes
 ``placing``          those of ``place_sizes`` that it gives
@@ -86,7 +87,8 @@ CROSS_ONLY = frozenset(("friction", "material_friction", "fit", "cross", "needle
 """Fields that only a joint with one cross can use."""
 
 
-PLACES = 360  # places in a turn at which a law is looked at for its second order
+TOGETHER = 64  # joint angles at which a law is asked at once
+PLACES = 120  # places in a turn at which a law is looked at for its second order: more change it by rounding alone
 
 
 REFUSALS: Mapping[str, str] = MappingProxyType(
@@ -169,6 +171,9 @@ class Joint:
     rated: ClassVar[tuple[str, ...]] = ()
     """Keys of the sizes that tell, with `bearing_capacity` among them, the life of bearings in it; none without any."""
 
+    many_angles: ClassVar[bool] = False
+    """Whether its law takes many joint angles at once, array (m, 1) beside angles (p,)."""
+
     law_sizes: ClassVar[tuple[str, ...]] = ()
     """Keys of its sizes that its law follows: what of them is off, or may be, is told beside them."""
 
@@ -240,7 +245,7 @@ class Joint:
         if found is not None:
             return found
         bends, rows = np.unique(np.asarray(joint_angle), return_inverse=True)
-        tau = np.reshape(np.asarray([_second_order(self, one) for one in bends.tolist()])[rows], np.shape(joint_angle))
+        tau = np.reshape(_second_orders(self, tuple(bends.tolist()))[rows], np.shape(joint_angle))
         root = np.sqrt(1.0 - tau * tau)
         return (1.0 + 0.0j) / root, (-1.0 + 0.0j) * tau / root
 
@@ -519,6 +524,24 @@ def _second_order(joint: Joint, joint_angle: float) -> float:
     with np.errstate(invalid="ignore", divide="ignore"):
         angle_error = joint.deviation(theta, np.asarray(joint_angle))[0]
     return float(angle_error @ np.sin(2.0 * theta)) * (2.0 / PLACES)
+
+
+@lru_cache(maxsize=256)
+def _second_orders(joint: Joint, bends: tuple[float, ...]) -> Array:
+    """Return the same at several bends [rad], array (m,): of many at once, but where the law does not turn at some."""
+    if len(bends) == 1 or not joint.many_angles:
+        return np.asarray([_second_order(joint, one) for one in bends])
+    theta = np.arange(PLACES) * (2.0 * np.pi / PLACES)
+    found = []
+    for first in range(0, len(bends), TOGETHER):
+        some = np.asarray(bends[first : first + TOGETHER])
+        with np.errstate(invalid="ignore", divide="ignore"):
+            ahead = np.broadcast_to(joint.deviation(theta, some[:, None])[0], (len(some), PLACES))
+        if np.all(np.isfinite(ahead)):
+            found.append(ahead @ np.sin(2.0 * theta) * (2.0 / PLACES))
+        else:
+            found.append(np.asarray([_second_order(joint, one) for one in some.tolist()]))
+    return np.concatenate(found)
 
 
 # One measure of what else moves inside a joint: wobble, orbits, strokes, play, planes that are missed.

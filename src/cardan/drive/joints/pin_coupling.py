@@ -35,6 +35,7 @@ class PinCoupling(Joint):
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY - {"friction"}
     rubbing: ClassVar[tuple[str, ...]] = ("driving_distance", "driven_distance")
     loose: ClassVar[bool] = True
+    many_angles: ClassVar[bool] = True
     law_sizes: ClassVar[tuple[str, ...]] = (
         "driving_slant", "driven_slant", "driving_distance", "driven_distance",
     )  # fmt: skip
