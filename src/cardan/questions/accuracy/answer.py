@@ -399,7 +399,7 @@ def _parts(side: Side, band: Band) -> Table:
 def _as_drawn(drive: Drive) -> Iterator[Remark]:
     """Yield of which joints no inner size counts, and why, and how a shaft that wobbles counts."""
     if wobbling(drive):
-        text = _("Errors of joint angles and yokes act as on shafts that lie in the mean of their wobble.")
+        text = _("Errors of joint angles and yokes act as on shafts that stand in the middle of their wobble.")
         yield Remark(text=text)
     for number, joint in enumerate(drive.joints, start=1):
         sizes = joint.sizes()

@@ -540,7 +540,7 @@ def friction_left_out(drive: Drive) -> Iterator[Remark]:
     if any(there for _name, there in rubbing):
         text = _(
             "Friction of {parts} is left out of torsional vibration: it takes more torque at the input, and damps next "
-            "to nothing while torques keep their sign. Its heat is told by:"
+            "to nothing while torques keep their sign; its heat is told by:"
         )
         parts = ", ".join(name for name, there in rubbing if there)
         yield Remark(text=text.format(parts=parts), command=("cardan", "losses", FILE))

@@ -45,7 +45,7 @@ def strikes(found: TorsionResponse) -> Iterator[Remark]:
             continue
         text = _(
             "Warning: the {name} would oscillate by ±{angle} at {speed} and hits its stops at ±{stop}: torsional "
-            "vibration is stronger there than counted. In time it is followed by:"
+            "vibration is stronger there than counted, and is followed in time by:"
         )
         values: dict[str, Text] = {
             "angle": Quantity(float(swing[worst, k]), "angle", 3),
