@@ -23,12 +23,15 @@ def significant(value: float, digits: int = 4) -> str:
     """Return a number with so many significant digits, a true minus and thin grouping.
 
     Returns: "–" for what is not a number, a power of ten for what is very small or large.
+
+    >>> significant(1.0, 5), significant(0.9999999, 5)  # the last digit is of the number as it is rounded
+    ('1.0000', '1.0000')
     """
     if not math.isfinite(value):
         return "–" if math.isnan(value) else "∞" if value > 0.0 else "−∞"
     if value == 0.0:
         return "0"
-    size = math.floor(math.log10(abs(value)))
+    size = _size(value, digits)
     if not -5 <= size < 9:
         mantissa, _sign, power = f"{value:.{digits - 1}e}".partition("e")
         return f"{mantissa}·10{raised(int(power))}".replace("-", "−")
@@ -60,11 +63,16 @@ def half_turn(angle: float) -> float:
 def spreadsheet(value: float, digits: int = 4, decimals: int | None = None) -> str:
     """Return the number format of spreadsheets that shows as many digits as `significant` or `fixed`."""
     if decimals is None:
-        size = math.floor(math.log10(abs(value))) if value else 0
+        size = _size(value, digits) if value else 0
         if not -5 <= size < 9:
             return f"0{_point(digits - 1)}E+00"
         decimals = 0 if value == 0.0 else max(0, digits - 1 - size)
     return f"{'#,##0' if abs(value) >= 1000.0 else '0'}{_point(decimals)}"
+
+
+def _size(value: float, digits: int) -> int:
+    """Return the power of ten of a number that is rounded to so many digits."""
+    return int(f"{value:.{digits - 1}e}".partition("e")[2])
 
 
 def _point(decimals: int) -> str:
