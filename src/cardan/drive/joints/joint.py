@@ -108,6 +108,10 @@ EXACT: Mapping[str, Any] = MappingProxyType({})
 """Errors of a joint made as drawn."""
 
 
+SHIFTS = ("shift_along", "shift_aside", "shift_normal")
+"""Ways in which pairs that are off shift the start of a driven shaft: along the driving one, across it, and normal."""
+
+
 FREE = mark("it holds nothing of its shafts but the turn: their bearings keep them, and only the contact moves")
 """Why sizes of a joint with a contact move no shaft."""
 
@@ -313,6 +317,11 @@ class Joint:
         """Return in a sentence that it does not turn at a joint angle [rad], and why where it is known."""
         text = _("a joint of kind {kind} with these sizes does not turn at its joint angle of {joint_angle:.6g}°")
         return text.format(kind=self.kind, joint_angle=math.degrees(joint_angle))
+
+    @property
+    def tolerated(self) -> bool:
+        """Whether pairs of its `mechanism` tell how far they may be off; by these its `head` shifts by `SHIFTS`."""
+        return False
 
     @property
     def twist_spring(self) -> tuple[float, float] | None:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -15,17 +15,17 @@ from cardan.maths.arrays import Array, unit_complex
 from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import Surface, ball, joined, placed, revolved
 from cardan.mechanism.closing import CLOSED, LEFT, Linkage, by_rounding, open_by, turn_about
-from cardan.mechanism.mechanism import Mechanism
+from cardan.mechanism.mechanism import Mechanism, Pair
 from cardan.mechanism.rounding import exactly, fitted
 from cardan.texts import _, mark, plural
 from cardan.units import deg, mm, plain
 
 from .common import inner
 from .common import site as drawn
-from .common.inner import DRIVEN, DRIVING, InnerPair, Stance
+from .common.inner import DRIVEN, DRIVING, InnerPair, Stance, Tolerated
 from .common.laws import waved
 from .common.site import Site
-from .joint import CROSS_ONLY, REFUSALS, Joint
+from .joint import CROSS_ONLY, EXACT, REFUSALS, SHIFTS, Joint
 from .joint import Inside as Measure
 
 PLACES = 64
@@ -87,7 +87,7 @@ class MechanismJoint(Joint):
     steepest: ClassVar[float] = 0.5 * math.pi
     refusals: ClassVar[Mapping[str, str]] = {
         **REFUSALS,
-        "tolerance": mark("tolerances of its pairs stand in its mechanism file, and `cardan motion` tells them of it"),
+        "tolerance": mark("its mechanism file gives no pair between its shafts a tolerance"),
     }
 
     file: str = plain("", doc="mechanism file beside the drive file, or a shipped mechanism by its name")
@@ -158,7 +158,7 @@ class MechanismJoint(Joint):
 
     def refusal(self, question: str) -> str:
         """Return in a sentence why it does not answer a question: friction needs the sizes of all that turns."""
-        if question == "forces" and self.drawing is not None and not self.told:
+        if question in ("forces", "tolerance") and self.drawing is not None and not self.told:
             return self._inside().carrying()
         frame = self.drawing.frame if self.drawing else ""
         joints = self.drawing.joints if self.drawing else ()
@@ -167,6 +167,23 @@ class MechanismJoint(Joint):
             text = _("its mechanism file does not say at what diameter and on which bearings {pairs} turns")
             return text.format(pairs=repr(bare[0]))
         return super(MechanismJoint, self).refusal(question)
+
+    @property
+    def tolerated(self) -> bool:
+        """Whether a pair between its shafts has a tolerance, and it is known what it passes on."""
+        frame = self.drawing.frame if self.drawing else ""
+        pairs = self.drawing.joints if self.drawing else ()
+        return any((one.tolerance or one.tolerance_turn) and frame not in one.links for one in pairs) and self.told
+
+    def head(self, stance: Stance, off: Mapping[str, Any] = EXACT) -> Array:
+        """Return where its driven shaft starts, off the centre by what its pairs are off: by `SHIFTS`."""
+        if not off:
+            return stance.centre
+        axes = stance.before, frames.cross(stance.normal, stance.before), stance.normal
+        found: Array = stance.centre + sum(
+            np.asarray(off.get(key, 0.0))[..., None] * axis for key, axis in zip(SHIFTS, axes, strict=True)
+        )
+        return found
 
     def stuck(self, joint_angle: float) -> str:
         """Return which pair opens at which angle."""
@@ -207,7 +224,7 @@ class MechanismJoint(Joint):
             yield from super(MechanismJoint, self).mechanism(stance)
             return
         here = self._inside()
-        point, axis, second = here.placed(stance)
+        (point, axis, second), turned = here.placed(stance)
         for k, pair in enumerate(here.linkage.joints):
             if k in here.bearings:
                 continue
@@ -222,6 +239,7 @@ class MechanismJoint(Joint):
                 friction=pair.friction,
                 lever=0.5 * (pair.diameter or 0.0),
                 spread=pair.bearing_distance or math.inf,
+                tolerated=_tolerated(pair, k, turned[..., k, :, :]),
             )
 
     def loaded(self, stance: Stance) -> Iterator[InnerPair]:
@@ -274,6 +292,14 @@ class MechanismJoint(Joint):
             role = {here.driving: site.driving.role, here.driven: site.driven.role}.get(pose, "cross")
             shade = 0.0 if pose in (here.driving, here.driven) else 0.12 + 0.5 * (link % 5) / 5.0
             site.add("link", text, own, _link(here, link, thin), role=role, shade=shade)
+
+
+def _tolerated(pair: Pair, number: int, axes: Array) -> Tolerated | None:
+    """Return how far a pair may be off whose second link has turned by axes (..., 3, 3); None where it is not."""
+    shift, turn = pair.tolerance or 0.0, pair.tolerance_turn or 0.0
+    if not shift and not turn:
+        return None
+    return Tolerated(name=pair.id, field=f"drawing.joints[{number}]", shift=shift, turn=turn, axes=axes)
 
 
 def _inner_name(name: str) -> str:
@@ -474,14 +500,17 @@ class Inside:
         shift = (whole @ (poses[..., :3, 3] - self.centre)[..., None])[..., 0]
         return whole @ poses[..., :3, :3], shift + np.asarray(stance.centre)[..., None, :]
 
-    def placed(self, stance: Stance) -> tuple[Array, Array, Array]:
-        """Return point, axis and second axis of all pairs of a joint that stands somewhere, arrays (..., m, 3)."""
+    def placed(self, stance: Stance) -> tuple[tuple[Array, Array, Array], Array]:
+        """Return point, axis and second axis of all pairs of a joint that stands somewhere, arrays (..., m, 3).
+
+        And the turn of their second links from where they are drawn, array (..., m, 3, 3).
+        """
         theta = stance.theta
         poses = self.at(theta, np.asarray(stance.joint_angle) + 0.0 * theta)
         moved = np.zeros_like(poses)
         moved[..., :3, :3], moved[..., :3, 3] = self.carried_to(stance, poses)
         moved[..., 3, 3] = 1.0
-        return self.linkage.placed(moved)
+        return self.linkage.placed(moved), moved[..., self.linkage.second, :3, :3]
 
     @cached_property
     def _among(self) -> Linkage:

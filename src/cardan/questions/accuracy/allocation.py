@@ -18,7 +18,8 @@ from cardan.texts import _
 
 from .accuracy import WAYS, error_arrays, located_shafts, one_turn, sensitivity, transmission_error, way_names
 from .own_laws import dimension, seats, table_of
-from .tolerance import Linear, Spread, WorstCase, spreads
+from .pair_errors import PairError, pair_errors
+from .tolerance import Linear, Spread, WorstCase, norm, spreads
 
 FLAT = 1e-9
 """Influences below this share of the largest are none."""
@@ -134,7 +135,8 @@ def allocate(
     ----------
     drive : Drive
         The drive; the costs of its tolerances are weights w, a tolerance t costs w/t; 1 where none is given. Lengths
-        and ratios inside a joint count by their share of the size. What its known errors make is taken off the target.
+        and ratios inside a joint count by their share of the size. What its known errors make is taken off the target,
+        and what tolerances of pairs in mechanism files do counts as kept.
     target : float
         The error allowed, ± [rad], of the shift [m].
     of : Of
@@ -246,6 +248,7 @@ class _Budget:
         table, centre = self._at(turn)
         change = kind is Of.CHANGE
         self.mean = table.mean(axis=0) if change else 0.0 * table[0]
+        self.pair_means = [one.table.mean(axis=0) if change else np.zeros(3) for one in self._pairs(turn)]
         self.centre = float(np.mean(centre)) if change else 0.0
 
     def _at(self, phi: Array) -> tuple[Array, Array]:
@@ -255,16 +258,27 @@ class _Budget:
         centre = known.output_shift if self.kind is Of.SHIFT else known.error
         return table.reshape(len(phi), -1), centre
 
+    def _pairs(self, phi: Array) -> tuple[PairError, ...]:
+        """Return what pairs inside joints may be off: their tolerances are kept as their mechanism files have them."""
+        return () if self.kind is Of.SHIFT else pair_errors(self.drive, phi)
+
+    def _kept(self, phi: Array) -> Array:
+        """Return the powers (p,) of what these make, together."""
+        rows = zip(self._pairs(phi), self.pair_means, strict=True)
+        return sum((norm(one.tolerance * (one.table - mean)) ** self.power for one, mean in rows), 0.0 * phi)
+
     def __call__(self, phi: Array) -> tuple[Array, Array]:
         """Return the powers of the influences (p, m) and of what known errors leave of the target (p,), signed."""
         table, centre = self._at(phi)
         left = self.target - np.abs(centre - self.centre)
-        return np.abs(table - self.mean) ** self.power, np.sign(left) * np.abs(left) ** self.power
+        room = np.sign(left) * np.abs(left) ** self.power - self._kept(phi)
+        return np.abs(table - self.mean) ** self.power, room
 
     def error(self, phi: Array, tolerances: Array) -> Array:
         """Return known errors and tolerances (m,) together at each position."""
         table, centre = self._at(phi)
-        spread: Array = (np.abs(table - self.mean) ** self.power @ tolerances**self.power) ** (1.0 / self.power)
+        own = np.abs(table - self.mean) ** self.power @ tolerances**self.power
+        spread: Array = (own + self._kept(phi)) ** (1.0 / self.power)
         return np.abs(centre - self.centre) + spread
 
 

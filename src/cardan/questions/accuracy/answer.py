@@ -84,7 +84,7 @@ class Accuracy:
 
 def lacking(drive: Drive) -> Lacking:
     """Return what the drive file lacks for its accuracy: errors or tolerances of a joint."""
-    some = any(joint.tolerance is not None or joint.error is not None for joint in drive.joints)
+    some = any(joint.tolerance is not None or joint.error is not None or joint.tolerated for joint in drive.joints)
     keys = (*in_a_joint(drive, "tolerance"), *in_a_joint(drive, "error"))
     return absent((some, *keys))
 
@@ -104,7 +104,7 @@ def ask(
     found = Accuracy(known=known)
     if not found.closes:
         return found
-    if not any(joint.tolerance is not None for joint in drive.joints):
+    if not any(joint.tolerance is not None or joint.tolerated for joint in drive.joints):
         shifts, moves, shafts = _shifts(drive), cross_play(drive, None), shaft_places(drive, None)
         acts = moves or shafts or any(_largest(_curve(known, side)) > 0.0 for side in (ANGLE, SHIFT)[: 1 + shifts])
         return replace(found, crosses=moves, shafts=shafts) if acts else None
@@ -216,7 +216,7 @@ def _sentence(drive: Drive, result: Accuracy) -> Say:
     side, band = some[0]
     first = band.contributions[0]
     alike = [band.contributions[k] for k in largest([one.share for one in band.contributions])]
-    parts = Joined([tolerance_name(one.joint, one.key) for one in alike], last=_(" and "))
+    parts = Joined([_named(one) for one in alike], last=_(" and "))
     bounds = say(_("±{size} ({how})"), size=side.quantity(band.largest), how=_way(result.band.method))
     if not isinstance(result.band.method, WorstCase):
         most = side.quantity(_band_of(result.worst, side).largest)
@@ -296,7 +296,7 @@ def _lying(result: Accuracy) -> Table:
         rows += [(one.shaft, how, None, way) for how, way in ways if any(way)]
         for part in one.shares:
             if any(own > TOLD * most for own, most in zip(part.ways, one.worst, strict=True)):
-                rows.append((one.shaft, tolerance_name(part.joint, part.key), part, part.ways))
+                rows.append((one.shaft, _named(part), part, part.ways))
     kinds = dict.fromkeys(part.dimension for _shaft, _how, part, _ways in rows if part is not None)
     given = {
         kind: [part.tolerance if part and part.dimension == kind else None for *_, part, _w in rows] for kind in kinds
@@ -367,6 +367,10 @@ def _measured(
         yield _column(measure(kind), key, here, heading, depth)
 
 
+def _named(one: Contribution | PlaceShare) -> str:
+    return tolerance_name(one.joint, one.key, one.pair, one.dimension)
+
+
 def _tidy(row: Sequence[float | None]) -> list[float | None]:
     """Return numbers with what is nothing but rounding beside the first set to zero."""
     top = row[0] or 0.0
@@ -385,7 +389,7 @@ def _parts(side: Side, band: Band) -> Table:
     return Table(
         title=_("What makes the shift") if side is SHIFT else _("What makes the angle error"),
         columns=(
-            Column(key="", heading=_("tolerance"), values=[tolerance_name(one.joint, one.key) for one in rows]),
+            Column(key="", heading=_("tolerance"), values=[_named(one) for one in rows]),
             *_measured(rows, [one.tolerance for one in rows], "tolerance", _("given ±")),
             Column(key="share", heading=_("share"), values=[one.share for one in rows], dimension="share", decimals=1),
             *(
@@ -403,7 +407,7 @@ def _as_drawn(drive: Drive) -> Iterator[Remark]:
         yield Remark(text=text)
     for number, joint in enumerate(drive.joints, start=1):
         sizes = joint.sizes()
-        if joint.single_cross or any(size is not None for size in sizes.values()):
+        if joint.single_cross or joint.tolerated or any(size is not None for size in sizes.values()):
             continue
         why = joint.refusal("tolerance")
         if sizes:
@@ -454,6 +458,15 @@ def _remarks(drive: Drive, result: Accuracy) -> Iterator[Remark]:
     if band.convergence is not None and band.convergence.lost:
         text = _("Warning: {count} of them could not be assembled and are left out.")
         yield Remark(text=say(text, count=int(band.convergence.lost)), tone="warning")
+    if isinstance(band.method, MonteCarlo):
+        which = [str(number) for number, joint in enumerate(drive.joints, start=1) if joint.tolerated]
+        if which:
+            text = plural(
+                "Samples leave out the tolerances of pairs inside joint {which}; the worst case counts them.",
+                "Samples leave out the tolerances of pairs inside joints {which}; the worst case counts them.",
+                len(which),
+            )
+            yield Remark(text=say(text, which=Joined(which, last=_(" and "))))
     if band.cancelled:
         yield Remark(text=_("Warning: the sampling was stopped; this is of what was drawn."), tone="warning")
     if not (some := _open(drive, band)):
@@ -529,27 +542,27 @@ def _checks(drive: Drive, result: Accuracy) -> Iterator[Checked]:
             left=_largest(loop_slides(drive)[:, 2] + shifts) / _largest(shifts),
             allowed=1e-9,
         )
-    if parts := [(one.shaft, part) for one in result.shafts for part in one.shares]:
+    if parts := [(one.shaft, part) for one in result.shafts for part in one.shares if not part.pair]:
         shaft, part = max(parts, key=lambda one: max(one[1].ways[:2]))
         exact, told = (max(one[:2]) for one in (alone(drive, part)[shaft], part.ways))
         yield Checked(
-            what=_("way of shaft {number} by {name}").format(number=shaft, name=tolerance_name(part.joint, part.key)),
+            what=_("way of shaft {number} by {name}").format(number=shaft, name=_named(part)),
             how=_("exact loops with that error alone, over what the influence gives"),
             left=abs(exact / told - 1.0),
             allowed=CURVED,
         )
     if band is None or result.worst is None or not band.output.contributions:
         return
-    most = band.output.contributions[0]
-    errors: list[Any] = [None] * len(drive.joints)
-    errors[most.joint - 1] = table_of(drive.joints[most.joint - 1], "error")(**{most.key: most.tolerance})
-    exact = _largest(np.asarray(transmission_error(drive, errors=errors).error))
-    yield Checked(
-        what=_("influence of {name}").format(name=tolerance_name(most.joint, most.key)),
-        how=_("exact loop with that error alone, over the largest error that the influence gives"),
-        left=abs(exact / most.largest - 1.0),
-        allowed=CURVED,
-    )
+    for most in [one for one in band.output.contributions if not one.pair][:1]:
+        errors: list[Any] = [None] * len(drive.joints)
+        errors[most.joint - 1] = table_of(drive.joints[most.joint - 1], "error")(**{most.key: most.tolerance})
+        exact = _largest(np.asarray(transmission_error(drive, errors=errors).error))
+        yield Checked(
+            what=_("influence of {name}").format(name=_named(most)),
+            how=_("exact loop with that error alone, over the largest error that the influence gives"),
+            left=abs(exact / most.largest - 1.0),
+            allowed=CURVED,
+        )
     if isinstance(band.method, Linear):
         over = float(np.max(np.asarray(band.output.upper) - np.asarray(result.worst.output.upper)))
         yield Checked(

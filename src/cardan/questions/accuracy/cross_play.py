@@ -148,5 +148,5 @@ def _plays(drive: Drive, known: Array, parts: Array, power: int) -> Iterator[Cro
                 free=slides is True or slides == yoke,
                 known=way,
                 reach=stacked(flat, power),
-                play=float(peak(way) + peak(-way)) + change(flat, power),
+                play=float(peak(way) + peak(-way)) + change(flat[..., None], power),
             )

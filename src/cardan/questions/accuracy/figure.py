@@ -83,16 +83,26 @@ def tolerance_figures(found: ToleranceBand) -> tuple[Figure, ...]:
     return (band_figure(found), pareto_figure(found))
 
 
-def tolerance_name(joint: int, key: str) -> str:
+def tolerance_name(joint: int, key: str, pair: str = "", dimension: str = "") -> str:
     """Return what a tolerance is called.
 
-    joint: number of its joint, from 1; key: its key in the file.
+    joint: number of its joint, from 1; key: its key in the file; pair: name of a pair inside, off by a vector of a
+    dimension.
 
     >>> tolerance_name(1, "alpha2")
     'α₂ of joint 1'
     >>> tolerance_name(2, "driving_distance")
     'driving_distance of joint 2'
+    >>> tolerance_name(1, "drawing.joints[3].tolerance", "driven pin", "length")
+    'shift of “driven pin” in joint 1'
     """
+    if pair:
+        text = (
+            _("turn of “{pair}” in joint {number}")
+            if dimension == "angle"
+            else _("shift of “{pair}” in joint {number}")
+        )
+        return text.format(pair=pair, number=joint)
     return _("{name} of joint {number}").format(
         number=joint, name=_("yoke phase") if key == "phase" else SIGNS.get(key, key)
     )
@@ -208,7 +218,7 @@ def _pareto(side: Side, given: Sequence[Contribution]) -> Panel:
         thick=0.62,
         lying=True,
     )
-    names = tuple(tolerance_name(row.joint, row.key) for row in rows)
+    names = tuple(tolerance_name(row.joint, row.key, row.pair, row.dimension) for row in rows)
     return Panel(
         series=(bars,),
         x=Axis(low=0.0, high=1.28 * top, ticks=ticks, texts=written(ticks)),

@@ -52,7 +52,9 @@ def stays(drive: Drive, number: int) -> str:
 def unmoved(drive: Drive, number: int) -> str:
     """Return in a sentence why no error inside a joint moves a shaft; "" where one does."""
     joint = drive.joints[number - 1]
-    return stays(drive, number) if joint.placing() else _(joint.stays)
+    if joint.tolerated and joint.free_ways:
+        return _("its mechanism lets its shafts shift in their centre, and bearings hold them")
+    return stays(drive, number) if joint.placing() or joint.tolerated else _(joint.stays)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

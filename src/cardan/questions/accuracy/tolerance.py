@@ -13,10 +13,12 @@ from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames
 from cardan.texts import _
 
 from .accuracy import WAYS, error_arrays, located_shafts, one_turn, per_joint, sensitivity, transmission_error
 from .own_laws import dimension, seats
+from .pair_errors import PairError, pair_errors
 from .sampling import SIGMA, Convergence, MonteCarlo, Sample, sampled
 
 NORMAL_95 = 1.959963984540054
@@ -24,6 +26,9 @@ NORMAL_95 = 1.959963984540054
 
 ALIKE = 9
 """Digits of shares by which contributions are sorted: what differs by less is alike, and stays in its order."""
+
+FELT = 1e-18
+"""Share of the variance below which a pair does nothing but rounding: a billionth of what errs."""
 
 DIRECTIONS = 90
 """Phases at which the amplitude of an order is looked at."""
@@ -48,9 +53,10 @@ class Contribution:
     """What one tolerance contributes."""
 
     joint: int  # number of its joint, from 1
-    key: str  # its key, ``alpha2``
+    key: str  # its key, ``alpha2``; of a pair inside the joint its path there
+    pair: str = ""  # what that pair is called
     dimension: str = "angle"  # of it, "" of a pure number
-    tolerance: float  # the tolerance, ± in SI
+    tolerance: float  # the tolerance, ± in SI; of a pair the largest length of the vector by which it is off
     share: float  # its share of the variance over the turn
     largest: float  # the largest error it makes by itself, at the worst position [rad or m]
     # mean, first, second: the parts of that error that stay, come once a turn, and come twice a turn [rad or m]
@@ -61,7 +67,7 @@ class Contribution:
     @property
     def field(self) -> str:
         """Path of the tolerance in the drive, ``joints[0].tolerance.alpha2``."""
-        return f"joints[{self.joint - 1}].tolerance.{self.key}"
+        return f"joints[{self.joint - 1}].{'' if self.pair else 'tolerance.'}{self.key}"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -136,7 +142,7 @@ def tolerance(
     drive : Drive
         The drive. Known errors of its joints shift the bounds.
     spread : Tolerance, or n of them, optional
-        Tolerances of every joint, or of each; those of the drive by default.
+        Tolerances of every joint, or of each; those of the drive by default. Pairs in mechanism files keep theirs.
     method : Linear, WorstCase or MonteCarlo
         Root of the sum of squares, the worst case, or exact loops on random errors.
     progress : function, optional
@@ -159,7 +165,9 @@ def tolerance(
     Notes
     -----
     Worst case Σ \\|C\\| t, root of the sum of squares √Σ (C t)², C from `accuracy.sensitivity`;
-    Book (171), (180). The peak to peak is that between the two positions that can differ most.
+    Book (171), (180). The peak to peak is that between the two positions that can differ most. A pair of a joint of
+    one's own is off by a vector that goes with its link, of any direction: it counts by the length of its influence,
+    which is worst along this. Samples leave pairs out.
 
     Examples
     --------
@@ -174,20 +182,36 @@ def tolerance(
     """
     rows = spreads(drive, spread)
     turns, ways = error_arrays(rows, drive.joints)
-    if not np.any(turns) and not np.any(ways):
+    sampling = isinstance(method, MonteCarlo)
+    inner = any(joint.tolerated for joint in drive.joints)
+    if not np.any(turns) and not np.any(ways) and (sampling or not inner):
+        if inner:
+            text = _(
+                "missing; samples are drawn of tolerances of joints alone, not of those of pairs in mechanism files"
+            )
+            raise refuse("joints[0].tolerance", text)
         raise refuse(
             "joints[0].tolerance", _("missing; no joint has a tolerance: give joints[k].tolerance.alpha1_deg or others")
         )
     widths = np.asarray([[SIGMA["normal" if row is None else row.distribution]] for row in rows])
     held = located_shafts(drive)
     phi = one_turn(method.positions) if isinstance(method, MonteCarlo) else one_turn()
+    pairs = pair_errors(drive, phi) if inner and not sampling else ()
     known = transmission_error(drive, phi)
     tables = (sensitivity(drive, phi), sensitivity(drive, phi, located=held)[..., : len(WAYS)])
     names: list[Sequence[Sequence[str]]] = [seats(drive.joints), [WAYS] * len(rows)]
     parts = [
-        _Part(table=table, limits=limits, deviations=limits * widths, centre=centre, names=some, joints=drive.joints)
-        for table, limits, centre, some in zip(
-            tables, (turns, ways), (known.error, known.output_shift), names, strict=True
+        _Part(
+            table=table,
+            limits=limits,
+            widths=widths,
+            centre=centre,
+            names=some,
+            joints=drive.joints,
+            pairs=own,
+        )
+        for table, limits, centre, some, own in zip(
+            tables, (turns, ways), (known.error, known.output_shift), names, (pairs, ()), strict=True
         )
     ]
     if not isinstance(method, MonteCarlo):
@@ -217,14 +241,29 @@ def spreads(drive: Drive, spread: Spread) -> list[Tolerance | None]:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class _Part:
-    """Sensitivity (p, n, c) of the output to errors, with their tolerances and standard deviations (n, c)."""
+    """Sensitivity (p, n, c) of the output to errors, with their tolerances (n, c)."""
 
     table: Array
     limits: Array
-    deviations: Array
+    widths: Array  # (n, 1): standard deviations over tolerances
     centre: Array
     names: Sequence[Sequence[str]]
     joints: Sequence[Joint]
+    pairs: Sequence[PairError] = ()
+
+    def reach(self) -> Array:
+        """Return what tolerances make along each direction of an error, array (p, m, 3): of a number along the first.
+
+        Those of joints in the order of ``names``, then those of pairs.
+        """
+        flat = _flat(self.table * self.limits)
+        alone = np.stack((flat, 0.0 * flat, 0.0 * flat), axis=-1)
+        return np.concatenate((alone, *(one.tolerance * one.table[:, None] for one in self.pairs)), axis=1)
+
+    def shares(self) -> Array:
+        """Return standard deviations over tolerances, array (m,)."""
+        own = np.broadcast_to(self.widths, self.limits.shape)
+        return np.concatenate((own.reshape(-1), [float(self.widths[one.joint - 1, 0]) for one in self.pairs]))
 
 
 def stacked(parts: Array, power: int) -> Array:
@@ -238,10 +277,10 @@ def stacked(parts: Array, power: int) -> Array:
 
 
 def _stacked(part: _Part, power: int) -> Band:
-    flat = _flat(part.table * part.limits)
-    half = stacked(flat, power)
-    deviation = stacked(_flat(part.table * part.deviations), 2)
-    mean, orders = _orders(flat)
+    reach = part.reach()
+    half = stacked(norm(reach), power)
+    deviation = stacked(norm(reach) * part.shares(), 2)
+    mean, orders = _orders(reach)
     return Band(
         centre=part.centre,
         lower=part.centre - half,
@@ -249,18 +288,18 @@ def _stacked(part: _Part, power: int) -> Band:
         lower_95=part.centre - np.minimum(half, NORMAL_95 * deviation),
         upper_95=part.centre + np.minimum(half, NORMAL_95 * deviation),
         deviation=deviation,
-        mean=float(stacked(mean, power)),
+        mean=float(stacked(norm(mean), power)),
         first=_amplitude(orders[0], power),
         second=_amplitude(orders[1], power),
-        peak_to_peak=change(flat, power),
+        peak_to_peak=change(reach, power),
         contributions=contributions(part),
     )
 
 
-def change(flat: Array, power: int) -> float:
-    """Return by how much parts (p, m) over a turn can differ between two positions, stacked as `stacked` does."""
-    coarse = flat[:: max(1, len(flat) // 120)]
-    return max(float(np.max(stacked(coarse - row, power))) for row in coarse)
+def change(reach: Array, power: int) -> float:
+    """Return by how much parts (p, m, d) over a turn can differ between two positions, stacked as `stacked` does."""
+    coarse = reach[:: max(1, len(reach) // 120)]
+    return max(float(np.max(stacked(norm(coarse - row), power))) for row in coarse)
 
 
 def _from_sample(part: _Part, sample: Sample) -> Band:
@@ -281,28 +320,44 @@ def _from_sample(part: _Part, sample: Sample) -> Band:
 
 def contributions(part: _Part) -> tuple[Contribution, ...]:
     """Return what every tolerance contributes, the largest share first."""
-    table, limits, deviations = part.table, part.limits, part.deviations
-    reach = table * limits
-    variance = np.mean((table * deviations) ** 2, axis=0)
+    reach = part.reach()
+    size = norm(reach)
+    variance = np.mean((size * part.shares()) ** 2, axis=0)
     total = float(np.sum(variance))
-    mean, orders = _orders(np.moveaxis(reach, 0, -1).reshape(-1, len(table)).T)
-    rows = [
-        Contribution(
-            joint=j + 1,
-            key=name,
-            dimension=dimension(part.joints[j], name),
-            tolerance=float(limits[j, k]),
-            share=float(variance[j, k]) / total,
-            largest=float(np.max(np.abs(reach[:, j, k]))),
-            mean=float(abs(mean[len(row) * j + k])),
-            first=float(abs(orders[0][len(row) * j + k])),
-            second=float(abs(orders[1][len(row) * j + k])),
-        )
+    mean, orders = _orders(reach)
+    named = [
+        (j + 1, name, "", dimension(part.joints[j], name) if part.limits[j, k] else "", float(part.limits[j, k]))
         for j, row in enumerate(part.names)
         for k, name in enumerate(row)
-        if limits[j, k] > 0.0 and variance[j, k] > 0.0
+    ]
+    named += [(one.joint, one.key, one.pair, one.dimension, one.tolerance) for one in part.pairs]
+    rows = [
+        Contribution(
+            joint=joint,
+            key=key,
+            pair=pair,
+            dimension=kind,
+            tolerance=limit,
+            share=float(variance[k]) / total,
+            largest=float(np.max(size[:, k])),
+            mean=float(norm(mean[k])),
+            first=_alone(orders[0][k]),
+            second=_alone(orders[1][k]),
+        )
+        for k, (joint, key, pair, kind, limit) in enumerate(named)
+        if limit > 0.0 and variance[k] > (FELT * total if pair else 0.0)
     ]
     return tuple(sorted(rows, key=lambda row: -float(f"{row.share:.{ALIKE}g}")))
+
+
+def norm(parts: Array) -> Array:
+    """Return the lengths of vectors (..., d)."""
+    return np.asarray(frames.norm(parts))
+
+
+def _alone(order: Array) -> float:
+    """Return the largest amplitude that a vector of phasors (3,) reaches, along its worst direction."""
+    return float(np.linalg.svd(np.stack((order.real, order.imag)), compute_uv=False)[0])
 
 
 def _flat(table: Array) -> Array:
@@ -311,12 +366,12 @@ def _flat(table: Array) -> Array:
 
 
 def _orders(curves: Array) -> tuple[Array, list[Array]]:
-    """Return mean and complex amplitudes of orders 1 and 2 of curves (p, m) over one turn, arrays (m,)."""
-    phi = one_turn(len(curves))
-    return np.mean(curves, axis=0), [2.0 * np.mean(curves * np.exp(-1j * k * phi)[:, None], axis=0) for k in (1, 2)]
+    """Return mean and complex amplitudes of orders 1 and 2 of curves (p, m, 3) over one turn, arrays (m, 3)."""
+    wave = np.exp(-1j * one_turn(len(curves)))[:, None, None]
+    return np.mean(curves, axis=0), [2.0 * np.mean(curves * wave**k, axis=0) for k in (1, 2)]
 
 
 def _amplitude(order: Array, power: int) -> float:
-    """Return the largest amplitude that phasors (m,) reach together, looked at from every side."""
+    """Return the largest amplitude that phasors (m, 3) reach together, looked at from every side."""
     side = np.exp(1j * np.arange(DIRECTIONS) * (np.pi / DIRECTIONS))
-    return float(np.max(stacked(np.real(order * side[:, None]), power)))
+    return float(np.max(stacked(norm(np.real(order * side[:, None, None])), power)))

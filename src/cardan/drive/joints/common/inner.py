@@ -71,6 +71,17 @@ class Contact:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class Tolerated:
+    """How far the second half of a pair may be off as built: in any direction, so each is the length of a vector."""
+
+    name: str  # what its file calls the pair
+    field: str  # path of the pair in the joint
+    shift: float  # [m]
+    turn: float  # [rad]
+    axes: Array  # (..., 3, 3): turn of its second link, with which what is off goes, from where its file draws it
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class InnerPair:
     """A pair inside a joint, where it stands: at one place of a turn or, with leading axes (...), at many."""
 
@@ -94,6 +105,7 @@ class InnerPair:
     slip: float | Array = 0.0
     rolls: float = 0.0  # [m]: radius at which what slides in it rolls on its bearing
     told: bool = True  # whether what it carries is told, of pairs by which a joint is `Joint.loaded`
+    tolerated: Tolerated | None = None  # how far it may be off, where its kind has that of its pairs
 
 
 def bending(stance: Stance) -> Iterator[InnerPair]:
