@@ -192,6 +192,8 @@ def test_what_is_allotted_leaves_room_for_pairs(way):
     both, pair, _cross = pair_and_cross()
     found = allocate(both, 6.0 * arcmin, method=way)
     assert tolerance(both, found.spread, method=way).output.largest == pytest.approx(6.0 * arcmin, rel=3e-5)
+    remarks = [str(one.text) for one in told.answer_of_allocation(both, found).remarks]
+    assert any("are kept, and count" in one for one in remarks)
     with pytest.raises(InputError, match="use up the error allowed"):
         allocate(both, 0.9 * tolerance(pair).output.largest, method=way)
 
@@ -213,6 +215,7 @@ def test_a_drive_whose_pairs_alone_may_be_off_is_answered():
     answer = told.answer(pair, told.ask(pair))
     assert "turn of “driven pin” in joint 1" in str(answer.sentence)
     assert not [one for one in answer.remarks if one.code == "made_true"]
+    assert not [one for one in answer.remarks if one.tone == "next"]  # nothing is left to be allotted
     fields = [row["field"] for row in answer.facts["angle"]["contributions"]]
     assert fields == ["joints[0].drawing.joints[2].tolerance_turn"]
 

@@ -41,7 +41,7 @@ from .figure import (
 from .own_laws import table_of
 from .sampling import MonteCarlo
 from .shaft_places import PlaceShare, ShaftPlace, Ways, alone, largest_way, shaft_places, still_joints
-from .tolerance import Band, Contribution, Linear, Method, ToleranceBand, WorstCase, tolerance
+from .tolerance import Band, Contribution, Linear, Method, ToleranceBand, WorstCase, stacked, tolerance
 
 CURVED = 0.02
 """Share by which exact loops may differ from the influence, which is a tangent: errors of some degrees bend it so."""
@@ -459,7 +459,7 @@ def _remarks(drive: Drive, result: Accuracy) -> Iterator[Remark]:
         text = _("Warning: {count} of them could not be assembled and are left out.")
         yield Remark(text=say(text, count=int(band.convergence.lost)), tone="warning")
     if isinstance(band.method, MonteCarlo):
-        which = [str(number) for number, joint in enumerate(drive.joints, start=1) if joint.tolerated]
+        which = _tolerated(drive)
         if which:
             text = plural(
                 "Samples leave out the tolerances of pairs inside joint {which}; the worst case counts them.",
@@ -473,8 +473,16 @@ def _remarks(drive: Drive, result: Accuracy) -> Iterator[Remark]:
         return
     side, one = some[0]
     half = float(f"{0.5 * one.largest / side.size:.2g}") * side.size
+    kept = np.asarray([part.largest for part in one.contributions if part.pair])
+    if float(stacked(kept, 1 if isinstance(band.method, WorstCase) else 2)) >= half:
+        return  # the tolerances of pairs, which are kept, use that up
     text = _("Find the cheapest tolerances for half of that:")
     yield Remark(text=text, command=("cardan", "accuracy", FILE, "--allocate", goal(half, side)), tone="next")
+
+
+def _tolerated(drive: Drive) -> list[str]:
+    """Return the numbers of the joints whose pairs may be off."""
+    return [str(number) for number, joint in enumerate(drive.joints, start=1) if joint.tolerated]
 
 
 def goal(size: float, side: Side) -> str:
@@ -676,7 +684,7 @@ def answer_of_allocation(drive: Drive, found: Allocation, *, written: Path | Non
         title=_("Cheapest tolerances"),
         sentence=_allotted(found, side),
         tables=(_allotments(found),),
-        remarks=tuple(_allocation_remarks(found, side, written)),
+        remarks=(*_keeping(drive, side), *_allocation_remarks(found, side, written)),
         figures=lambda: tolerance_figures(tolerance(drive, found.spread, method=found.method)),
         facts={
             "of": str(found.of),
@@ -758,6 +766,17 @@ def values_of(found: Allocation) -> dict[str, float]:
         digits = DIGITS - 1 - floor(log10(told))
         values[f"{one.field}{unit}"] = round(floor(told * 10.0**digits) / 10.0**digits, max(digits, 0))
     return values
+
+
+def _keeping(drive: Drive, side: Side) -> Iterator[Remark]:
+    """Yield that tolerances of pairs, which only turn the output, are kept."""
+    if (which := _tolerated(drive)) and side is ANGLE:
+        text = plural(
+            "The tolerances of pairs inside joint {which} are kept, and count.",
+            "The tolerances of pairs inside joints {which} are kept, and count.",
+            len(which),
+        )
+        yield Remark(text=say(text, which=Joined(which, last=_(" and "))))
 
 
 def _allocation_remarks(found: Allocation, side: Side, written: Path | None) -> Iterator[Remark]:
