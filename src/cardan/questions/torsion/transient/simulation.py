@@ -27,6 +27,9 @@ Progress: TypeAlias = Callable[[float], object]
 CLOSER = 20
 """How much finer the places around an extreme lie than before, twice."""
 
+ALIKE = 1e-9
+"""Peaks that differ by less of their size are one that repeats: integration is no more exact."""
+
 PIECES = 96
 """Pieces whose extremes are looked for together."""
 
@@ -184,9 +187,11 @@ class Record:
         times = np.concatenate([piece.within() for piece, _freedom in self.waiting])
         parts = [self._whole(piece, freedom, piece.within()) for piece, freedom in self.waiting]
         values = self._values(times, *(np.concatenate([one[k] for one in parts]) for k in range(2)))
-        top = np.argmax(values, axis=0)
+        most = np.max(values, axis=0)
+        least = ALIKE * np.max(np.abs(values), axis=0)
+        top = np.argmax(values >= most - least, axis=0)  # of peaks that repeat the first
         for k, place in enumerate(top):
-            if values[place, k] > self.best[k]:
+            if most[k] > self.best[k] + least[k]:
                 self.best[k], self.when[k] = values[place, k], times[place]
                 piece = place // WITHIN
                 self.around[k] = self.waiting[piece : piece + 2 if (place + 1) % WITHIN == 0 else piece + 1]
