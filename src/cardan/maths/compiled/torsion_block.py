@@ -58,6 +58,7 @@ class Block:
         self.line, self.drives, self.length = line, state.q.shape[-1], state.length
         self.groups = -(-self.drives // LANES)
         self.where = Rows(line)
+        self.filled = np.minimum(np.arange(self.groups * LANES), self.drives - 1).reshape(self.groups, LANES)
         self.memory = np.zeros(self.groups * self.where.count * LANES)
         self.rows = self.memory.reshape(self.groups, self.where.count, LANES).swapaxes(0, 1)
         for name in ("q", "v", "work", "alive", "ended"):
@@ -76,9 +77,8 @@ class Block:
     def _put(self, name: str, values: Array) -> None:
         """Write rows; registers that no drive fills get the last one's numbers."""
         room = self._part(name)
-        wide = np.broadcast_to(np.reshape(values, (-1, values.shape[-1])), (len(room), self.drives))
-        rest = self.groups * LANES - self.drives
-        room[:] = np.pad(wide, ((0, 0), (0, rest)), mode="edge").reshape(room.shape)
+        if room.size:
+            room[:] = np.reshape(values, (-1, values.shape[-1]))[:, self.filled % values.shape[-1]]
 
     def _get(self, name: str) -> Array:
         room = self._part(name)
