@@ -161,7 +161,7 @@ def test_nothing_keeps_anybody_out_of_the_first_page(opened: Open, size: str, la
     ("example", "size", "language", "theme"),
     [
         ("truck-supports", "desk", "en", "light"),
-        ("truck-power-unit", "tablet", "ru", "light"),
+        ("pto-flywheel", "tablet", "ru", "light"),
         ("pto-hitch", "desk", "ru", "dark"),
         ("truck-supports", "phone", "ru", "dark"),
         ("pto-hitch", "phone", "en", "light"),

@@ -323,7 +323,7 @@ def test_a_map_that_is_stopped_keeps_what_is_done(monkeypatch: pytest.MonkeyPatc
 
 @pytest.mark.slow
 def test_a_peak_between_the_speeds_is_found():
-    """The peak as sixty speeds about it have it; at an end of the speeds nothing is added."""
+    """The peak as seventeen speeds about it have it; at an end of the speeds nothing is added."""
     coarse = torsion_response(LINE, speed=np.linspace(20.0, 180.0, 9))
     found = peak_refined(LINE, coarse)
     most = np.max(np.nan_to_num(found.swing), axis=-1)
@@ -332,7 +332,7 @@ def test_a_peak_between_the_speeds_is_found():
     assert np.all(np.diff(found.speed) > 0.0)
     assert set(coarse.speed) < set(found.speed)
     assert most[k] > 1.02 * np.nanmax(coarse.swing)
-    dense = torsion_response(LINE, speed=np.linspace(found.speed[k - 2], found.speed[k + 2], 60))
+    dense = torsion_response(LINE, speed=np.linspace(found.speed[k - 1], found.speed[k + 1], 17))
     assert most[k] == pytest.approx(np.nanmax(dense.swing), rel=2e-3)
     rising = torsion_response(LINE, speed=[20.0, 30.0])
     assert peak_refined(LINE, rising) is rising
