@@ -168,6 +168,7 @@ COMMANDS = (
 """Every command that asks something of a drive file."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS)
 @with_every_toy
 def test_every_command_answers_or_says_why_not(cardan, drive_file, monkeypatch, command, kind, where):  # noqa: F811
@@ -210,6 +211,7 @@ def test_it_stands_in_space(kind, where, cardan, drive_file):  # noqa: F811
     assert done.code == 0, done.err
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_keys_of_its_file_are_told(kind, cardan):  # noqa: F811
     assert kind in json.dumps(schema())
@@ -223,6 +225,7 @@ def test_the_keys_of_its_file_are_told(kind, cardan):  # noqa: F811
     assert kind in cardan("joint", kind, *keys, "hooke", "--joint-angle-deg", "20").out
 
 
+@pytest.mark.slow
 @with_every_toy
 def test_every_column_of_a_sweep_is_answered_or_refused(kind, where):
     drive = loads(file_of(kind, where))

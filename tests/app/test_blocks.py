@@ -110,6 +110,7 @@ def test_buttons_stand_in_the_first_table_that_has_them_alone():
     assert [one["data-do"] for one in buttons] == ["A"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["truck-supports", "overconstrained-pump", "propshaft-with-rzeppa"])
 def test_every_quick_answer_is_sound_html(name):
     on = subject(example(name))

@@ -104,6 +104,7 @@ def test_a_catalogue_that_changed_makes_another_question(tmp_path):
     assert asked_before.key != before
 
 
+@pytest.mark.slow
 def test_an_answer_is_kept_until_something_of_the_question_changes(jobs):
     first = ended(jobs.ask(question("echo", a=1), "x"))
     again = jobs.ask(question("echo", a=1), "y")
@@ -115,6 +116,7 @@ def test_an_answer_is_kept_until_something_of_the_question_changes(jobs):
     assert jobs.ask(question("echo", a=1), "x").state == "waiting"
 
 
+@pytest.mark.slow
 def test_how_far_it_is_and_how_long_it_takes_yet(jobs):
     job = jobs.ask(question("slow", seconds=1.2), "x")
     assert job.left is None
@@ -146,6 +148,7 @@ def test_a_newer_question_ends_the_older_one_of_the_same_user_only(jobs):
     assert ended(other).state == "cancelled"
 
 
+@pytest.mark.slow
 def test_a_worker_that_does_not_listen_is_replaced(one, monkeypatch):
     monkeypatch.setattr("cardan.app.state.jobs.PATIENCE", 0.2)
     before = ended(one.ask(question("echo", n="before"), "x")).result[2]
@@ -158,6 +161,7 @@ def test_a_worker_that_does_not_listen_is_replaced(one, monkeypatch):
     assert after != before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("language", "said"), [("en", "was ended from outside (code -9)"), ("ru", "-9")])
 def test_a_worker_that_is_killed_says_so_and_the_next_goes_on(one, language, said):
     job = ended(one.ask(question("killed", language, again=language), "x"))
@@ -166,6 +170,7 @@ def test_a_worker_that_is_killed_says_so_and_the_next_goes_on(one, language, sai
     assert ended(one.ask(question("echo", after=language), "x")).state == "done"
 
 
+@pytest.mark.slow
 def test_a_worker_killed_while_it_waits_is_replaced(one):
     pid = ended(one.ask(question("echo", n="idle"), "x")).result[2]
     os.kill(pid, signal.SIGKILL)
@@ -183,6 +188,7 @@ def test_what_goes_wrong_is_told_and_the_worker_lives(one):
     assert ended(one.ask(question("echo", n="still"), "x")).result[2] == before
 
 
+@pytest.mark.slow
 def test_a_job_that_takes_too_long_is_given_up_and_the_next_goes_on(one):
     job = ended(one.ask(question("slow", limited=True), "x", limit=0.2))
     assert job.state == "failed"
@@ -252,6 +258,7 @@ def test_users_are_served_in_turn(one):
     assert when == sorted(when)
 
 
+@pytest.mark.slow
 def test_no_process_is_left_after_the_end():
     jobs = Jobs(1, made=work)
     pid = ended(jobs.ask(question("echo"), "x")).result[2]

@@ -42,6 +42,7 @@ def opened(page_of: Open, url: str) -> Open:
     return open_page
 
 
+@pytest.mark.slow
 def test_what_is_rounding_has_no_digits_in_large_letters() -> None:
     on = subject(example("pickup-two-piece"))
     assert 0.0 < on.fluctuation < 1e-5

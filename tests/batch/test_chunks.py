@@ -14,6 +14,7 @@ from cardan.batch.work import MOST, UNKNOWN, Chunks, chunks_of, rows_for
 from tests.batch.works import Numbers, Trouble
 
 
+@pytest.mark.slow
 @given(size=st.integers(0, 500), rows=st.integers(1, 600))
 def test_chunks_cover_all_rows_once(size, rows):
     chunks = Chunks("a sweep", size, rows)

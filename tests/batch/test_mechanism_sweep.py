@@ -15,6 +15,7 @@ from cardan.io.plan_file import plan_of, read_plan
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
+@pytest.mark.slow
 def test_a_crank_slider_goes_over_twice_its_crank_whatever_its_rod():
     made = example_mechanism("crank-slider")
     ask = evaluator(made, ["joints[1].point_mm[0]", "joints[2].point_mm[0]"], ["motion", "mobility"])
@@ -24,6 +25,7 @@ def test_a_crank_slider_goes_over_twice_its_crank_whatever_its_rod():
     assert np.all(np.isnan(rows["ratio_min"]))
 
 
+@pytest.mark.slow
 def test_the_readings_of_a_differentiator_are_its_ratio():
     work = read_plan(EXAMPLES / "sweeps" / "differentiator.toml").work()
     rows = work.evaluate(0, 2)

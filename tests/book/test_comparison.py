@@ -87,6 +87,7 @@ def test_the_series_err_as_much_as_measured_before(limit, first, second):
     assert second / 4 < seen.worst_second_order.max() < 2 * second
 
 
+@pytest.mark.slow
 @given(plans(joint_angle=8 * deg, straight=False), st.floats(0.2, 0.5))
 def test_the_orders_of_the_series_deserve_their_names(plan, share):
     """Bends smaller by k: the first order errs by k⁴ less, the second by k⁶."""

@@ -69,6 +69,7 @@ def test_in_a_zone_there_is_no_exponent():
     assert found.too_far
 
 
+@pytest.mark.slow
 def test_the_rule_promises_too_much():
     """Within (237) neglecting q should cost 1 to 2 %; it costs up to a tenth at order 2, half at engine orders."""
     worst = {"joint": 0.0, "engine": 0.0}

@@ -59,6 +59,7 @@ def test_the_exact_equations_agree_about_the_zone(rpm, stable):
     assert bool(np.all(stability(at(rpm)).stable)) == stable
 
 
+@pytest.mark.slow
 def test_the_engineering_method_meets_the_exact_torque_far_from_resonance():
     """Mean and order 2 come at their tops together, once a turn: within what order 4 and the static twist add."""
     found = mathieu_modes(example("pto-flywheel")).sizing

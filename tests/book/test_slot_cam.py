@@ -168,6 +168,7 @@ def test_jamming_and_other_contacts_are_told():
     assert np.isnan(follower_force(1.0, limit, 0.1, 0.12))
 
 
+@pytest.mark.slow
 def test_a_cam_that_no_two_rims_hold_is_told_and_the_equations_have_no_answer():
     """Where weight and drive cancel across the axis, the end plane tips the cam and it must lie on the whole plane."""
     cam, psi = replace(BASE, weight=30.0, drive_place=0.03, length=0.24), 5.7

@@ -88,6 +88,7 @@ def test_a_straight_joint_is_regular():
     assert found["force_abs_along_shaft1_N"] == pytest.approx(abs(found["gap_vector_frame1_m"][2]) / axial, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_the_largest_force_is_that_of_dense_samples():
     sizes = [
         calc("assembly_forces", changed(BLOCKED, ["phi1_deg"], angle))["force_magnitude_N"]

@@ -57,6 +57,7 @@ def test_the_teeth_carry_the_torque_by_their_moments():
     assert refused("spline", inputs | {"chamfer_mm": 1.5}) == {("chamfer_mm", "out_of_range")}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("height", "width"), [(32.0, 22.0), (20.0, 50.0), (25.0, 25.0)])
 def test_a_rectangle_twists_as_prandtl_s_membrane_has_it(height, width):
     """Poisson's equation on the section by sines, a double series in place of Saint-Venant's single one."""

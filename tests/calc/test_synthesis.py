@@ -20,6 +20,7 @@ def tables(draw, most=6):
     return [draw(JOINT_ANGLE) for _ in range(n)], [draw(TWIST) for _ in range(n - 1)]
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(tables())
 def test_every_set_returned_leaves_what_it_says_by_plain_vectors(table):
@@ -31,6 +32,7 @@ def test_every_set_returned_leaves_what_it_says_by_plain_vectors(table):
     assert found["delta"] == pytest.approx(found["delta_min"], abs=1e-14)
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(tables(), st.data())
 def test_no_random_yokes_do_better_or_worse_than_the_bounds(table, data):

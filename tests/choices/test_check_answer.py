@@ -82,6 +82,7 @@ def test_a_limit_of_nothing_is_told_as_beyond_a_thousand_times():
     assert "> 100\u202f000 %" in told(answer(spent, ask(spent)).sentence, USUAL)
 
 
+@pytest.mark.slow
 def test_the_first_page_has_what_fails_and_is_close():
     result = ask(example("truck-duty-cycle"))
     keys, left = urgent(result)
@@ -103,6 +104,7 @@ def test_a_drive_of_which_nothing_is_said_tells_what_it_lacks():
     assert ("duty.speed",) in otherwise(bare)
 
 
+@pytest.mark.slow
 def test_a_sweep_tells_how_many_verdicts_rest_on_unconfirmed_ratings():
     sure, unsure = example("two-piece-rear-drive"), example("pickup-two-piece")
     (asked,) = COLUMNS

@@ -117,6 +117,7 @@ def test_a_joint_of_a_series_becomes_the_next_size_that_does():
     assert not any("cross" in remedy.path or "needles" in remedy.path for remedy in found)
 
 
+@pytest.mark.slow
 def test_a_stronger_material_is_named():
     drive = car(torque=780.0)
     found = remedies(drive, check(drive, only=["tube_strength"]))

@@ -128,6 +128,7 @@ def test_the_capacity_for_a_life_is_the_tenth_root_law():
     assert found.exact["joints[0].needles.static_capacity_N"] == pytest.approx(force, rel=1e-7)
 
 
+@pytest.mark.slow
 def test_the_smallest_row_of_the_catalogue_passes_and_no_smaller_one_does():
     base = drive(duty=Duty(speed=1200 * rpm, torque=600.0, life=1000 * hour))
     found = size(base, None, "joint")
@@ -172,6 +173,7 @@ def test_a_size_whose_life_nobody_can_tell_is_not_taken_where_a_life_is_asked():
     assert any(one.passed for one in short.tried if one.id.startswith("ml-"))
 
 
+@pytest.mark.slow
 def test_a_size_whose_torque_nobody_can_tell_is_not_taken():
     found = size(Drive.from_angles([0.05, 0.05]), Duty(speed=50.0, torque=900.0), "joint")
     rows = catalogue().rows(JointSize)

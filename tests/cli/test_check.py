@@ -149,6 +149,7 @@ def test_the_list_names_every_check(cardan):
     assert cardan("check").code == 2
 
 
+@pytest.mark.slow
 def test_a_catalogue_adds_sizes_to_take_and_to_try(cardan, drive_file):
     own = """[[joint_sizes]]
 id = "own-80"
@@ -172,6 +173,7 @@ def test_sources_are_told_when_asked_for(cardan, car):
     assert "ISO 281" in cardan("check", car, "--sources").out
 
 
+@pytest.mark.slow
 def test_the_figure_is_drawn(cardan, car, tmp_path):
     done = cardan("check", car, "--plot", tmp_path / "bars.svg")
     assert done.code == 1

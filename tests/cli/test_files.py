@@ -105,6 +105,7 @@ def test_what_is_converted_and_back_means_the_same(cardan, tmp_path):
     assert files.loads(cardan("convert", "a.json", "-").out) == files.load(TRUCK)
 
 
+@pytest.mark.slow
 def test_the_schema_accepts_the_examples(cardan, tmp_path):
     schema = json.loads(cardan("schema").out)
     validator = jsonschema.Draft202012Validator(schema)

@@ -16,6 +16,7 @@ TRUCK = EXAMPLES / "truck-supports.toml"
 PTO = EXAMPLES / "pto-spline-thrust.toml"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", [TRUCK, PTO], ids=lambda path: path.stem)
 @pytest.mark.parametrize("options", [(), ("--map",)], ids=["parts", "map"])
 def test_the_answer_stands_within_80_columns(cardan, path, options):
@@ -110,6 +111,7 @@ def test_a_map_around_no_torque_is_refused(cardan):
     assert "--map: spans a tenth to one and a half of the torque, and that is 0" in done.err
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", [(), ("--map",)], ids=["parts", "map"])
 def test_a_figure_is_drawn(cardan, tmp_path, options):
     assert cardan("losses", TRUCK, *options, "--plot", "losses.svg").code == 0

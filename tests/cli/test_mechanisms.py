@@ -39,6 +39,7 @@ def test_forces_of_a_mechanism_are_told_within_80_columns(cardan, name):
     assert "balance of every link, close to" in one_line(done.out)
 
 
+@pytest.mark.slow
 def test_json_and_csv_hold_what_was_found(cardan):
     path = FOLDER / "crank-slider.toml"
     said = cardan("motion", path, "--json", "--speed-rpm", "60").content
@@ -88,6 +89,7 @@ def test_what_cannot_be_is_one_message(cardan, words, said):
     assert said in one_line(done.err)
 
 
+@pytest.mark.slow
 def test_an_input_that_slides_is_told_by_its_path_and_force(cardan, tmp_path):
     path = FOLDER / "boom-cylinder.toml"
     said = cardan("motion", path, "--json").content
@@ -128,6 +130,7 @@ def test_report_of_a_mechanism(cardan, tmp_path, suffix):
             assert words in text
 
 
+@pytest.mark.slow
 def test_a_report_tells_what_does_not_turn(cardan, tmp_path):
     place = tmp_path / "offset.html"
     assert cardan("report", FOLDER / "maize-drive-offset.toml", "-o", place).code == 0

@@ -20,6 +20,7 @@ def one_line(text):
     return " ".join(plain(text).split())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", MECHANISMS, ids=lambda path: path.stem)
 def test_every_mechanism_is_answered_within_80_columns(cardan, path):
     done = cardan("mobility", path)
@@ -30,6 +31,7 @@ def test_every_mechanism_is_answered_within_80_columns(cardan, path):
     assert ("(overconstrained)" in one_line(done.out) or "locked" in one_line(done.out)) == bool(found.redundant)
 
 
+@pytest.mark.slow
 def test_the_pump_is_told_which_keys_to_change(cardan, drive_file):
     done = cardan("mobility", PUMP)
     assert widest(done.out) <= 80
@@ -47,6 +49,7 @@ def test_the_pump_is_told_which_keys_to_change(cardan, drive_file):
     assert "mobility 1, no redundant constraints" in one_line(done.out)
 
 
+@pytest.mark.slow
 def test_the_faulty_three_joint_drive_is_found_out_by_all_but_the_formula(cardan):
     said = cardan("mobility", EXAMPLES / "mechanisms" / "three-joints-e.toml", "--json").content
     assert (said["formula"], said["mobility"], said["redundant"], said["parasitic"]) == (1, 3, 2, 2)
@@ -62,6 +65,7 @@ def test_the_faulty_three_joint_drive_is_found_out_by_all_but_the_formula(cardan
     }
 
 
+@pytest.mark.slow
 def test_a_turn_tells_whether_it_turns_through(cardan):
     path = EXAMPLES / "mechanisms" / "hooke-stiff-bearings.toml"
     assert "turns through 360° with constant mobility" in one_line(cardan("mobility", path, "--turn").out)
@@ -81,12 +85,14 @@ def test_what_is_not_held_is_told(cardan, drive_file):
     assert (done.code, done.complaint["problems"][0]["field"]) == (2, "--turn")
 
 
+@pytest.mark.slow
 def test_csv_has_every_joint(cardan):
     path = EXAMPLES / "mechanisms" / "crank-slider.toml"
     rows = list(csv.DictReader(io.StringIO(cardan("mobility", path, "--csv").out)))
     assert [row["joint"] for row in rows] == [one.id for one in example_mechanism("crank-slider").joints]
 
 
+@pytest.mark.slow
 def test_the_figure_is_drawn(cardan, tmp_path):
     done = cardan("mobility", EXAMPLES / "mechanisms" / "crank-slider.toml", "--plot", "graph.svg")
     assert done.code == 0
@@ -173,6 +179,7 @@ def test_a_layout_is_written_into_a_copy_of_the_file(cardan, drive_file, tmp_pat
     assert mobility(files.load(other)).redundant == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "field"),
     [

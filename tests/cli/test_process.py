@@ -41,6 +41,7 @@ def test_motion_imports_no_plotting_and_no_compiler():
     assert not found & {"scipy", "matplotlib", "plotly", "numba", "jinja2", "tomlkit"}
 
 
+@pytest.mark.slow
 def test_version_and_help(process):
     done = process("--version", capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (0, f"cardan {VERSION}\n")
@@ -140,6 +141,7 @@ def test_a_reader_that_was_never_there_is_no_error(process):
     os.close(writing)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
 def test_a_full_output_is_told(process):
     with open("/dev/full", "w") as full:
@@ -167,6 +169,7 @@ def test_streams_without_a_reader_do_no_harm(process):
     assert done.returncode == 0
 
 
+@pytest.mark.slow
 def test_other_encodings_get_what_they_can_show(process):
     done = process("motion", TRUCK, capture_output=True, environment={"PYTHONUTF8": "0", "PYTHONIOENCODING": "ascii"})
     assert done.returncode == 0

@@ -237,6 +237,7 @@ def test_applying_over_another_file_needs_force(cardan, tmp_path):
     assert float(equivalent_joint(files.load(other)).speed_fluctuation) < 1e-13
 
 
+@pytest.mark.slow
 def test_layout_moves_a_joint_within_its_box(cardan, drive_file, tmp_path):
     text = (EXAMPLES / "truck-printed-coordinates.toml").read_text()
     box = "centre_mm = [707, -57, 27]\nmove_within_mm = [[650, 760], [-100, 50], [0, 60]]  # free to move"
@@ -290,6 +291,7 @@ def test_settings_of_many_shafts_run_downwards(cardan, drive_file):
     assert "A yoke 1° off adds at most" in out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", MOVING, ids=lambda path: path.stem)
 def test_a_moving_example_is_answered(cardan, path):
     done = cardan("articulation", path)

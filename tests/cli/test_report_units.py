@@ -3,6 +3,8 @@
 import html
 import re
 
+import pytest
+
 from tests.cli.conftest import EXAMPLES
 
 KEY = re.compile(r"\w+\[?\d*\]?\.\w+_(mm|deg|rpm)\b")
@@ -25,6 +27,7 @@ def words(text):
     return html.unescape(re.sub(r"<[^>]+>", " ", text))
 
 
+@pytest.mark.slow
 def test_lengths_are_told_in_the_unit_asked_for(cardan, tmp_path):
     assert cardan("report", TRUCK, "-o", "mm.html").code == 0
     assert cardan("report", TRUCK, "-o", "in.html", "--full", "--unit", "length=in", "--decimal", ",").code == 0

@@ -114,6 +114,7 @@ def test_a_size_is_written_with_the_comments(cardan, winch, tmp_path):
     assert cardan("strength", "better.toml").code == 0
 
 
+@pytest.mark.slow
 def test_a_row_of_a_maker_is_taken(cardan, winch, drive_file, tmp_path):
     maker = drive_file(MAKER, "maker.toml")
     said = cardan("strength", winch, "--size", "joint", "--catalogue", maker, "--json").content

@@ -160,6 +160,7 @@ values = [0, -20]
 """
 
 
+@pytest.mark.slow
 def test_columns_that_leave_a_movement_out_say_so(cardan, tmp_path):
     """Of a hitch the motion is as drawn; the column of the movement and the checks count it."""
     path = tmp_path / "hitch.toml"

@@ -53,6 +53,7 @@ def test_the_answer_stands_within_80_columns_and_is_drawn(design, tmp_path, name
     assert (tmp_path / "a.svg").stat().st_size > 1000
 
 
+@pytest.mark.slow
 def test_the_best_point_keeps_the_limit(design):
     """δ = sin α tan α = 0.1 at 18.03°."""
     said = design("best", "--json").content

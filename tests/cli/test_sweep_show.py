@@ -73,6 +73,7 @@ def test_a_table_without_any_answer(cardan, folder):
     assert "10 points, none of them answered" in show(cardan, folder, "--where", "status > 0").out
 
 
+@pytest.mark.slow
 def test_a_choice_between_goals(cardan, folder):
     said = show(cardan, folder, *GOALS, "--json").content
     chosen = pareto(TABLE, [sweep_asked.Goal(name="speed_fluctuation"), sweep_asked.Goal(name="joint_angle_deg[1]")])

@@ -87,6 +87,7 @@ def test_modes_are_those_of_the_library(cardan, rig):
     assert said["input"] == "free"
 
 
+@pytest.mark.slow
 def test_modes_say_what_meets_in_use(cardan, rig, drive_file):
     out = plain(cardan("torsion", "modes", rig).out)
     assert out.startswith("▲ test rig: the first torsional natural frequency is 45.5 Hz; joints excite it at 1 364 rpm")
@@ -138,6 +139,7 @@ def test_stability_maps_what_the_library_maps(cardan, rig):
     assert "#" in out.split("\n\n")[1]
 
 
+@pytest.mark.slow
 def test_simulation_is_that_of_the_library(cardan, rig):
     said = cardan("torsion", "simulate", rig, "--span-s", "0.1", "--json").content
     found = transient(files.load(rig), span=0.1)

@@ -66,6 +66,7 @@ def grid(outer: float, inscribed: float, wall: float, lobes: int, step: float) -
     return x, y, whole, hole
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("outer", "inscribed", "wall", "lobes"), SIZES)
 def test_area_and_moments_are_those_of_the_wall(outer: float, inscribed: float, wall: float, lobes: int) -> None:
     step = 1e-4

@@ -265,6 +265,7 @@ def test_names_are_escaped():
         assert "<b>&" not in str(described(figure)).replace("<b>&lt;", "")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "said",
     [

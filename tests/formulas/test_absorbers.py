@@ -118,6 +118,7 @@ def test_fixed_points_do_not_feel_the_damping():
     assert (found.peak > found.fixed_amplification).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("alpha", [0.05, 0.3])
 def test_the_exact_optimum_is_that_of_a_numerical_search(alpha):
     """The largest of a sweep, refined about its highest places, made small by Nelder and Mead: no formula in common."""

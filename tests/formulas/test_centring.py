@@ -15,6 +15,7 @@ def left(share, joint_angle):
     return np.abs(np.cos(second) / np.cos(first) - np.cos(first) / np.cos(second))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("most", "least"), [(20, 0), (50, 0), (80, 0), (45, 25), (30, 29)])
 def test_no_other_ratio_does_better(most, least):
     found = best_centring(most * deg, least * deg)

@@ -105,6 +105,7 @@ def integrated(joint_angle, stiffness, inertia, acceleration, end, damping, time
     return np.asarray([torque(t, y) for t, y in zip(times, found.y.T, strict=True)])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("joint_angle", "acceleration", "damping"), [(20, 20.0, 0.5), (45, 60.0, 0.0), (0, 20.0, 0.5), (20, 20.0, 90.0)]
 )
@@ -132,6 +133,7 @@ def test_steep_joints_and_critical_damping_are_followed_too():
     assert joint_run_up(20 * deg, 2000.0, 0.5, 20.0, 2.0, damping=2 * math.sqrt(1000.0)).residual < 1e-7
 
 
+@pytest.mark.slow
 def test_the_slower_the_run_the_higher_the_torque_up_to_the_steady_one():
     runs = [joint_run_up(20 * deg, 2000.0, 0.5, a, 2.2 * 31.6 / a, damping=1.0) for a in (0.05, 5.0, 50.0)]
     peaks = [one.peak_torque for one in runs]

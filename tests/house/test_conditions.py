@@ -206,6 +206,7 @@ def test_nothing_is_missing_that_is_not_asked():
     assert {name for name, _aspect in MISSING} <= set(QUESTIONS)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "aspect", "kind"), list(cases()))
 def test_every_question_depends_on_it_or_says_why_not(name, aspect, kind):
     question, drive = QUESTIONS[name], having(aspect, kind)

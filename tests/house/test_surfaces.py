@@ -89,6 +89,7 @@ def heavy(name, one, who):
     return name in FEW or turn % 3 == 0
 
 
+@pytest.mark.slow
 @examples
 def test_every_question_is_told_on_every_surface(name, monkeypatch):
     """To all readers in one test, so that every answer is computed once."""

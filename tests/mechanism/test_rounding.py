@@ -42,6 +42,7 @@ OPEN = ["hooke-stiff-bearings", "maize-drive", "thompson", "weiss-straight"]
 """Mechanisms held more than once, whose loops few digits open."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", OPEN)
 def test_few_digits_close_as_all_digits_do(name):
     given, exact = few_digits(name), example_mechanism(name)
@@ -59,6 +60,7 @@ def test_few_digits_close_as_all_digits_do(name):
             assert np.linalg.norm(np.cross(was.along, now.along)) <= np.sin(found.turn) + 1e-12
 
 
+@pytest.mark.slow
 def test_it_is_told_by_how_much():
     given = few_digits("thompson")
     found, said = fitted(given), "Its numbers are rounded"
@@ -68,6 +70,7 @@ def test_it_is_told_by_how_much():
         assert values == {"length": found.shift, "angle": found.turn}
 
 
+@pytest.mark.slow
 def test_the_changes_are_the_least():
     """A plane crank-slider that closes is left alone; of one with a skewed pin the skew is shared among its pins."""
     exact = example_mechanism("crank-slider")
@@ -83,6 +86,7 @@ def test_the_changes_are_the_least():
     np.testing.assert_allclose(made.output.path, mechanism_motion(exact, TURN).output.path, atol=3e-6)
 
 
+@pytest.mark.slow
 def test_shafts_that_nearly_meet_are_made_to_meet():
     exact = example_mechanism("reuleaux")
     off = tuple(
@@ -96,6 +100,7 @@ def test_shafts_that_nearly_meet_are_made_to_meet():
     assert np.max(np.abs(inside_of(given, "", "").law(0.3))) < 1e-3
 
 
+@pytest.mark.slow
 def test_a_joint_turns_at_every_joint_angle_as_the_exact_one():
     given, exact = (inside_of(one, "", "") for one in (few_digits("thompson"), example_mechanism("thompson")))
     assert given.freedom == exact.freedom == 2
@@ -103,6 +108,7 @@ def test_a_joint_turns_at_every_joint_angle_as_the_exact_one():
         np.testing.assert_allclose(given.law(alpha)[:1], exact.law(alpha)[:1], atol=1e-5)
 
 
+@pytest.mark.slow
 def test_a_wrong_mechanism_is_refused_with_the_pair_and_the_amount():
     with pytest.raises(InputError) as caught:
         fitted(replace(example_mechanism("maize-drive-offset"), rounding=2e-3))
@@ -156,6 +162,7 @@ def test_the_file_has_a_key():
     assert made.rounding == 0.5e-3
 
 
+@pytest.mark.slow
 def test_a_mechanism_locked_by_next_to_nothing_is_asked_whether_it_is_rounded():
     given = replace(few_digits("thompson"), rounding=None)
     found = mobility(given)

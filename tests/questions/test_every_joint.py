@@ -262,6 +262,7 @@ def test_a_moving_joint_rubs_by_its_joint_angle():
     assert near == pytest.approx(rubbed_share(joint, 0.123, angle)[0], rel=1e-5)
 
 
+@pytest.mark.slow
 def test_a_half_shaft_of_a_car_answers():
     drive = example("front-halfshaft")
     lost, rubbing = losses(drive), forces(drive)

@@ -109,6 +109,7 @@ def watts(heat):
     return np.sum(heat) * SPEED / (2.0 * np.pi)
 
 
+@pytest.mark.slow
 def test_the_life_is_that_of_the_whole_movement(truth):
     drive = hitch()
     drawn, lock, moving = (hours(one[0]) for one in truth)

@@ -57,6 +57,7 @@ def test_an_answer_is_the_page_of_the_report(name):
             assert page.answer
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", example_names())
 def test_no_answer_is_silent_and_keys_named_are_keys_of_the_file(name):
     drive = example(name)
@@ -153,6 +154,7 @@ def test_every_cure_cures_when_it_is_written_into_the_file(name):
     assert tried
 
 
+@pytest.mark.slow
 def test_lights_tell_what_check_tells():
     drive = example("truck-rear-axle")
     shown = lights(subject(drive))

@@ -33,6 +33,7 @@ def test_a_joint_without_a_rating_passes_nothing_but_nears_the_utmost_of_its_kin
     assert [cell.text for cell in steep[3:]] == ["≤ 45", "0.93", "near the limit"]
 
 
+@pytest.mark.slow
 def test_a_bend_while_moving_says_so():
     drive = example("truck-rear-axle")
     drive = replace(drive, limits=replace(drive.limits, joint_angle=12 * deg))

@@ -29,6 +29,7 @@ def row(found, name):
     return next([cell.text for cell in row] for row in found.rows if row[0].text.startswith(name))
 
 
+@pytest.mark.slow
 def test_the_figures_are_those_of_the_report(page):
     found = table(page, "Key figures")
     for k, text in enumerate((TEXT, BENT)):
@@ -75,6 +76,7 @@ def number_failed(found, column):
     return sum(one[column].sign == "✖" for one in found.rows)
 
 
+@pytest.mark.slow
 def test_drives_of_any_kinds_and_numbers_of_joints_compare():
     names = ("tracta-steered-axle", "single-20deg", "six-joints")
     page = compared([Variant(name=one, drive=example(one)) for one in names])

@@ -38,6 +38,7 @@ def test_whether_yokes_could_make_it_uniform_is_said_of_the_speed_fluctuation():
     assert key_rows(example("z-arrangement"))[0][-1].text == "exactly uniform"
 
 
+@pytest.mark.slow
 def test_splines_are_told_in_their_worst_pose():
     (row,) = [one for one in key_rows(example("rolling-mill-upper-spindle")) if one[0].text.startswith("shortest")]
     assert row[0].text == "shortest engaged length of the spline, shaft 2, in the pose roll change"
@@ -87,6 +88,7 @@ def test_no_sentence_stands_twice_in_the_report(name):
     assert [text for text, count in Counter(said).items() if count > 1] == []
 
 
+@pytest.mark.slow
 def test_a_joint_angle_that_an_unconfirmed_rating_allows_is_not_green():
     drive = example("car-propshaft")  # its sizes are made up
     (found,) = [one for one in key_rows(drive) if one[0].text.startswith("largest joint angle")]

@@ -68,6 +68,7 @@ def test_a_file_is_written_as_it_was_read(kind: str) -> None:
         assert loads(dumps(drive, form=form), form=form) == drive
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", [kind for kind in KEYS if kind != "hooke"])
 def test_a_report_tells_of_every_kind(kind: str) -> None:
     drive = loads(file_of(kind).replace(LOADED, "").replace("outer_mm = 60\nwall_mm = 3\n", ""))

@@ -299,6 +299,7 @@ def test_what_could_not_be_calculated_is_told_on_the_first_page():
     assert "Assembly not calculated: supports[0].stiffness" in text
 
 
+@pytest.mark.slow
 def test_a_moving_drive_tells_its_forces_over_the_movement():
     drive = example("pto-spline-thrust")
     swing = Hitch(moves=("joints[1]", "output"), pivot=(0.47, 0.0, -0.3), yaw=0.3, frequency=3.0)
@@ -318,6 +319,7 @@ def test_the_last_digits_of_coordinates_are_no_reason_to_change_a_drive():
     assert "Nothing needs to be changed for a uniform output" in text
 
 
+@pytest.mark.slow
 def test_what_holds_too_often_is_counted_once_on_the_first_page():
     on = subject(example("overconstrained-pump"))
     pages = [answered(name, on) for name in ("assembly", "mobility")]

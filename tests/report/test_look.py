@@ -150,6 +150,7 @@ def test_all_that_is_wrong_is_told_at_once_and_nothing_written(tmp_path):
     assert not (tmp_path / "r.html").exists()
 
 
+@pytest.mark.slow
 def test_a_font_that_is_not_there_is_named(tmp_path):
     (tmp_path / "firm.toml").write_text("[type]\nfont = 'Nowhere Grotesk'")
     with pytest.raises(InputError, match=r"template: type\.font: no font 'Nowhere Grotesk' is installed"):

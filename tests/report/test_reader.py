@@ -67,6 +67,7 @@ def test_no_unit_is_left_over(name):
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["car-propshaft", "instrument-joint", "unstable-drive", "pto-hitch", "pto-drive"])
 def test_every_quantity_is_the_same_in_si(name):
     seen = 0

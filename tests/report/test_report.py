@@ -172,6 +172,7 @@ def test_a_turn_between_yokes_is_told_as_the_line_that_other_pages_name():
     assert turn.endswith("= 269.93° ≡ 89.93° (mod 180°)")
 
 
+@pytest.mark.slow
 def test_key_figures_name_the_pose_that_is_worst():
     rows = {row[0].text: row[1].text for row in key_rows(example("rolling-mill-upper-spindle"))}
     assert rows["largest joint angle, joint 1 (pinion stand), in the pose roll change"] == "3.719"
@@ -205,6 +206,7 @@ def test_a_degree_off_costs_something_where_the_slope_is_zero():
     assert all(0.0 < float(row[2].full) < float(row[1].full) for row in costs.rows)
 
 
+@pytest.mark.slow
 def test_spline_travel_is_judged_and_a_spline_that_does_not_follow_is_told_once():
     drive = example("pto-hitch")
     held = "".join(parsed(page(drive)).words)
@@ -260,6 +262,7 @@ def test_bends_beyond_joints_and_beyond_digits_are_warned_of():
     assert "rounding costs digits" in "".join(parsed(page(Drive.from_angles([85 * deg, 10 * deg]))).words)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("joint_angles", [[0.0], [0.2], [0.0, 0.2, 0.2], [0.1] * 12, [0.0, 0.0]])
 def test_any_number_of_joints_and_straight_ones_give_a_report(joint_angles):
     seen = parsed(page(Drive.from_angles(joint_angles)))
@@ -296,6 +299,7 @@ def test_the_file_is_written_whole_or_not_at_all(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["one.html"]
 
 
+@pytest.mark.slow
 def test_progress_rises_to_one_and_may_stop_the_work():
     told: list[float] = []
     page(example("pto-hitch"), progress=told.append)
@@ -306,6 +310,7 @@ def test_progress_rises_to_one_and_may_stop_the_work():
     assert "Articulation" not in words
 
 
+@pytest.mark.slow
 def test_what_few_ask_for_stands_in_the_appendix_and_only_where_asked():
     drive, text = example("two-piece-rear-drive"), example_text("two-piece-rear-drive")
     short, full = content(drive, source_text=text), content(drive, source_text=text, full=True)
@@ -322,6 +327,7 @@ def test_what_few_ask_for_stands_in_the_appendix_and_only_where_asked():
     assert words.index("Poincaré") < words.index("Appendix") < words.index("format = 1")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["two-piece-rear-drive", "truck-duty-cycle", "pto-hitch", "single-20deg"])
 def test_no_number_of_the_limits_is_told_again_by_the_key_figures(name):
     said = content(example(name))

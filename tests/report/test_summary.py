@@ -33,6 +33,7 @@ def test_a_drive_that_is_even_only_as_drawn_is_not_called_even_in_its_poses():
     assert told(on) == "The yokes are phased right; what is left comes from joint angles that differ in the poses."
 
 
+@pytest.mark.slow
 def test_yokes_that_would_suit_the_poses_are_named():
     on = posed((0.0, 0.0), '"joints[0].joint_angle_deg" = 20, "joints[1].joint_angle_deg" = 20', yoke=90.0)
     assert "“least in the worst pose” leaves 0 % in the worst pose" in told(on)

@@ -47,6 +47,7 @@ def test_only_what_is_given_is_told_in_the_order_of_a_title_block():
     assert list(rows(GIVEN)) == [("Client", "Axle & Co"), ("Drawing number", "DS-4711"), ("Checked by", "calculation")]
 
 
+@pytest.mark.slow
 def test_html_shows_the_head_and_holds_the_logo_itself(said):
     text = html.text(said)
     assert "<dt>Client</dt><dd>Axle &amp; Co</dd>" in text
@@ -54,6 +55,7 @@ def test_html_shows_the_head_and_holds_the_logo_itself(said):
     assert '<p class="units">Units: ' in text
 
 
+@pytest.mark.slow
 def test_pdf_shows_the_head(said):
     told = typeset.as_data(said)["head"]
     assert told["rows"][1] == ["Drawing number", "DS-4711"]
@@ -61,6 +63,7 @@ def test_pdf_shows_the_head(said):
     assert len(typeset.written(said)) > len(typeset.written(replace(said, head=replace(said.head, logo=None))))
 
 
+@pytest.mark.slow
 def test_workbook_shows_the_head_and_a_drawing_as_pixels(said):
     sheet = openpyxl.load_workbook(io.BytesIO(workbook.written(said))).worksheets[0]
     words = [row[0].value for row in sheet.iter_rows(max_row=12)]

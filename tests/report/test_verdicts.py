@@ -31,6 +31,7 @@ def test_a_joint_too_small_stands_first_with_its_cure():
     assert re.search(r"3 of \d+ checks failed", words)
 
 
+@pytest.mark.slow
 def test_lights_show_what_fails_and_is_close_before_the_rest():
     found = judged(asked(example("truck-duty-cycle"), None, None))
     assert found.lights is not None
@@ -73,6 +74,7 @@ def test_a_drive_of_which_nothing_is_said_has_no_such_page():
     assert judged(asked(bare, None, None)).page is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "tone", "said"), [("truck-duty-cycle", "failed", "3 of "), ("composite-propshaft", "warning", "all ")]
 )
@@ -160,6 +162,7 @@ def test_limits_are_written_as_they_were_given():
     assert not any(re.fullmatch(r"[≤≥] .*\.\d*0( .*)?", text) for text in limits)
 
 
+@pytest.mark.slow
 def test_the_colour_of_the_first_sentence_has_a_reason_in_words():
     on = asked(example("composite-propshaft"), None, None)
     limits = judged(on).page
@@ -203,6 +206,7 @@ def test_what_no_single_key_cures_is_said_beside_the_cures():
     assert "no single parameter" not in judged(asked(example("truck-wrong-yokes"), None, None)).changes.note
 
 
+@pytest.mark.slow
 def test_changes_of_keys_stay_in_the_units_of_the_keys():
     with reading(Reader(units={"length": "in", "torque": "lbft"})):
         page = judged(asked(example("truck-duty-cycle"), None, None)).page

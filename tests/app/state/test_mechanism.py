@@ -53,6 +53,7 @@ def test_the_page_is_built_anew_only_where_the_file_becomes_another_thing(sessio
     assert session.drive is None
 
 
+@pytest.mark.slow
 def test_its_pages_have_picture_motion_forces_and_mobility(session: Session) -> None:
     question = pickle.loads(pickle.dumps(asked(session, MECHANISM)))
     pages = result(question)

@@ -46,6 +46,7 @@ def test_a_report_is_in_the_users_units_language_and_sign(session: Session) -> N
     assert "centre_mm" in text  # the file as it stands
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("form", "begin"), [("pdf", b"%PDF-"), ("interactive", b"<!"), ("json", b"{")])
 def test_every_form_opens(session: Session, form: work.Form, begin: bytes) -> None:
     if form == "pdf":

@@ -35,6 +35,7 @@ def results(engine, task, chunks=CHUNKS):
     return {done.chunk.index: (done.value, done.failure) for done in engine.run(task, chunks)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", [InProcess(), Processes(workers=2)], ids=["in process", "processes"])
 def test_every_chunk_comes_once_and_a_failure_is_told(engine):
     found = results(engine, works.Rowwise(works.Trouble("raise", row=9)))
@@ -52,6 +53,7 @@ def test_a_library_that_is_missing_ends_the_run():
         next(InProcess().run(task, CHUNKS))
 
 
+@pytest.mark.slow
 def test_the_chunk_of_a_killed_process_is_done_again(tmp_path):
     found = results(Processes(workers=2), works.Rowwise(works.Trouble("kill", row=9, marks=str(tmp_path), times=2)))
     assert found == {k: (rows, None) for k, rows in ROWS.items()}
@@ -60,12 +62,14 @@ def test_the_chunk_of_a_killed_process_is_done_again(tmp_path):
     assert all(gone(number) for number in struck)
 
 
+@pytest.mark.slow
 def test_a_chunk_that_always_kills_is_given_up_and_the_rest_goes_on():
     found = results(Processes(workers=2, retries=1), works.Rowwise(works.Trouble("kill", row=9)))
     assert found.pop(2) == (None, "the process that worked on it died 2 times")
     assert found == {k: (rows, None) for k, rows in ROWS.items() if k != 2}
 
 
+@pytest.mark.slow
 def test_workers_have_one_thread_and_end():
     found = [done.value for done in Processes(workers=1).run(works.threads_and_process, CHUNKS)]
     assert {threads for threads, _process in found} == {1}
@@ -74,10 +78,12 @@ def test_workers_have_one_thread_and_end():
     assert gone(worker)
 
 
+@pytest.mark.slow
 def test_what_cannot_be_sent_is_told():
     assert "pickle" in next(iter(Processes(workers=1).run(works.unsendable, CHUNKS))).failure
 
 
+@pytest.mark.slow
 def test_processes_that_cannot_begin_say_why():
     with pytest.raises(EngineLostError, match="no module named 'tools'"):
         results(Processes(workers=1, retries=0), works.Unreadable())
@@ -97,6 +103,7 @@ def test_stop_is_heard_while_all_work():
     assert list(InProcess().run(works.size_of, CHUNKS, heard=lambda: "stop")) == []
 
 
+@pytest.mark.slow
 def test_no_more_chunks_are_taken_than_are_worked_on():
     taken = 0
 

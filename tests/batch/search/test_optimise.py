@@ -47,6 +47,7 @@ def test_a_tip_is_found_as_well_as_a_bowl():
     assert optimise(tip, BOX, Goal(name="z")).value < 1e-5
 
 
+@pytest.mark.slow
 def test_the_deepest_of_many_dips_needs_the_global_search():
     near = optimise(DIPS, [(-5.0, 5.0)] * 2, Goal(name="z"))
     far = optimise(DIPS, [(-5.0, 5.0)] * 2, Goal(name="z"), method=Global(seed=1))

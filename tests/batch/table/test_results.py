@@ -87,6 +87,7 @@ def test_the_best_rows(found):
     assert len(found.best(Goal(name=JOINT_ANGLE), limits=[Limit(name=JOINT_ANGLE, low=50.0)])[JOINT_ANGLE]) == 0
 
 
+@pytest.mark.slow
 def test_the_pareto_set_is_that_of_the_whole_table(found):
     goals = [Goal(name="speed_fluctuation"), Goal(name=JOINT_ANGLE)]
     table = whole()

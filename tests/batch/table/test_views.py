@@ -46,6 +46,7 @@ def test_words_run_along_a_map_as_well():
     assert found.values[1, 1] == pytest.approx(np.nanmean(TABLE[JOINT_ANGLE][who & speed]))
 
 
+@pytest.mark.slow
 def test_a_histogram_counts_every_answer_once():
     found = histogram_of(FOUND, JOINT_ANGLE, bins=7)
     known = TABLE[JOINT_ANGLE][np.isfinite(TABLE[JOINT_ANGLE])]
@@ -68,6 +69,7 @@ def test_a_histogram_leaves_out_what_has_no_end():
     assert (np.sum(found.counts), found.unknown) == (SIZE - 13, 13)
 
 
+@pytest.mark.slow
 def test_ranks_are_spearmans():
     found = ranks_of(FOUND, "speed_fluctuation")
     known = np.isfinite(TABLE["speed_fluctuation"])

@@ -87,6 +87,7 @@ WIDE = (
 """Examples that have, with one at random and those above, all pairs."""
 
 
+@pytest.mark.slow
 def test_every_pair_is_compared_somewhere():
     """A pair whose readings never meet would compare nothing."""
     drives = (*map(example, WIDE), turning_about(), borne(), started())
@@ -107,6 +108,7 @@ def test_a_pair_that_differs_by_more_than_it_may_is_seen(pair):
     assert Compared(pair=pair, part="", values=(float("inf"), 1.0)).deviation > 1.0
 
 
+@pytest.mark.slow
 def test_strength_that_leaves_torsional_vibration_out_contradicts_the_response(monkeypatch):
     """A drive near its resonance: without what vibration adds, strength counts less than the response tells."""
     monkeypatch.setattr(Design, "_vibration", lambda _design, _case: None)

@@ -90,6 +90,7 @@ def test_torsional_vibration_is_named_beside_the_torques_without_it():
     assert alarms(example("car-propshaft")) == []
 
 
+@pytest.mark.slow
 def test_a_rating_in_proportion_is_told_where_machines_keep_laws_of_their_own():
     plain = replace(example("pto-baler"), movements=())
     law = LinearTorque(standstill=36.9, slope=2.0)

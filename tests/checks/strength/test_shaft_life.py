@@ -234,6 +234,7 @@ def test_command_line_and_first_page(tmp_path, capsys):
     assert page.index("fatigue life of shaft 2") < page.index("safety, fatigue")  # before the chapter on strength
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("measured", [True, False])
 def test_a_shaft_tires_in_all_poses_by_their_shares(drive, measured):
     """A quarter of the time at 25°: the damages a second add up, in the table of strength and in the verdict."""

@@ -235,6 +235,7 @@ def test_an_event_that_cannot_be_followed_tells_why() -> None:
         assert ask(drive).lost[0][1] != why
 
 
+@pytest.mark.slow
 def test_a_start_that_yields_a_shaft_fails_it_although_it_hardly_tires_it() -> None:
     """One run-up through resonance at 2,858 N·m: √(3T² + 4M²)/W past yield, where running uses two fifths of it."""
     drive = tube(run_up=RunUp(end=540 * rpm, duration=4.0), starts=1.0)

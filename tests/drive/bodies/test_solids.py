@@ -19,6 +19,7 @@ from cardan.units import deg
 DRIVE = Drive.from_angles([0.2, 0.3, 0.25], plane_twists=[0.7, -2.0], yoke_angles=[0.4, -1.1], start_phase=0.3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "drive",
     [DRIVE, Drive.from_angles([0.0]), Drive.from_points([[0, 0, 0], [0.01, 0, 0], [1, 0, 0.1], [1.02, 0, 0.1]])],

@@ -68,6 +68,7 @@ def test_the_law_at_many_joint_angles_is_that_at_each(name):
         assert joint.near_pair(angles)[1][7] == pytest.approx(joint.near_pair(angles[7])[1], abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["thompson", "reuleaux", "weiss-straight"])
 @pytest.mark.parametrize("joint_angle", [0.05, 0.2, 0.4, 0.6])
 def test_mirror_images_are_exactly_uniform(name, joint_angle):
@@ -87,6 +88,7 @@ def test_a_thompson_coupling_holds_its_centre_and_a_reuleaux_coupling_nothing():
     assert np.abs(joint_carried(one, 0.4, ANGLE).wrench[:, 3:]).max() < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["slipper-joint", "block-joint"])
 def test_a_joint_with_axial_freedom_slides_and_turns_as_hookes_joint(name):
     joint = joint_of(name)
@@ -164,6 +166,7 @@ def test_a_detuned_thompson_coupling_turns_as_an_own_closure_says():
     assert np.abs(carried.ratio - joint.deviation(theta[::10] + inside.start, np.asarray(joint_angle))[1]).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_forces_and_losses_of_a_cross_as_a_mechanism_are_those_of_hookes_joint():
     sizes = {"diameter": 0.02, "bearing_distance": 0.08}
     known = example("z-arrangement")
@@ -198,6 +201,7 @@ def refusal(drawing: Mechanism, **keys) -> str:
     return f"{problem.field}: {problem.message}"
 
 
+@pytest.mark.slow
 def test_what_is_no_joint_is_refused_with_link_angle_and_amount():
     drawing = example_mechanism("thompson")
     text = dumps(drawing)
@@ -255,6 +259,7 @@ def sketched(joint_angle: float, turn: float, digits: int) -> Mechanism:
     return Mechanism(frame="frame", input_link="input", output_link="output", joints=tuple(joints))
 
 
+@pytest.mark.slow
 def test_a_sketch_becomes_a_joint_and_answers_in_a_drive():
     joint = MechanismJoint(drawing=sketched(20 * deg, 0.0, 15), joint_angle=12 * deg)
     drive = Drive(joints=(joint, Hooke(joint_angle=12 * deg)), duty=Duty(torque=100.0, speed=100.0))
@@ -264,6 +269,7 @@ def test_a_sketch_becomes_a_joint_and_answers_in_a_drive():
     assert "tell how much, rounding_mm" in refusal(sketched(20 * deg, 0.0, 6))  # micrometres
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rounding", [0.2e-3, 0.02e-3])
 def test_a_sketch_with_printed_digits_answers_in_a_drive(rounding):
     digits = 4 if rounding > 0.1e-3 else 5  # of metres: tenths or hundredths of a millimetre
@@ -281,6 +287,7 @@ def test_a_sketch_with_printed_digits_answers_in_a_drive(rounding):
     assert any("whose numbers are rounded" in one for one in said)
 
 
+@pytest.mark.slow
 def test_a_joint_angle_at_which_it_binds_is_refused_where_the_motion_is_asked():
     drive = Drive(joints=(replace(joint_of("thompson"), joint_angle=50 * deg),))
     with pytest.raises(InputError, match="cannot follow: with the driving link turned by"):
@@ -300,6 +307,7 @@ def test_the_file_is_read_beside_the_drive_file(tmp_path):
         load(tmp_path / "drive.toml")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["SG", "S"])
 def test_a_driven_shaft_that_a_ball_holds_alone_keeps_its_direction(kind):
     """The joint holds its centre and the ball another point of the shaft: as well as a bearing."""

@@ -168,6 +168,7 @@ UNEVEN = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", UNEVEN)
 def test_a_law_asked_at_many_joint_angles_is_that_at_each(kind):
     """The nearest map of a Hooke joint, a row of joint angles at once, also where the joint does not turn at some."""

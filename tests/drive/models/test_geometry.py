@@ -31,6 +31,7 @@ def test_points_laid_out_from_angles_give_the_angles_back(plan, first, data):
     assert np.all(np.abs(off) < 1e-11)
 
 
+@pytest.mark.slow
 @given(plans(joint_angle=60 * deg))
 def test_normals_and_axes_are_what_their_names_say(plan):
     place = geometry(plan.drive)
@@ -41,6 +42,7 @@ def test_normals_and_axes_are_what_their_names_say(plan):
     assert np.allclose(np.cross(before, after), np.sin(place.joint_angle)[:, None] * place.normal, atol=1e-14)
 
 
+@pytest.mark.slow
 @given(plans(most=4, straight=False), st.floats(0.2, 1.5))
 def test_angles_from_points_against_forty_digits(plan, length):
     points = points_from_angles(
@@ -182,6 +184,7 @@ def test_what_is_assumed_is_listed():
     assert np.allclose(place.length, 1.0)
 
 
+@pytest.mark.slow
 @given(plans(straight=False, joint_angle=60 * deg))
 def test_the_chain_of_the_points_is_the_chain_of_the_angles(plan):
     place = geometry(plan.drive)

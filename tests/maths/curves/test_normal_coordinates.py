@@ -22,6 +22,7 @@ def test_moments_of_squares_are_those_of_chi_square(count):
     assert found.deviation[0] == pytest.approx(math.sqrt(2.0 * count), rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("slopes", "rates"), [([3.0], [2.0]), ([3.0, 4.0], [1.0, 2.0]), ([1.0, 2.0, 2.0], [1.0] * 3)])
 def test_a_sum_rises_through_rare_levels_as_rice_says(slopes, rates):
     deviation, rate = math.hypot(*slopes), math.hypot(*(a * w for a, w in zip(slopes, rates, strict=True)))

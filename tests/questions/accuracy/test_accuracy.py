@@ -56,6 +56,7 @@ def test_a_chain_of_loops_solved_by_newton_agrees(plan, seed, phi):
     assert bool(found.closes)
 
 
+@pytest.mark.slow
 @given(plans(straight=False), st.floats(-0.2, 0.2))
 def test_an_error_of_the_first_phase_is_an_input_turned_on(plan, late):
     phi = one_turn(24)
@@ -67,6 +68,7 @@ def test_an_error_of_the_first_phase_is_an_input_turned_on(plan, late):
     assert found.error == pytest.approx(expected, abs=1e-13)
 
 
+@pytest.mark.slow
 @given(plans(straight=False, joint_angle=30 * deg), st.floats(-2.0, 2.0), st.integers(0, 5))
 def test_an_error_of_the_bend_is_another_bend(plan, more, which):
     phi = one_turn(24)
@@ -103,6 +105,7 @@ def test_sensitivities_are_the_differences_of_the_exact_chain(plan, seed):
     assert (up - down) / (2 * h) == pytest.approx(np.sum(table * direction, axis=(-2, -1)), abs=1e-4)
 
 
+@pytest.mark.slow
 @given(plans(), st.integers(0, 10**6))
 def test_lengths_feel_what_angles_feel(plan, seed):
     """The same table serves both, and without errors of angles it is exact for lengths of any size."""

@@ -24,6 +24,7 @@ GROOVED = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("joint", GROOVED, ids=["rzeppa", "weiss", "one ball"])
 def test_balls_between_grooves_that_are_off_turn_as_the_error_says(joint):
     """Each ball by itself, by the screws of its pairs, which know no law; a joint turns as its balls in the mean."""

@@ -69,6 +69,7 @@ def off(joint, key, value):
     return table_of(joint, "error")(**{key: value})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("joint", [*SIZED.values(), *PLAIN], ids=lambda one: one.kind)
 def test_the_influence_is_the_slope_of_the_exact_law(joint):
     """Central differences of order four of the exact error, in a drive with cross joints on both sides."""
@@ -122,6 +123,7 @@ def test_unlike_distances_of_pins_miss_the_plane_that_halves_the_joint_angle():
     assert differ == pytest.approx(closed, abs=1e-8 * float(np.max(np.abs(closed))))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["tracta", "double cardan", "pins", "clemens"])
 def test_the_inner_mechanism_with_the_size_off_turns_as_the_error_says(name):
     """The speed ratio by the screws of the pairs, which know no law, against the slope of the error over the angle."""

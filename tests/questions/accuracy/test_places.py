@@ -194,6 +194,7 @@ def with_tolerances(joint, **tolerances):
     return replace(joint, tolerance=given(**tolerances))
 
 
+@pytest.mark.slow
 def test_tolerances_of_the_place_add_up_as_those_of_the_angle():
     joint = with_tolerances(MOVING["far"], offset=0.05 * mm, reach=0.5 * mm)
     drive = before(joint)

@@ -81,6 +81,7 @@ def limits_of(square):
     return np.asarray([square.phase, square.alpha1, square.alpha2, square.alpha3, square.alpha4])
 
 
+@pytest.mark.slow
 def test_quantiles_of_a_normal_band():
     band = tolerance(SINGLE, Tolerance(phase=0.1 * deg), method=MonteCarlo(samples=65536)).output
     # One normal error alone: quantiles are those of the normal law. Sobol' points know them to 1e-3.

@@ -106,6 +106,7 @@ torque_Nm = {torque}
 """
 
 
+@pytest.mark.slow
 @each
 @pytest.mark.parametrize("torque", [300.0, -300.0])
 def test_couples_are_those_of_the_inner_mechanism(kind, torque):
@@ -231,6 +232,7 @@ def test_balls_that_do_not_fit_at_once_rub_as_those_that_do(kind, off):
     assert unlike.residual < 1e-9
 
 
+@pytest.mark.slow
 def test_a_joint_that_locks_by_its_own_friction_says_where_and_from_which_friction_on():
     """No number comes of it; with less than the friction told the same joint turns, with more it does not."""
     text = """format = 1

@@ -179,6 +179,7 @@ def test_pressure_of_balls_and_rollers_is_judged():
     assert np.asarray(many[0].value)[1] == pytest.approx(2.0 * worst[1])
 
 
+@pytest.mark.slow
 def test_pressure_over_many_joint_angles_lies_between_full_ones():
     drive = loads(HALF_SHAFT)
     angles = np.linspace(20.0, 31.3, 12)

@@ -78,6 +78,7 @@ def test_a_movement_adds_the_damage_of_its_instants():
     assert found.drive == pytest.approx(1.0 / max(sides), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_hitch_lives_longer_than_at_its_lock_and_shorter_than_as_drawn():
     """Two joints, so the torque between them swings; the vector model's moment is that of `forces` at each instant."""
     drive = joints(Drive.from_points([(-0.12, 0, 0), (0, 0, 0), (1, 0, -0.05), (1.15, 0, -0.05)]))
@@ -131,6 +132,7 @@ def test_a_load_case_bound_to_a_pose_damages_there_alone():
     assert [part.name for part in found.parts] == ["road", "pose turned, kerb"]
 
 
+@pytest.mark.slow
 def test_a_load_case_bound_to_a_movement_moves_alone():
     still = Harmonic(name="rest", moves=("output",), amplitude=(0.0, 0.0, 0.0), frequency=2.0)
     swing = Harmonic(name="swing", moves=("output",), amplitude=(0.0, 0.0, 0.2), frequency=2.0)
@@ -185,6 +187,7 @@ def test_many_drives_sum_damage_over_poses_and_movement_as_one_does():
         assert value == pytest.approx(life(one).drive, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_poses_movements_and_cases_with_shares_add_to_one_average():
     """One joint: a case in a pose, one during a movement, the rest in both poses; an integration of its own of all."""
     drive = joints(Drive.from_points([(-1, 0, 0), (0, 0, 0), (1, 0, -0.2)]))

@@ -52,6 +52,7 @@ def test_the_table_has_every_part_and_their_sum():
     assert [cell.text for cell in shown.rows[8]][1:] == ["–"] * 4
 
 
+@pytest.mark.slow
 def test_readers_are_told_in_their_units_and_language():
     said = data(of(TRUCK), INCHES)
     assert said["power_loss_kW"] == pytest.approx(0.695, abs=1e-4)
@@ -64,6 +65,7 @@ def test_readers_are_told_in_their_units_and_language():
         assert printed(of(TRUCK).tables[0], USUAL).columns[0].heading == "деталь"
 
 
+@pytest.mark.slow
 def test_the_map_leaves_the_curves_of_the_turn_to_programs():
     over = answer(TRUCK, losses(TRUCK), loss_map(TRUCK))
     assert {"losses", "map"} <= set(data(over, USUAL))

@@ -21,6 +21,7 @@ from tests.builders.drives import plans
 from tests.builders.rubbing import CROSS, STEADY, book_layout, loaded, rubbing, single, sliding
 
 
+@pytest.mark.slow
 @given(plans(most=4), st.sampled_from(["output", "input"]), st.sampled_from([1, -1]), st.sampled_from([1, -1]))
 def test_without_masses_it_is_the_friction_of_the_chain_whichever_way_it_runs(plan, at, turning, pulling):
     duty = Duty(speed=turning * 100.0, torque=pulling * 50.0, torque_at=at)
@@ -34,6 +35,7 @@ def test_without_masses_it_is_the_friction_of_the_chain_whichever_way_it_runs(pl
     assert found.first_order == pytest.approx(float(chain.first_order), rel=1e-14)
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(plans(most=4), st.integers(0, 2**32 - 1))
 def test_power_balances_with_masses_and_swinging_torque(plan, seed):
@@ -84,6 +86,7 @@ def test_weight_heats_supports_without_torque():
     assert found.efficiency == 0.0
 
 
+@pytest.mark.slow
 def test_a_spline_heats_by_thrust_times_way():
     drive, swing = sliding()
     found = losses(drive, STEADY, movement=swing)

@@ -59,6 +59,7 @@ def test_parts_of_a_duty_cycle_are_a_mean_by_share():
     assert found.heat == pytest.approx(wanted, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_movement_is_a_mean_over_its_time():
     """One joint whose output rises as a sine: own integration over the phase of the heat at each joint angle."""
     drive = rubbing(Drive.from_points([(-1, 0, 0), (0, 0, 0), (1, 0, -0.3)]))

@@ -13,6 +13,7 @@ from tests.builders.friction_model import torques
 PLACES = np.linspace(0, 2 * np.pi, 17)
 
 
+@pytest.mark.slow
 @given(plans(most=5), st.sampled_from(["output", "input"]), st.sampled_from([1.0, -1.0]), st.sampled_from([1.0, -1.0]))
 def test_torques_and_losses_are_those_of_plain_vectors(plan, at, load, sense):
     drag = [0.07, 0.0, 0.03, 0.1, 0.01][: len(plan.joint_angles)]

@@ -53,6 +53,7 @@ def test_slider_crank_carries_what_its_plane_equations_say():
     np.testing.assert_allclose(-found.reaction[:, 3, 4], want[:, 6], atol=1e-8)
 
 
+@pytest.mark.slow
 def test_input_does_the_work_of_the_loads():
     found = mechanism_forces(replace(example_mechanism("crank-slider"), masses=()), TURN)
     travel = found.motion.output
@@ -61,6 +62,7 @@ def test_input_does_the_work_of_the_loads():
     np.testing.assert_allclose(maize.input_torque, 200 * np.abs(maize.motion.output.ratio), atol=1e-9)
 
 
+@pytest.mark.slow
 def test_inertia_in_space_is_the_slope_of_the_kinetic_energy():
     made = example_mechanism("maize-drive-cured")
     rng = np.random.default_rng(3)

@@ -103,6 +103,7 @@ def test_what_rubs_needs_its_diameter():
         replace(SCREW, joints=(replace(SCREW.joints[0], friction=0.1), *SCREW.joints[1:]))
 
 
+@pytest.mark.slow
 def test_a_whole_turn_keeps_its_powers():
     crank = example_mechanism("crank-slider")
     joints = tuple(

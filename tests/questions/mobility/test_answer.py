@@ -31,6 +31,7 @@ def texts(said):
     return [told(one.text, USUAL) for one in said.remarks]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("thing", "sentence", "tone"),
     [
@@ -73,6 +74,7 @@ def test_remedies_name_the_keys_of_the_file():
     assert first.endswith("(supports[2] omitted and supports[3].axial = false).")
 
 
+@pytest.mark.slow
 def test_no_remedy_is_told_that_was_not_tried():
     """A crank-slider whose rod is too short does not come round, whatever lets go."""
     slider = example_mechanism("crank-slider")
@@ -87,6 +89,7 @@ def test_no_remedy_is_told_that_was_not_tried():
     assert not any("Remedy" in one or "add a" in one for one in said)
 
 
+@pytest.mark.slow
 def test_readers_are_told_in_their_units_and_language():
     found = mobility(PUMP)
     said = data(answer(PUMP, found), INCHES)
@@ -108,6 +111,7 @@ def test_a_turn_that_locks_fails_and_says_by_how_much():
     assert "at 180° its loops miss each other by 8.41 mm and 0.225°" in failed
 
 
+@pytest.mark.slow
 def test_a_turn_that_closes_has_constant_mobility():
     thing = example_mechanism("maize-drive-cured")
     said = answer(thing, mobility(thing), turned(thing))

@@ -149,6 +149,7 @@ def test_marks_are_those_by_which_forces_are_calculated():
     np.testing.assert_allclose(driven, stand.driven_arm[0], atol=1e-14)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", JOINTS)
 def test_joints_of_every_kind_are_pairs(kind):
     values = {one.name: 0.02 for one in fields_of(JOINTS[kind]).values() if one.required}
@@ -192,6 +193,7 @@ def offset(*supports):
     return replace(SINGLE, joints=(joint,), supports=supports)
 
 
+@pytest.mark.slow
 def test_an_offset_cross_turns_in_its_ball_and_locks_in_two_bearings():
     motor = Support(shaft=1, position=-0.3, **FIRM)
     ball = mobility_over_turn(offset(motor), positions=24)
@@ -247,6 +249,7 @@ def test_a_joint_stands_in_a_drive_as_the_mechanism_that_it_is(joint, pairs, fre
     assert found.mobility - found.redundant == 1 + free + 1 - 6  # two hinges and the joint around one loop
 
 
+@pytest.mark.slow
 def test_a_tracta_joint_between_fixed_bearings_is_not_redundant_and_turns():
     """R-R-E-R-R, also with forks at unequal distances; spec structure, worked results."""
     for joint in (Tracta(), Tracta(driving_distance=0.03, driven_distance=0.036)):

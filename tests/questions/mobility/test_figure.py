@@ -54,6 +54,7 @@ def test_no_two_links_lie_on_each_other():
         assert min(far) > 0.39
 
 
+@pytest.mark.slow
 def test_a_drive_a_turn_and_a_loop_that_stays_open_are_drawn():
     pump = example("overconstrained-pump")
     assert len(list(drawn(mobility(pump)))) == 1

@@ -22,6 +22,7 @@ def test_a_repair_that_fails_in_two_positions_is_found_out():
     assert set(found.mobility - found.redundant) == {1}
 
 
+@pytest.mark.slow
 def test_positions_that_are_not_reached_do_not_count():
     found = mobility_over_turn(example_mechanism("maize-drive-offset"), positions=6)
     assert not found.turns

@@ -56,6 +56,7 @@ def test_extremes_of_lead_and_acceleration_are_reached_and_not_passed(plan):
     assert (angle_error.max() - angle_error.min()) / 2 == pytest.approx(joint.max_angle_error, rel=1e-3, abs=1e-14)
 
 
+@pytest.mark.slow
 @given(plans(), st.floats(-np.pi, np.pi))
 def test_the_start_changes_nothing_but_the_phase(plan, later):
     other = Drive.from_angles(

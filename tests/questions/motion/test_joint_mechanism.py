@@ -203,6 +203,7 @@ RZEPPA = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("joint_angle", [6 * deg, 30 * deg])
 def test_the_cage_of_a_rzeppa_joint_rubs(joint_angle):
     """In bell and inner race with its force at their radii, 2 sin(α/4) fast; in its windows as the balls go."""

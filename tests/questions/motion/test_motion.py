@@ -86,6 +86,7 @@ def test_another_start_only_shifts_the_angles(plan, later):
     assert np.allclose(here.shaft_angle - begin.shaft_angle, there.shaft_angle, rtol=0, atol=3e-14)
 
 
+@pytest.mark.slow
 @given(plans(joint_angle=60 * deg))
 def test_the_mean_speed_of_every_shaft_is_that_of_the_input(plan):
     turn = motion(plan.drive, np.arange(4096) * (2 * np.pi / 4096))

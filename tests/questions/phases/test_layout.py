@@ -155,6 +155,7 @@ def test_boxes_too_small_give_the_most_even_layout():
     assert found.speed_fluctuation == pytest.approx(bound, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_weights_trade_bends():
     boxes = {1: (0.1, 0.1, 0.1), 2: (0.2, 0.1, 0.1), 3: (0.1, 0.1, 0.1)}
     first = layout(boxed(POINTS, boxes), weights=[10, 1, 1])

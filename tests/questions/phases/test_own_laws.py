@@ -64,6 +64,7 @@ def test_what_a_setting_leaves_is_what_the_motion_leaves(kind, first):
     )
 
 
+@pytest.mark.slow
 def test_what_is_found_is_not_told_as_proved():
     drive = replace(drive_of("pin_coupling", True), movements=())
     told = QUESTIONS["phasing"].answer(drive, phases(drive))
@@ -71,6 +72,7 @@ def test_what_is_found_is_not_told_as_proved():
     assert any("without proof" in str(one.text) for one in told.remarks)
 
 
+@pytest.mark.slow
 def test_half_a_turn_of_a_yoke_counts():
     found = phases(two())
     best = found.settings[0].yoke_angle

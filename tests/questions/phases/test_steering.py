@@ -58,6 +58,7 @@ def column(wanted, lock=540 * deg, **more):
     return replace(made, steering=Steering(lock=lock, centre_ratio=wanted), **more)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wanted", [0.95, 1.04])
 def test_the_ratio_minimised_directly_over_plain_vectors_leads_to_the_same_column(wanted):
     turn = np.linspace(0.0, np.pi, 61)

@@ -45,6 +45,7 @@ def test_it_is_asked_only_where_masses_or_stiffnesses_are_given() -> None:
     assert not lacking(example("truck-power-unit"))
 
 
+@pytest.mark.slow
 def test_the_first_page_tells_frequency_and_alternating_torque() -> None:
     drive = example("truck-power-unit")
     said, swing = of(drive), torsion_response(drive).swing
@@ -124,6 +125,7 @@ def test_what_is_missing_is_refused() -> None:
         ask(drive)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["truck-power-unit", "pto-flywheel"])
 def test_every_check_passes(name: str) -> None:
     texts = [told(one.text, USUAL) for one in of(example(name)).remarks]

@@ -114,6 +114,7 @@ def test_the_least_damping_of_a_mode_is_mathieu_s(off):
     assert found.least_loss((1.1 * OMEGA, 2.0 * OMEGA))[0] == 0.0
 
 
+@pytest.mark.slow
 def test_the_least_damping_is_where_the_exact_equation_stops_growing():
     joint_angle = 12 * deg
     least = stability(drive(joint_angle)).least_loss
@@ -137,6 +138,7 @@ def test_red_only_where_more_is_needed_than_a_real_shaft_has(joint_angle, red):
     assert modes_answer(undamped, torsion_modes(undamped)).tone == "failed"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("off", np.linspace(-0.012, 0.012, 13).tolist())
 def test_one_answer_never_says_both(off):
     """About the edge of a zone the formula of first order and the exact equations differ; the exact ones hold."""

@@ -92,6 +92,7 @@ def test_a_report_as_json_holds_every_number_in_full() -> None:
             assert [one["value"] for one in row if one["value"] is not None] == [float(c.full) for c in line if c.full]
 
 
+@pytest.mark.slow
 def test_a_page_as_workbook_has_its_sheet_and_the_numbers_of_its_charts() -> None:
     made = exported(PAGE, "xlsx", title="=1+1")
     book = openpyxl.load_workbook(io.BytesIO(made.content))

@@ -161,6 +161,7 @@ def test_the_file_tells_what_it_is_and_can_be_read_aloud():
     assert b"pdfuaid" in root["/Metadata"].get_data()
 
 
+@pytest.mark.slow
 def test_running_heads_and_heads_of_tables_stand_on_every_page():
     said, pdf = of_example("pto-hitch"), opened("pto-hitch")
     for k, page in enumerate(pdf.pages[1:], start=2):
@@ -222,12 +223,14 @@ def test_words_of_the_user_are_never_code():
     assert "```#panic()" in seen
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["小车 🚗", "\x00\x07a\ufeff\ud800", "x" * 2000, "   ", "שלום", "a\nb\tc"])
 def test_no_name_keeps_a_report_from_being_written(name):
     pdf = set_with(of_example("pto-hitch"), title=name, note=name, pages=(page_of(Words(text=name, tone="failed")),))
     assert pdf.metadata.title.strip()
 
 
+@pytest.mark.slow
 def test_nothing_stands_beyond_the_paper():
     blocks = (
         Words(text="x" * 300),
@@ -248,6 +251,7 @@ def test_nothing_stands_beyond_the_paper():
     assert all(0.0 <= x <= 596.0 and 0.0 <= y <= 842.0 for x, y in places)
 
 
+@pytest.mark.slow
 def test_a_russian_report_is_russian():
     with speaking("ru"):
         said = content(example("single-20deg"))

@@ -270,6 +270,7 @@ def awkward() -> Content:
     return replace(told, title=EVIL[0], note=EVIL[3], pages=pages, appendix=())
 
 
+@pytest.mark.slow
 def test_nothing_that_a_user_writes_becomes_a_formula_or_a_link() -> None:
     data = written(awkward())
     for text in parts(data, "xl/worksheets/sheet").values():
@@ -321,6 +322,7 @@ def test_names_of_sheets(wanted: str, name: str) -> None:
     assert sheet_name(wanted, set()) == name
 
 
+@pytest.mark.slow
 def test_what_is_not_a_number_is_a_word() -> None:
     cells = [number("∞", np.inf), number("–", np.nan), *(Cell(text=one) for one in ("1 … 2", "001.20", "12"))]
     table = Table(columns=[Column(heading="x")], rows=[[one] for one in cells])
@@ -334,6 +336,7 @@ def test_what_is_not_a_number_is_a_word() -> None:
     assert values == [0, None, None, 3]
 
 
+@pytest.mark.slow
 def test_the_same_report_gives_the_same_file_and_tells_nobody_who_made_it() -> None:
     told = said("tracta-steered-axle")
     first = written(told)
@@ -382,6 +385,7 @@ def test_a_drive_without_limits_or_curves_has_a_workbook() -> None:
     assert book.sheetnames[0] == "Summary"
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_workbook(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "drive.toml"
     file.write_text(example_text("single-20deg"), encoding="utf-8")

@@ -27,6 +27,7 @@ def triangle(joint_angle, share):
     return first, joint_angle - first, x
 
 
+@pytest.mark.slow
 @given(JOINT_ANGLE, SHARE)
 def test_the_triangle_of_the_centres_closes(joint_angle, share):
     first, second, x = triangle(joint_angle, share)

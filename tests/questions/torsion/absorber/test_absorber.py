@@ -105,6 +105,7 @@ def test_what_is_found_is_what_the_drive_does() -> None:
     np.testing.assert_allclose(lost, found.heat[rows], rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_a_viscous_damper_has_no_spring() -> None:
     """Its torque is that of the drag alone, by plain complex numbers; the spring that holds it is lost beside."""
     found = absorber(PUSHED, kind="viscous", inertia_ratio=0.5)
@@ -129,6 +130,7 @@ def test_what_is_judged_is_told() -> None:
     assert found.bare.peak == np.max(found.before[:, 1])
 
 
+@pytest.mark.slow
 def test_an_absorber_without_damping_serves_its_speed() -> None:
     duty = replace(LINE.duty, speed=39.0, speed_range=(30.0, 60.0))
     found = absorber(LINE, duty, kind="tuned", inertia_ratio=0.2)
@@ -230,6 +232,7 @@ def test_a_stop_keeps_the_best_so_far() -> None:
     assert all(0.0 <= share <= 1.0 for share in told)
 
 
+@pytest.mark.slow
 def test_without_a_range_the_band_lies_about_the_resonance() -> None:
     """And the setting is the closed form of the inertia ratio where nothing but the inertia is given."""
     duty = replace(PUSHED.duty, speed_range=None)

@@ -32,6 +32,7 @@ def found():
     return ask(DRIVE, progress=lambda _share: "stop")
 
 
+@pytest.mark.slow
 def test_the_sentence_and_the_settings_are_those_of_the_search(found):
     said = answer(DRIVE, found, chosen=True)
     assert told(said.sentence, USUAL).startswith("with an absorber on pump the largest alternating torque falls from ±")

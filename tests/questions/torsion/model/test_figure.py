@@ -119,6 +119,7 @@ def test_a_sweep_shades_what_is_unstable() -> None:
     assert max(float(np.max(one.y)) for one in falls) <= waterfall_figure(found).panels[0].y.high
 
 
+@pytest.mark.slow
 def test_maps_cover_the_unstable_points() -> None:
     joint_angles = np.linspace(5.0, 30.0, 6)
     for axes in (("duty.speed_rad_s", "joint_angle_deg"), ("joint_angle_deg", "duty.speed_rad_s")):
@@ -144,6 +145,7 @@ def test_a_map_tells_what_else_may_be_red() -> None:
     assert all(one.text.startswith("nearest: ") for one in drawn(figure, Note))
 
 
+@pytest.mark.slow
 def test_zones_are_named_beside_their_tongues() -> None:
     for axes in (("duty.speed_rpm", "joint_angle_deg"), ("joint_angle_deg", "duty.speed_rpm")):
         values = {"duty.speed_rpm": np.linspace(20.0, 60.0, 41) / rpm, "joint_angle_deg": np.linspace(5.0, 30.0, 6)}

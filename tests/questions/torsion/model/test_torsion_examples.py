@@ -48,6 +48,7 @@ def test_the_flywheel_lifts_off_at_small_loads() -> None:
     assert torsion_response(drive, replace(drive.duty, torque=100.0)).torque_lowest[0] < 0.0
 
 
+@pytest.mark.slow
 def test_the_stand_is_cured_by_putting_its_joint_into_the_node() -> None:
     sick, cured = example("unstable-drive"), example("cured-drive")
     one, other = torsion_modes(sick), torsion_modes(cured)

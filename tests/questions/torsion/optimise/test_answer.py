@@ -32,6 +32,7 @@ def found():
     return optimise_torsion(DRIVE, free={YOKE: (-60.0, 20.0)}, method=Grid(points=3))
 
 
+@pytest.mark.slow
 def test_values_and_torques_are_those_of_the_search(found):
     said = answer(DRIVE, found)
     assert told(said.sentence, USUAL).startswith("the largest alternating torque falls from ±")

@@ -43,6 +43,7 @@ def curves(figure: Figure) -> list[Curve]:
     return [item for panel in figure.panels for item in panel.series if isinstance(item, Curve)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["viscous", "tuned", "pendulum"])
 def test_before_and_after_of_an_absorber(kind: str) -> None:
     found = absorber(DRIVE, kind=kind, radius=0.2 if kind == "pendulum" else None, progress=lambda _share: "stop")
@@ -62,6 +63,7 @@ def test_before_and_after_of_an_absorber(kind: str) -> None:
     assert ("pendulums" in figure.title) == (kind == "pendulum")
 
 
+@pytest.mark.slow
 def test_what_is_judged_is_drawn() -> None:
     tube = Shaft(number=2, stiffness=5000.0, damping=2.0, inertia=0.02)
     line = replace(DRIVE, shafts=(tube, Shaft(number=3, stiffness=9000.0, damping=1.0)))
@@ -71,6 +73,7 @@ def test_what_is_judged_is_drawn() -> None:
     assert np.max(before.y) == found.bare.peak < np.max(found.before)
 
 
+@pytest.mark.slow
 def test_a_design_shows_how_its_joints_excite() -> None:
     found = optimise_torsion(DRIVE, free=YOKE, method=Grid(points=3))
     figure = drawn(found)

@@ -76,6 +76,7 @@ def test_a_table_and_a_search_find_the_same() -> None:
     assert np.isnan(table.agreement)
 
 
+@pytest.mark.slow
 def test_splines_allow_their_teeth_alone() -> None:
     splined = replace(DRIVE.shafts[1], yoke_angle=7 * deg, spline=Spline(teeth=16))
     drive = replace(DRIVE, shafts=(DRIVE.shafts[0], splined, DRIVE.shafts[2]))
@@ -89,6 +90,7 @@ def test_splines_allow_their_teeth_alone() -> None:
         optimise_torsion(replace(drive, shafts=(drive.shafts[0], replace(splined, yoke_fixed=True), drive.shafts[2])))
 
 
+@pytest.mark.slow
 def test_an_unstable_design_never_beats_a_stable_one() -> None:
     """Amid its principal zone a drive may swing little and yet not run there."""
     single = replace(
@@ -113,6 +115,7 @@ def test_an_unstable_design_never_beats_a_stable_one() -> None:
     assert not found.unstable_after.size
 
 
+@pytest.mark.slow
 def test_joints_and_inertias_may_move_and_what_makes_no_drive_is_left_out() -> None:
     line = Drive.from_points([(-0.3, 0, 0), (0, 0, 0), (1.0, 0, -0.2), (1.4, 0, -0.2)])
     tube = Shaft(number=2, outer=0.06, wall=0.002, loss_factor=0.03)
@@ -130,6 +133,7 @@ def test_joints_and_inertias_may_move_and_what_makes_no_drive_is_left_out() -> N
     assert found.drive.joints[1].centre[0] * 1e3 == pytest.approx(found.values["joints[1].centre_mm[0]"])
 
 
+@pytest.mark.slow
 def test_a_drive_that_runs_calmest_as_it_is_stays() -> None:
     calmest = with_values(DRIVE, {YOKE: -25.0})
     kept = optimise_torsion(calmest, free={YOKE: (60.0, 90.0, 15.0)}, method=Grid())
@@ -169,6 +173,7 @@ def test_all_that_is_wrong_is_told_at_once() -> None:
         optimise_torsion(DRIVE, free=FREE, method=Evolution(runs=0))
 
 
+@pytest.mark.slow
 def test_a_stop_keeps_the_best_so_far() -> None:
     told: list[float] = []
 
@@ -220,6 +225,7 @@ def test_what_swings_in_no_way_has_no_calm_design() -> None:
         optimise_torsion(straight, free=FREE)
 
 
+@pytest.mark.slow
 def test_stations_that_meet_are_no_design() -> None:
     """Two discs on one shaft: where one reaches the other the line has a station less."""
     tube = replace(DRIVE.shafts[1], length=1.0)
@@ -319,6 +325,7 @@ def test_tolerances_that_are_none_are_refused_with_their_keys() -> None:
         optimise_torsion(DRIVE, free=FREE, method=Grid(points=2), tolerances=many)
 
 
+@pytest.mark.slow
 def test_the_design_is_proved_to_be_stable_or_where_it_is_not() -> None:
     """A zone too narrow for an even look, found with its edges; Floquet judges on either side of them."""
     drive = replace(

@@ -71,6 +71,7 @@ def test_damage_of_a_drive_that_hardly_moves_is_that_of_its_life() -> None:
     assert more.rate > found.rate
 
 
+@pytest.mark.slow
 def test_in_time_the_same_is_told() -> None:
     quick = drive(0.1, rate=25.0)
     found = road_torsion(quick)

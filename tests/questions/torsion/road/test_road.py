@@ -146,6 +146,7 @@ def quick() -> RoadTorsion:
     return road_torsion(QUICK)
 
 
+@pytest.mark.slow
 def test_a_quick_movement_is_followed_in_time(quick: RoadTorsion) -> None:
     assert quick.lag.share > 1.0
     assert not quick.why
@@ -263,6 +264,7 @@ def growing() -> RoadTorsion:
     return road_torsion(drive)
 
 
+@pytest.mark.slow
 def test_unstable_share_and_growth(growing: RoadTorsion) -> None:
     """Parametric resonance near Ω = ω from the joint angle on at which a multiplier passes 1."""
     edge = brentq(lambda a: largest_multiplier(a, 50.0, (1000.0, DAMPER), 20.0) - 1.0, 0.1, 0.5, xtol=1e-4)

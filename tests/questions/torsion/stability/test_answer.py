@@ -22,6 +22,7 @@ def small(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(home, name, count)
 
 
+@pytest.mark.slow
 def test_a_map_without_anything_on_it_is_a_sentence() -> None:
     drive = example("pto-flywheel-absorber")
     found = home.ask(drive)
@@ -34,6 +35,7 @@ def test_a_map_without_anything_on_it_is_a_sentence() -> None:
     assert [one.name for one in home.answer(drive, found, signs=True).figures()] == ["stability-map"]
 
 
+@pytest.mark.slow
 def test_a_map_tells_its_share_and_its_zones() -> None:
     drive = example("unstable-drive")
     found = home.ask(drive)
@@ -54,6 +56,7 @@ def test_straight_joints_have_no_map() -> None:
     assert "straight" in home.otherwise(straight)
 
 
+@pytest.mark.slow
 def test_backlash_makes_the_map_coarse_and_says_how_to_get_it_in_full() -> None:
     drive = example("pto-flywheel")
     found = home.ask(drive)
@@ -63,6 +66,7 @@ def test_backlash_makes_the_map_coarse_and_says_how_to_get_it_in_full() -> None:
     assert "cardan torsion stability FILE --speeds 270:810:9" in hint
 
 
+@pytest.mark.slow
 def test_axes_are_told_in_the_units_of_the_reader() -> None:
     drive = example("unstable-drive")
     found = stability(drive, over={"duty.speed_rpm": np.linspace(1300.0, 1400.0, 5), "joint_angle_deg": [5.0, 40.0]})

@@ -134,6 +134,7 @@ def test_a_stable_range_is_a_statement() -> None:
     assert facts["widest_zone_hidden_rpm"] == 0.0
 
 
+@pytest.mark.slow
 def test_friction_that_sticks_is_proved_and_motions_in_which_it_slips_are_not_searched_for(monkeypatch) -> None:
     """No polynomial in the speed holds a motion with kinks, and a search for each is minutes for nothing."""
 

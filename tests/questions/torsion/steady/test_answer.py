@@ -27,6 +27,7 @@ def test_whole_speeds_keep_their_zeros() -> None:
     assert told(ranges([1.0, 2.0], [False, False]), USUAL) == ""
 
 
+@pytest.mark.slow
 def test_orders_are_asked_over_the_operating_range(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(home, "SWEEP", 5)
     drive = example("unstable-drive")

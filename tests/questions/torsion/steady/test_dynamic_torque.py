@@ -138,6 +138,7 @@ def test_an_order_that_does_not_repeat_counts_as_in_the_response():
     assert found.high[0, 1] - steady_torque(drive()).high[0, 1] == pytest.approx(float(found.beside[0, 1]), rel=0.05)
 
 
+@pytest.mark.slow
 def test_a_dip_that_the_response_does_not_show_is_no_reversal():
     """Up and down an order that does not repeat moves the torque by unlike amounts: 89 N·m up are no 89 N·m down.
 

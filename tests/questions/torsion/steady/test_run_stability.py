@@ -70,6 +70,7 @@ def test_hills_matrix_of_the_linearised_drive_has_the_same_multipliers() -> None
     np.testing.assert_allclose(floquet(steady).modulus, np.abs(wanted), atol=1e-8)
 
 
+@pytest.mark.slow
 def test_with_open_backlash_jumps_at_contacts_count() -> None:
     model = torsional_line(
         [[1.0, 0.1], [0.4]], stiffness=[[4000.0], []], damping=[[4.0], []], backlash=[[0.01], []],
@@ -106,6 +107,7 @@ def test_a_disturbed_free_drive_returns_as_told() -> None:
     assert left[2] / left[1] == pytest.approx(slowest, rel=0.3)
 
 
+@pytest.mark.slow
 def test_the_growth_is_that_of_a_disturbance_in_time() -> None:
     model = torsional_line(
         [[1.0, 0.01], [0.4]],
@@ -207,6 +209,7 @@ def test_a_drift_of_the_speed_is_left_out_where_nothing_changes_with_it() -> Non
     np.testing.assert_allclose(kept, np.delete(all_of_them, drift), rtol=1e-8, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_amid_a_resonance_the_shift_in_time_alone_is_never_judged() -> None:
     """There vibration turns a free drive as a whole as well; a multiplier of 1 must not be left over."""
     stand = example("unstable-drive")

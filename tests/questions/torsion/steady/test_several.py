@@ -193,6 +193,7 @@ def lasting(inner: float, speed: float) -> TorsionalModel:
     )
 
 
+@pytest.mark.slow
 def test_where_no_ramp_settles_the_largest_motion_is_told_and_it_is_said_that_none_is_known_to_be_reached() -> None:
     orbit, status = steady_orbits(lasting(0.0226, 158.7), speed=[158.7])
     assert ramps_of(orbit.turning.part(np.asarray([0]))) == []
@@ -209,6 +210,7 @@ def test_where_no_ramp_settles_the_largest_motion_is_told_and_it_is_said_that_no
     assert "blow" not in others
 
 
+@pytest.mark.slow
 def test_a_ramp_of_a_drive_that_swings_far_faster_than_it_turns_is_not_followed() -> None:
     """With a shaft so stiff that a turn takes some ten thousand steps, a ramp would take minutes."""
     soft = lasting(0.02, 158.7)

@@ -98,6 +98,7 @@ def test_the_drive_torque_of_a_free_drive_balances_load_and_losses() -> None:
     assert found.drive_torque.mean[0] == pytest.approx(found.torque.mean[0], rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("backlash", "load", "speed", "contacts"),
     [(0.004, 20.0, 35.0, 4), (0.05, 10.0, 90.0, None)],
@@ -116,6 +117,7 @@ def test_with_open_backlash_the_motion_closes(backlash: float, load: float, spee
     assert found.residual < 1e-6
 
 
+@pytest.mark.slow
 def test_two_elements_with_backlash_rattle_in_turn() -> None:
     model = replace(drive(36.0, load=12.0, joint_angle=0.4), backlash=np.asarray([0.02, 0.0, 0.0, 0.015]))
     found = periodic_response(model)
@@ -234,6 +236,7 @@ def test_where_no_motion_is_found_the_search_ends(monkeypatch: pytest.MonkeyPatc
     assert not tried
 
 
+@pytest.mark.slow
 def test_play_that_opens_at_some_speeds_alone() -> None:
     """What keeps contact is a sum of harmonics, the rest is made of pieces; both as each speed alone."""
     model = drive(backlash=0.004, load=40.0)

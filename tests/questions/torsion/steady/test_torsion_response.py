@@ -191,6 +191,7 @@ def test_orders_of_one_engine_have_one_phase() -> None:
     assert groups == [(pytest.approx(1.6575), [3.315, 1.6575, 6.63]), (2.2, [2.2])]
 
 
+@pytest.mark.slow
 def test_where_backlash_opens_the_straight_line_answers() -> None:
     first, *rest = three_joints().joints
     loose = replace(three_joints(), joints=(replace(first, backlash=0.002), *rest))
@@ -227,6 +228,7 @@ def test_standing_still_is_no_running(speed: float | list[float], field: str) ->
     assert [problem.field for problem in caught.value.problems] == [field]
 
 
+@pytest.mark.slow
 def test_a_stop_keeps_what_is_done() -> None:
     found = torsion_response(LINE, speed=np.linspace(20.0, 90.0, 300), progress=lambda _share: "stop")
     assert np.all(np.isfinite(found.swing[:256]))

@@ -96,6 +96,7 @@ def even(speed):
     return lambda time: (speed * time, speed + 0.0 * time)
 
 
+@pytest.mark.slow
 def test_pendulums_follow_lagrange_at_one_speed() -> None:
     found = transient(drive(Duty(speed=90.0, torque=LOAD)), span=0.6, method=FAST)
     motion = found.motion
@@ -127,6 +128,7 @@ def test_pendulums_follow_the_speed_of_a_run_up() -> None:
     assert small.stiffness[1] == pytest.approx(COUNT * MASS * (RADIUS + ARM) ** 2 * 40.0**2 * RADIUS / ARM)
 
 
+@pytest.mark.slow
 def test_a_stop_is_met_and_thrown_back() -> None:
     stopped = replace(HUNG, stop_angle=8 * deg, stop_stiffness=400.0)
     found = transient(drive(Duty(speed=90.0, torque=LOAD), stopped), span=0.4, method=FAST)
@@ -166,6 +168,7 @@ def test_small_swings_are_those_of_the_absorber() -> None:
     assert np.ptp(found.motion.torque[-400:, e]) == pytest.approx(reach[e], rel=1e-4)
 
 
+@pytest.mark.slow
 def test_steady_answers_tell_how_far_pendulums_oscillate_and_that_they_hit_their_stops() -> None:
     """Small oscillations are those in time; with a stop that they would pass every answer says what it left out."""
     calm = replace(drive(Duty(speed=90.0, torque=1.0)), joints=(replace(Drive.from_angles([2 * deg]).joints[0]),))
@@ -220,6 +223,7 @@ def test_slopes_and_energy_are_those_of_the_balance() -> None:
     np.testing.assert_allclose((ahead - behind) / (2 * step), 0.0, atol=1e-2)
 
 
+@pytest.mark.slow
 def test_stations_without_inertia_go_implicitly_to_the_same_motion() -> None:
     """The same drive with a station without inertia in the middle of its shaft: twice as stiff on either side."""
     whole = drive(Duty(speed=90.0, torque=LOAD), damping=0.0)

@@ -48,6 +48,7 @@ def test_the_numbers_are_those_of_the_simulation() -> None:
     assert not [one for one in said.remarks if one.alarm or one.tone == "warning"]
 
 
+@pytest.mark.slow
 def test_play_strikes() -> None:
     """Contacts fall within the steps: the peak holds to some 1e-3."""
     said = of(example("pto-flywheel"))
@@ -55,6 +56,7 @@ def test_play_strikes() -> None:
     assert said.keys[0].value.value == pytest.approx(2590.11, rel=1e-3)  # of `transient`, held to 1e-10
 
 
+@pytest.mark.slow
 def test_resonances_are_told_in_the_order_they_are_passed() -> None:
     for course in (RunUp(start=60.0, end=10.0, duration=0.5), RunUp(start=-60.0, end=12.0, duration=0.5)):
         drive = replace(RINGED, duty=replace(RINGED.duty, run_up=course))

@@ -115,6 +115,7 @@ def plain(times: np.ndarray, friction: float, damping: float, start: tuple[float
     return found
 
 
+@pytest.mark.slow
 def test_a_spring_by_its_table_follows_scipy() -> None:
     found = transient(drive(ToNext(twists=TWISTS, torques=TORQUES, damping=1.0)), span=0.8, method=FAST).motion
     wanted = plain(found.times, 0.0, 1.0)
@@ -165,6 +166,7 @@ def test_steady_running_with_tables_and_friction_is_what_scipy_keeps_to(friction
     assert found.floquet.stable[0]
 
 
+@pytest.mark.slow
 def test_every_steady_answer_has_tables_and_friction() -> None:
     part = ToNext(twists=TWISTS, torques=TORQUES, damping=2.0, friction=25.0)
     rubbing, smooth = drive(part), drive(replace(part, friction=0.0))

@@ -45,6 +45,7 @@ def test_of_peaks_that_repeat_the_first_is_told() -> None:
         assert np.all(time[0] < 0.05 + 1e-6)
 
 
+@pytest.mark.slow
 def test_an_even_start_turns_every_shaft_as_a_rigid_one() -> None:
     """Ratios of the axes' own motion, found without torsion; no damper is pulled from the first moment on."""
     shafts = tuple(Shaft(number=k, stiffness=4000.0, damping=5.0) for k in (1, 2, 3))
@@ -69,6 +70,7 @@ def test_a_load_step_on_a_straight_shaft_swings_to_twice_its_torque() -> None:
     assert found.motion.extremes.torque_high_time[0] == pytest.approx(math.pi / math.sqrt(1000.0 / 0.4), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_what_swings_fast_to_the_end_goes_in_fixed_steps() -> None:
     """A thousand swings without damping: M (1 - cos ωt), with ω = 5000 rad/s."""
     stiff = Shaft(number=1, stiffness=5000.0**2 * 0.4, damping=0.0)
@@ -83,6 +85,7 @@ def test_what_swings_fast_to_the_end_goes_in_fixed_steps() -> None:
     assert transient(damped, span=1.2).motion.method != "fixed steps"
 
 
+@pytest.mark.slow
 def test_running_up_passes_the_resonance_of_order_two() -> None:
     """Half the natural frequency is 25 rad/s; the peak comes a little after it."""
     duty = Duty(run_up=RunUp(end=60.0, duration=3.0))
@@ -93,6 +96,7 @@ def test_running_up_passes_the_resonance_of_order_two() -> None:
     assert 25.0 < peak < 30.0
 
 
+@pytest.mark.slow
 def test_a_history_is_simulated_to_its_end() -> None:
     step = TorqueHistory(file="a.csv", times=(0.0, 0.5, 0.6, 1.5), torques=(0.0, 0.0, 30.0, 30.0))
     found = transient(LINE, Duty(speed=40.0, load=step), method=ROUGH)
@@ -111,6 +115,7 @@ def test_a_free_drive_that_nothing_drives_keeps_its_speed() -> None:
     assert np.dot(slower.motion.speed[-1, [0, 2]], [0.5, 0.4]) / 0.9 == pytest.approx(mean, rel=0.05)
 
 
+@pytest.mark.slow
 def test_a_stop_keeps_what_is_done() -> None:
     shares: list[float] = []
 

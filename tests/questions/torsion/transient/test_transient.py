@@ -70,6 +70,7 @@ def model_of(one: Chain, torques: tuple[Torque, ...] = ()) -> TorsionalModel:
 METHODS: list[Method] = [Adaptive(stiff=False), Adaptive(stiff=True), FixedStep(per_period=14, compute=Plain())]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS, ids=["explicit", "implicit", "fixed"])
 def test_motion_is_that_of_constraints_and_multipliers(method: Method) -> None:
     """Free, twisted at the start, under torques by angle, speed and time."""
@@ -140,6 +141,7 @@ def test_a_damper_in_a_play_acts_in_contact_only() -> None:
     assert found.speed[3, 1] - found.speed[3, 0] == pytest.approx(parted, rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("play", [0.2, 1e-5])
 @pytest.mark.parametrize("stiff", [False, True])
 def test_it_rattles_from_side_to_side_for_good(play: float, stiff: bool) -> None:
