@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from cardan import example, stability, torsion_response
+from cardan import Drive, example, stability, torsion_response
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.checks import check
+from cardan.drive.duty import Duty
+from cardan.drive.shaft import Shaft
+from cardan.drive.station import Station, ToNext
 from cardan.questions.torsion.answer import answer, ask
 from cardan.questions.torsion.model.answer import modes_said
 from cardan.questions.torsion.model.torsion import torsion_modes
@@ -18,6 +22,7 @@ from cardan.questions.torsion.stability.torsion_stability import proved_in_use
 from cardan.questions.torsion.steady.run_stability import Verdict
 from cardan.units import rpm
 from tests.questions.torsion.steady.test_torsion_response import three_joints
+from tests.questions.torsion.transient.test_springs import TORQUES, TWISTS
 
 STANDS = ("unstable-drive", "cured-drive", "pto-flywheel", "truck-power-unit")
 
@@ -88,3 +93,30 @@ def test_a_sum_of_two_modes_is_seen_by_all():
     assert proved_in_use(damped).stable
     assert of(damped).state == "passed"
     assert modes_said(damped, torsion_modes(damped), exact=proved_in_use(damped))[0] != "failed"
+
+
+def sprung() -> Drive:
+    """Return a drive whose part twists by a table, with structural damping alone."""
+    part = ToNext(twists=TWISTS, torques=TORQUES, loss_factor=0.03)
+    return replace(
+        Drive.from_angles([math.radians(25.0)]),
+        shafts=(Shaft(number=1),),
+        stations=(
+            Station(shaft=1, end="start", inertia=1.0, to_next=part),
+            Station(shaft=1, end="end", inertia=0.05),
+            Station(shaft=2, inertia=0.4),
+        ),
+        duty=Duty(speed=60.0, torque=80.0),
+    )
+
+
+def test_of_springs_by_a_table_one_motion_is_judged_by_all() -> None:
+    """Its swing shifts the stiffness, so of another motion the multipliers are others, and near an edge the verdict."""
+    drive = sprung()
+    speeds = np.linspace(30.0, 75.0, 10)
+    response = torsion_response(drive, speed=speeds)
+    told_by_map = stability(drive, over={"duty.speed_rad_s": speeds})
+    assert response.floquet.verdict.tolist() == told_by_map.verdict.tolist()
+    assert {Verdict.STABLE, Verdict.UNSTABLE} <= set(told_by_map.verdict.tolist())
+    known = np.isfinite(told_by_map.spectral_radius)
+    np.testing.assert_allclose(told_by_map.spectral_radius[known], response.floquet.spectral_radius[known], rtol=1e-6)

@@ -103,7 +103,7 @@ def _growing(drive: Drive, found: TorsionModes, proof: ProvedSpeeds) -> Iterator
         return
     sense = -1.0 if (drive.duty.speed or 1.0) < 0.0 else 1.0
     speeds = [min(max(proof.worst[k], low), high) for k, (low, high) in pairs]
-    model = loaded_model(drive, drive.duty, sense * np.asarray(speeds), disturbed=True)[1]
+    model = loaded_model(drive, drive.duty, sense * np.asarray(speeds))[1]
     told = floquet_map(parted(model)[0], speed=sense * np.asarray(speeds)).floquet
     for (k, _between), rate in zip(pairs, np.maximum(told.growth_rate, 0.0).tolist(), strict=True):
         pair = [max(int(one) - 1, 0) for one in proof.zone.modes[k]]

@@ -154,7 +154,8 @@ def moment_at(plan: Any, own: Any, work: Any, table: Any, at: int, phi: float) -
     """Write mass, balance, damping and stiffness of eight drives at a moment.
 
     Every number is eight lanes wide. ``own``: inertia and ground damping of the stations; stiffness, damping and rest
-    of the elements; ψ, lead at ψ, τ, cos α, sin²α of each joint; three numbers of each torque; speed, base frequency.
+    of the elements; ψ, lead at ψ, τ, cos α, sin²α of each joint; three numbers of each torque; the damping of the
+    elements that disturbances meet; speed, base frequency.
     ``work``: harmonics of the coordinates; x, ẋ, ẍ of all; eight rows of the stations; mass and balance of the
     coordinates; damping and stiffness of the pairs. ``table[at:]``: the harmonics and their two derivatives there.
     """
@@ -171,7 +172,7 @@ def moment_at(plan: Any, own: Any, work: Any, table: Any, at: int, phi: float) -
     rest = b + BYTES * elements
     psi = rest + BYTES * elements
     values = psi + BYTES * 5 * joints
-    even = values + BYTES * 3 * torques
+    even = values + BYTES * (3 * torques + elements)
     omega = even + BYTES
     u = w
     x = u + BYTES * rank * n

@@ -358,6 +358,8 @@ def _build(sources: int) -> Any:
                     known[(begin + lane) * total + k] = work[LANES * (forced * n + k) + lane]
                 known[(begin + lane) * total + blocks * n] = work[LANES * force + lane]
                 moved[begin + lane] = own[LANES * width + lane]
+            for k in range(LANES * plan[3]):  # disturbances are damped by numbers of their own
+                own[LANES * (2 * stations + plan[3]) + k] = own[LANES * (width - 2 - plan[3]) + k]
             _mapped(plan, own, work, room, nodes, begins[group], counts[group], scheme, turn)
             for lane in range(LANES):
                 for k in range(states * states):

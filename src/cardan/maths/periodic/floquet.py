@@ -64,7 +64,7 @@ def monodromy(coefficients: Coefficients, duration: ArrayLike, *, steps: int | N
     if not heavy.size:
         return np.zeros((len(period), 0, 0))
     count = steps or _steps(sample, heavy, period)
-    points, table = collocation(STAGES, stiff=not heavy.all())
+    points, _table = collocation(STAGES, stiff=not heavy.all())
     rank = len(heavy)
     states = rank + int(heavy.sum())
     at_once = max(1, BLOCK // max(1, len(period) * (STAGES * rank) ** 2))
@@ -75,7 +75,7 @@ def monodromy(coefficients: Coefficients, duration: ArrayLike, *, steps: int | N
         mass, damping, stiffness = (
             one.reshape(one.shape[0], len(inside), STAGES, *one.shape[2:]) for one in coefficients(share)
         )
-        parts = _propagators(mass, damping, stiffness, heavy, table, period / count)
+        parts = propagators(mass, damping, stiffness, heavy, period / count)
         whole = np.matmul(_product(parts), whole)
     return whole
 
@@ -91,8 +91,13 @@ def _steps(sample: tuple[Array, Array, Array], heavy: Array, period: Array) -> i
     return int(min(max(math.ceil(fastest), FEWEST), MOST))
 
 
-def _propagators(mass: Array, damping: Array, stiffness: Array, heavy: Array, table: Array, step: Array) -> Array:
-    """Return the matrices of the steps, array (B, n, m, m), from coefficients at their points (B, n, s, ...)."""
+def propagators(mass: Array, damping: Array, stiffness: Array, heavy: Array, step: Array) -> Array:
+    """Return the matrices of steps of length step (B,), array (B, n, m, m), from coefficients at points (B, n, s, ...).
+
+    mass (B, n, s, R), damping, stiffness (B, n, s, R, R): at the points of `collocation`, those of Radau where a
+    coordinate has no mass; heavy (R,) of bool: which have some.
+    """
+    _points, table = collocation(mass.shape[2], stiff=not heavy.all())
     stages, rank = table.shape[1], len(heavy)
     light = ~heavy
     moving = np.flatnonzero(heavy)

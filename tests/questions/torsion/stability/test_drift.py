@@ -90,7 +90,7 @@ def test_what_is_proved_and_what_is_sampled_say_so_too():
 
     def build(speeds):
         drive = example("unstable-drive")
-        return parted(loaded_model(drive, drive.duty, speeds, disturbed=True)[1])[0]
+        return parted(loaded_model(drive, drive.duty, speeds)[1])[0]
 
     proof = proved_speeds(build, 500 * rpm, 1500 * rpm)
     np.testing.assert_allclose(proof.lowest[-1:] / rpm, [1320.94], atol=0.01)

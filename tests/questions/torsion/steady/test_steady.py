@@ -14,7 +14,7 @@ from cardan.questions.torsion.model.inputs import Constant, History, Swinging
 from cardan.questions.torsion.model.torsional_balance import element_torques
 from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
 from cardan.questions.torsion.stability.floquet_map import speed_sweep
-from cardan.questions.torsion.steady.run_stability import floquet
+from cardan.questions.torsion.steady.run_stability import floquet, monodromy_in_pieces
 from cardan.questions.torsion.steady.steady import periodic_response, steady_orbits
 from tests.builders.torsion_in_time import drive, flow
 
@@ -115,6 +115,17 @@ def test_with_open_backlash_the_motion_closes(backlash: float, load: float, spee
     np.testing.assert_allclose(after - state, np.pi * (np.arange(len(state)) < len(state) // 2), atol=1e-6)
     assert found.power_residual < 1e-12
     assert found.residual < 1e-6
+
+
+def test_a_damping_of_disturbances_of_their_own_holds_with_open_backlash_too() -> None:
+    """The same damping said apart gives the slopes of the search; another keeps Liouville's product of its own."""
+    model = drive(35.0, backlash=0.004, load=20.0, joint_angle=0.4)
+    orbit = periodic_response(model).orbit
+    alike = replace(orbit, model=replace(model, disturbed_damping=model.damping))
+    np.testing.assert_allclose(monodromy_in_pieces(alike, 0), orbit.pieces[0].monodromy, rtol=1e-6, atol=1e-7)
+    more = replace(orbit, model=replace(model, disturbed_damping=1.5 * model.damping))
+    lost, own = (np.linalg.slogdet(monodromy_in_pieces(one, 0))[1] for one in (more, alike))
+    assert lost < own < 0.0
 
 
 @pytest.mark.slow

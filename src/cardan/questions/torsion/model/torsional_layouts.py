@@ -46,6 +46,7 @@ ARRAYS = (
     "coupling",
     "friction",
     "creep",
+    "disturbed_damping",
 )
 """Fields of a model whose last axis is stations, elements or joints."""
 

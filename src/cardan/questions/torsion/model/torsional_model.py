@@ -9,7 +9,7 @@ in the unloaded start position, positive with the rotation.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -65,6 +65,9 @@ class TorsionalModel:
     tables: tuple[tuple[tuple[float, ...], tuple[float, ...]] | None, ...] = ()
     friction: Array | None = None  # friction, creep (..., E) [N·m, rad/s]: dry friction, and the band about rest
     creep: Array | None = None
+    # (..., E) [N·m·s/rad]: what small disturbances of steady running meet instead of the damping, as structural damping
+    # goes with the frequency; None where it is the same
+    disturbed_damping: Array | None = None
     shaft: tuple[int, ...] = ()  # shaft of every station from 0
     names: tuple[str, ...] = ()  # of the stations, for tables and pictures
 
@@ -106,6 +109,12 @@ class TorsionalModel:
     def steppable(self) -> bool:
         """Whether steps of one length may follow it: no tables, friction, pendulums, nor laws of joints' own."""
         return not (self.special or self.hinges or self.sums is not None)
+
+    @property
+    def of_disturbances(self) -> TorsionalModel:
+        """The same with the damping that small disturbances of steady running meet."""
+        damping = self.disturbed_damping
+        return self if damping is None else replace(self, damping=damping, disturbed_damping=None)
 
     @property
     def coordinates(self) -> int:

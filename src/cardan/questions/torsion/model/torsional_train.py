@@ -345,15 +345,24 @@ def _empty_problems(model: TorsionalModel) -> Iterator[Problem]:
         yield Problem("stations", text)
 
 
-def in_time(model: TorsionalModel, frequency: ArrayLike) -> TorsionalModel:
+def in_time(model: TorsionalModel, frequency: ArrayLike, disturbed: ArrayLike | None = None) -> TorsionalModel:
     """Return a model whose structural damping is viscous, equal at one frequency: b = ηc/ω on top of its dampers.
 
-    frequency (...) [rad/s]: ω at which both lose the same.
+    frequency (...) [rad/s]: ω at which both lose the same; disturbed (...) [rad/s]: that for small disturbances.
     """
     if not np.any(model.loss_factor):
         return model
-    viscous = model.damping + model.loss_factor * model.stiffness / np.asarray(frequency, dtype=float)[..., None]
-    return replace(model, damping=viscous, loss_factor=np.zeros_like(model.loss_factor))
+
+    def viscous(omega: ArrayLike) -> Array:
+        lost: Array = model.loss_factor * model.stiffness / np.asarray(omega, dtype=float)[..., None]
+        return model.damping + lost
+
+    return replace(
+        model,
+        damping=viscous(frequency),
+        disturbed_damping=None if disturbed is None else viscous(disturbed),
+        loss_factor=np.zeros_like(model.loss_factor),
+    )
 
 
 def swinging(train: TorsionalTrain) -> TorsionalModel:
@@ -462,6 +471,8 @@ def _merged(models: Sequence[TorsionalModel], join: Callable[[list[Array]], Arra
     wide = max(0 if one.sums is None else one.sums.shape[-1] for one in models)
     models = [replace(one, sums=_widened(one, wide)) for one in models] if wide else models
     models = [one if one.tables == first.tables else _beside(one, first) for one in models]
+    if any(one.disturbed_damping is not None for one in models):
+        models = [replace(one, disturbed_damping=one.of_disturbances.damping) for one in models]
     first = models[0]
     given = [name for name in ARRAYS if getattr(first, name) is not None]
     parts: dict[str, Any] = {name: join([getattr(one, name) for one in models]) for name in given}

@@ -77,19 +77,18 @@ class Places:
 class Standing:
     """A drive as it stands at places of its points: what its torques do there.
 
-    model: closed, at its speed; slow: for disturbances, where its damping differs for them; loose: torques that do not
-    repeat within two turns, which count to first order with their side bands; speed [rad/s].
+    model: closed, at its speed; loose: torques that do not repeat within two turns, which count to first order with
+    their side bands; speed [rad/s].
     """
 
     def __init__(
         self,
         drive: Drive,
         model: TorsionalModel,
-        slow: TorsionalModel | None,
         loose: tuple[Torque, ...],
         speed: float,
     ) -> None:
-        self.drive, self.model, self.slow, self.loose, self.speed = drive, model, slow, loose, speed
+        self.drive, self.model, self.loose, self.speed = drive, model, loose, speed
         self.base = np.asarray(geometry(drive).points)
 
     def turned(self, points: Array, start: Array | float = 0.0) -> tuple[Bends, Array]:
@@ -106,9 +105,6 @@ class Standing:
         count = len(points)
         speeds = np.full(count, self.speed)
         found = floquet_map(replace(self.model, **turns), speed=speeds)
-        verdict = found.floquet
-        if self.slow is not None:
-            verdict = floquet_map(replace(self.slow, **turns), speed=speeds).floquet
         known = possible & (found.floquet.verdict != Verdict.UNKNOWN)
         parts = [self._read(found.orbit, rows) for rows in _chunks(count)]
         mean, low, high, reversals, amplitude = (np.concatenate(each) for each in zip(*parts, strict=True))
@@ -125,7 +121,7 @@ class Standing:
             mean=held(mean),
             reversals=held(reversals),
             amplitude=held(amplitude),
-            growth=held(verdict.growth_rate),
+            growth=held(found.floquet.growth_rate),
         )
 
     @property

@@ -328,11 +328,7 @@ def _stood(drive: Drive) -> tuple[TorsionalTrain, TorsionalModel, Standing]:
     speed = np.asarray(drive.duty.speed or 0.0)
     train, whole = loaded_model(still, drive.duty, speed)
     model, loose = parted(replace(whole, backlash=np.zeros_like(whole.backlash)))
-    slow = None
-    if np.any(train.model.loss_factor):
-        disturbed = loaded_model(still, drive.duty, speed, disturbed=True)[1]
-        slow = parted(replace(disturbed, backlash=np.zeros_like(disturbed.backlash)))[0]
-    return train, whole, Standing(drive, model, slow, loose, float(speed))
+    return train, whole, Standing(drive, model, loose, float(speed))
 
 
 def standing_torques(drive: Drive, times: Array) -> Array:

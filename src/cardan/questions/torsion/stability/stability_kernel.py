@@ -18,7 +18,14 @@ from cardan.questions.torsion.model.torsional_balance import joint_law
 from cardan.questions.torsion.model.torsional_layouts import Turning, chosen
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.steady.orbit import Orbit, at_rest, straight_frequencies
-from cardan.questions.torsion.steady.run_stability import CHUNK, force_falls, linear_motion, torque_falls, vibrating
+from cardan.questions.torsion.steady.run_stability import (
+    CHUNK,
+    force_falls,
+    linear_motion,
+    monodromy_in_pieces,
+    torque_falls,
+    vibrating,
+)
 
 compiled = later("cardan.maths.compiled.floquet")
 
@@ -207,7 +214,8 @@ def _numbers(turning: Turning) -> Array:
     values = [np.broadcast_to(one, (count,)) for torque in model.torques for one in _values(torque.law, sense[:, 0])]
     columns = [
         *(model.inertia, model.ground_damping, model.stiffness, model.damping, rest, joints.reshape(count, -1)),
-        np.stack([*values, np.abs(turning.speed), np.abs(turning.frequency)], axis=-1),
+        *(np.reshape(values, (-1, count)).T, model.of_disturbances.damping),
+        np.stack([np.abs(turning.speed), np.abs(turning.frequency)], axis=-1),
     ]
     return np.ascontiguousarray(np.concatenate(columns, axis=-1))
 
@@ -309,7 +317,7 @@ def vibration_growth(orbit: Orbit, rows: Array) -> Array:
     smooth = np.flatnonzero(there & ~np.isin(rows, list(orbit.pieces)))
     for k in np.flatnonzero(there & np.isin(rows, list(orbit.pieces))):
         falls = partial(_falls, orbit, rows[[k]])
-        found[k] = _largest(orbit.pieces[int(rows[k])].monodromy[None], orbit.model.free, falls)[0]
+        found[k] = _largest(monodromy_in_pieces(orbit, int(rows[k]))[None], orbit.model.free, falls)[0]
     if smooth.size:
         found[smooth] = _smooth(orbit, rows[smooth])
     return found

@@ -22,10 +22,10 @@ from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chain
 from cardan.questions.torsion.steady.run_stability import Verdict, Zone
 from cardan.questions.torsion.steady.torsion_response import (
     Progress,
+    damped,
     loaded_model,
     order_jumps,
     parted,
-    zone_order,
 )
 from cardan.texts import _
 from cardan.units import deg
@@ -234,7 +234,7 @@ def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     held = np.asarray(held_speeds(drive.duty))
     if not held.size:
         return proof
-    model = loaded_model(drive, drive.duty, sense * held, pieces=pieces, disturbed=True)[1]
+    model = loaded_model(drive, drive.duty, sense * held, pieces=pieces)[1]
     return proof.judged_at(floquet_map(parted(model)[0], speed=sense * held).floquet, held)
 
 
@@ -257,7 +257,7 @@ def _proved(
     progress: Progress | None,
 ) -> ProvedSpeeds:
     def build(speeds: Array) -> TorsionalModel:
-        return parted(loaded_model(drive, drive.duty, speeds, pieces=pieces, disturbed=True)[1])[0]
+        return parted(loaded_model(drive, drive.duty, speeds, pieces=pieces)[1])[0]
 
     return proved_speeds(build, *between, breaks=order_jumps(train.model), work=work, progress=progress)
 
@@ -268,14 +268,13 @@ def _least_loss(variants: _Variants) -> float:
     Its place is narrowed down between two loss factors of which the smaller is not stable, ten at a time.
     """
     train, speed = variants.train, variants.speeds[:1]
-    order = float(zone_order(train.model, speed)[0])
-    model = replace(train.model, loss_factor=np.zeros_like(train.model.loss_factor))
 
     def stable(loss: Array) -> Array:
-        viscous = model.damping + loss[:, None] * model.stiffness / (order * abs(speed[0]))
-        damped, speeds = sprung(replace(model, damping=viscous), train, speed[0]), np.full(len(loss), speed[0])
-        damped = damped if model.free else replace(damped, input_speed=speeds)
-        return np.asarray(floquet_map(parted(damped)[0], speed=speeds).floquet.verdict) <= Verdict.NEUTRAL
+        speeds = np.full(len(loss), speed[0])
+        lossy = replace(train.model, loss_factor=loss[:, None] * np.ones_like(train.model.loss_factor))
+        model = sprung(damped(lossy, train.model, speeds), train, speed[0])
+        model = model if model.free else replace(model, input_speed=speeds)
+        return np.asarray(floquet_map(parted(model)[0], speed=speeds).floquet.verdict) <= Verdict.NEUTRAL
 
     trial = np.concatenate(([0.0], np.geomspace(*RANGE, TRIALS)))
     for _round in range(ROUNDS):
@@ -396,7 +395,7 @@ class _Variants:
         for key in np.unique(keys, axis=0):
             rows = np.flatnonzero(np.all(keys == key, axis=-1))
             drive = self._variant(key)
-            _train, model = loaded_model(drive, drive.duty, speed[rows], pieces=self.pieces, disturbed=True)
+            _train, model = loaded_model(drive, drive.duty, speed[rows], pieces=self.pieces)
             if self.bending is not None:
                 largest = float(self.axes[self.bending][1][key[self.others.index(self.bending)]])
                 model = _bent(drive, model, largest * deg)

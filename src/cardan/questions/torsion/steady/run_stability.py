@@ -9,9 +9,9 @@ from enum import IntEnum
 import numpy as np
 
 from cardan.maths.arrays import Array
-from cardan.maths.periodic.floquet import Coefficients, monodromy, without_direction
+from cardan.maths.periodic.floquet import Coefficients, monodromy, propagators, without_direction
 from cardan.maths.periodic.harmonics import HarmonicBalance, Status, harmonic_balance
-from cardan.maths.periodic.switching_orbit import periodic_pieces
+from cardan.maths.periodic.switching_orbit import Pieces, periodic_pieces
 from cardan.questions.torsion.model.torsional_balance import slopes
 from cardan.questions.torsion.model.torsional_layouts import Turning
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
@@ -309,13 +309,58 @@ def multipliers_in_pieces(orbit: Orbit, row: int) -> tuple[Array, Array, Array]:
     orbit (...); row: which drive, one of those in pieces.
     """
     pieces, alone = orbit.pieces[row], np.asarray([row])
-    values, removed = _values(orbit, alone, pieces.monodromy[None], pieces.heavy)
+    values, removed = _values(orbit, alone, monodromy_in_pieces(orbit, row)[None], pieces.heavy)
     if not pieces.heavy.all():
-        switching = Backlashed(orbit.turning.part(alone))
+        switching = _disturbed(orbit, row)
         time, _weight, x, v, a = (one[:, :1] for one in pieces.points)
         damping = switching.at(pieces.sides, pieces.omega * time, x, v, a)[0].damping
         values = without_last(values, unmoved(damping.swapaxes(0, 1), pieces.heavy))
     return values, removed, np.full(1, np.nan)
+
+
+def monodromy_in_pieces(orbit: Orbit, row: int) -> Array:
+    """Return what a disturbance (x, ẋ) of a motion in pieces becomes over a period, array (m, m).
+
+    orbit (...); row: which drive, one of those in pieces. Where disturbances are damped otherwise than the motion, the
+    steps between the switches are those of their damping; at a switch they jump as the motion bends there.
+    """
+    pieces = orbit.pieces[row]
+    if orbit.model.disturbed_damping is None:
+        return pieces.monodromy
+    switching, heavy = _disturbed(orbit, row), pieces.heavy
+    time, _weight, x, v, a = pieces.points
+    by = switching.at(pieces.sides, pieces.omega * time, x, v, a)[0]
+    steps = propagators(by.mass[:, None], by.damping[:, None], by.stiffness[:, None], heavy, np.diff(pieces.time))[:, 0]
+    whole = np.eye(steps.shape[-1])
+    last = len(steps) - 1
+    changes = np.any(pieces.sides[1:] != pieces.sides[:-1], axis=-1)
+    for k in range(len(steps)):
+        whole = steps[k] @ whole
+        if k < last and changes[k]:
+            whole = _jump(switching, pieces, k) @ whole
+    return whole
+
+
+def _jump(switching: Backlashed, pieces: Pieces, step: int) -> Array:
+    """Return by what a disturbance is multiplied at the switch behind a step: it comes so much sooner or later."""
+    heavy, when = pieces.heavy, pieces.time[step + 1]
+    here = np.asarray([step, step + 1])
+    since = np.asarray([when - pieces.time[step], 0.0])
+    x, v, a = pieces.inside(here, since)
+    rate = np.concatenate([v, a[:, heavy]], axis=-1)
+    _twist, by_x, by_phase = switching.twist(np.asarray([pieces.omega * when]), x[:1])
+    passing = np.flatnonzero(pieces.sides[step] != pieces.sides[step + 1])[0]
+    slope = np.zeros(rate.shape[-1])
+    slope[: len(heavy)] = by_x[0, passing]
+    speed = float(slope @ rate[0] + pieces.omega * by_phase[0, passing])
+    found: Array = np.eye(len(slope)) + np.outer(rate[1] - rate[0], slope) / speed
+    return found
+
+
+def _disturbed(orbit: Orbit, row: int) -> Backlashed:
+    """Return a drive as an oscillator that switches, with the damping that disturbances meet."""
+    part = orbit.turning.part(np.asarray([row]))
+    return Backlashed(Turning(part.model.of_disturbances, part.angle_error, part.speed, part.period))
 
 
 def linear_motion(orbit: Orbit, rows: Array) -> Coefficients:
@@ -324,7 +369,8 @@ def linear_motion(orbit: Orbit, rows: Array) -> Coefficients:
     orbit (...); rows (b,) of int: which drives, counted through the leading axes. Dry friction that slips damps no
     disturbance; where it sticks a sum wriggles about its band, and nothing is counted on.
     """
-    drives, backward = replace(orbit.drives(rows), friction=None), (orbit.speed.reshape(-1)[rows] < 0.0)[:, None, None]
+    drives = replace(orbit.drives(rows).of_disturbances, friction=None)
+    backward = (orbit.speed.reshape(-1)[rows] < 0.0)[:, None, None]
     first = 0 if drives.free else 1
 
     def coefficients(share: Array) -> tuple[Array, Array, Array]:
@@ -369,7 +415,7 @@ def straight_damping(drives: TorsionalModel, speed: Array) -> Array:
     drives (b,): with torques ready for moments in a second axis; speed (b,) [rad/s].
     """
     first = 0 if drives.free else 1
-    found = straight_stiffness(replace(drives, stiffness=drives.damping))
+    found = straight_stiffness(replace(drives, stiffness=drives.of_disturbances.damping))
     for k, r in enumerate(drives.coordinate):
         found[:, r, r] += drives.ground_damping[:, k]
     here = speed[:, None]

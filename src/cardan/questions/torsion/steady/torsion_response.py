@@ -192,8 +192,7 @@ def torsion_response(
     found = steady_orbits(model, speed=speeds, method=method, progress=_scaled(progress, 0.0, SHARE))
     orbit, status, beside = stable_motions(*found)
     steady = described(orbit, status)
-    slow = parted(loaded_model(drive, chosen, speeds, pieces=pieces, disturbed=True)[1])[0]
-    verdict = floquet(replace(steady.orbit, model=slow) if np.any(train.model.loss_factor) else steady)
+    verdict = floquet(steady)
     bands = {base: (side_bands(steady.orbit, base, group), group) for base, group in grouped(loose)}
     if progress is not None:
         progress(1.0)
@@ -239,15 +238,13 @@ def _speeds(duty: Duty, speed: ArrayLike | None) -> ArrayLike:
     return float(duty.speed or 0.0) if speed is None else speed
 
 
-def loaded_model(
-    drive: Drive, duty: Duty, speeds: Array, *, pieces: int = 1, disturbed: bool = False
-) -> tuple[TorsionalTrain, TorsionalModel]:
+def loaded_model(drive: Drive, duty: Duty, speeds: Array, *, pieces: int = 1) -> tuple[TorsionalTrain, TorsionalModel]:
     """Return the model of a drive under its duty at input speeds, one or (s,), and the train of the first of them.
 
     Springs follow their tables, with dry friction.
 
-    Structural damping counts as viscous, equal at the order at which the joints swing most, 2 of cross joints; for
-    disturbances at that of the zone of parametric resonance nearest to the speed, at which they vibrate.
+    Structural damping counts as viscous, equal at the order at which the joints swing most, 2 of cross joints; that of
+    disturbances at the order of the zone of parametric resonance nearest to the speed, at which they vibrate.
     """
     check(_timed(duty))
     flat = speeds.reshape(-1)
@@ -266,9 +263,18 @@ def loaded_model(
         raise refuse("shafts[0].stiffness", text)
     if not model.free:
         model = replace(model, input_speed=speeds)
-    order = zone_order(train.model, speeds) if disturbed else main_order(model)
-    model = in_time(model, order * np.abs(speeds))
-    return train, sprung(model, train, speeds)
+    return train, sprung(damped(model, train.model, speeds), train, speeds)
+
+
+def damped(model: TorsionalModel, like: TorsionalModel, speeds: Array) -> TorsionalModel:
+    """Return a model with its structural damping as viscous, for its steady motion and for disturbances of it.
+
+    like: the drive at one of the speeds (...), by whose modes the zones are told.
+    """
+    if not np.any(model.loss_factor):
+        return model
+    turning = np.abs(speeds)
+    return in_time(model, main_order(model) * turning, zone_order(like, speeds) * turning)
 
 
 def zone_order(model: TorsionalModel, speeds: Array) -> Array:
