@@ -7,7 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cardan import Drive, example, torsion_response
+from cardan import Drive, example, stability, torsion_response
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.checks import check
 from cardan.checks.strength.strength import strength
 from cardan.choices.remedy import apply_remedy, remedies
@@ -17,11 +19,14 @@ from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke
 from cardan.drive.material import Material
 from cardan.drive.shaft import Shaft, Spline
-from cardan.drive.station import Station
+from cardan.drive.station import Station, ToNext
 from cardan.questions.motion.standing import still
 from cardan.questions.torsion.road.road import road_torsion
+from cardan.questions.torsion.stability.answer import answer
+from cardan.questions.torsion.steady.run_stability import Verdict
 from cardan.units import deg, mm, rpm
 from tests.builders.any_drive import any_drive
+from tests.questions.torsion.transient.test_springs import drive as rubbing_line
 
 STEEL = Material(yield_strength=355e6, ultimate_strength=600e6)
 NAMES = ("torsional_resonance", "parametric_stability", "torque_reversal")
@@ -255,3 +260,22 @@ def test_a_torque_that_a_movement_turns_about_is_judged_along_it():
     # the check looks where vibration without play is largest, refined once; before and after, motions of two periods
     # swing further
     assert 0.95 < verdict.value / (150.0 - min(lowest)) < 1.001
+
+
+def test_with_dry_friction_the_check_says_what_is_judged() -> None:
+    """A speed held is judged by its motion, as `torsion stability` does; over a range nothing is proved."""
+    part = ToNext(stiffness=2000.0, damping=0.5, friction=25.0)
+    stand = rubbing_line(part)
+    (found,) = check(stand, only=["parametric_stability"])
+    assert stability(stand).verdict == Verdict.STABLE
+    assert "proved stable" in told(found.note, USUAL)
+    ranged = replace(stand, duty=replace(stand.duty, speed=None, speed_range=(58.0, 62.0)))
+    (found,) = check(ranged, only=["parametric_stability"])
+    said = told(found.note, USUAL)
+    assert "dry friction sticks and slips: judged without it" in said
+    assert "too long" not in said
+    assert "backlash" not in said
+    over = stability(ranged, over={"duty.speed_rad_s": [58.0, 62.0]})
+    remarks = [told(one.text, USUAL) for one in answer(ranged, over).remarks]
+    assert any("dry friction sticks and slips" in one for one in remarks)
+    assert not any("too long" in one for one in remarks)

@@ -59,6 +59,11 @@ def nearest_used(drive: Drive, speed: float) -> float:
     return min(inside, key=lambda one: abs(np.log(max(one, 1e-12) / speed)))
 
 
+def rubbing(drive: Drive) -> bool:
+    """Tell whether an element of the torsional line has dry friction."""
+    return any(one.to_next is not None and one.to_next.friction > 0.0 for one in drive.stations)
+
+
 def as_drawn(design: Design, note: Text) -> Text:
     """Return a note, of a drive that moves with the word that it is judged as drawn."""
     if not design.drive.movements:

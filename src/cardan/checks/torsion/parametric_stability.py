@@ -24,7 +24,7 @@ from cardan.questions.torsion.stability.torsion_stability import proved_in_use
 from cardan.questions.torsion.steady.torsion_response import loaded_model, parted
 from cardan.texts import _, mark
 
-from .line import as_drawn, lacking, modes, nearest_used, used
+from .line import as_drawn, lacking, modes, nearest_used, rubbing, used
 
 MANY = 4000
 """Drives that are judged one by one at most; of more all count as the first."""
@@ -131,15 +131,17 @@ def _judge(design: Design) -> Iterator[Verdict]:
             *design.joint_angle_design_variables,
             *design.speed_design_variables,
         ),
-        note=as_drawn(design, _note(own, used(design.drive))),
+        note=as_drawn(design, _note(own, used(design.drive), rubs=rubbing(design.drive))),
     )
 
 
-def _note(own: Damping, between: Sequence[tuple[float, float]]) -> Text:
+def _note(own: Damping, between: Sequence[tuple[float, float]], *, rubs: bool) -> Text:
     """Return where the motion grows or where its zone is, and how far the speeds in use are from it."""
     zone = {"mode": own.mode, "zone": turning(own.zone)}
     if own.proof is not None:
-        return _proved(own.proof, between, zone)
+        return _proved(own.proof, between, zone, rubs=rubs)
+    if rubs:
+        return say(_without_friction(), **zone)
     text = _("the zone of mode {mode} lies about {zone}, {away} from the speeds in use; loss factors 2ζ")
     away = abs(own.speed / own.zone - 1.0)
     if own.needed > 0.0:
@@ -147,7 +149,16 @@ def _note(own: Damping, between: Sequence[tuple[float, float]]) -> Text:
     return say(text, away=Quantity(away, "share", 3), **zone)
 
 
-def _proved(proof: ProvedSpeeds, between: Sequence[tuple[float, float]], zone: Mapping[str, object]) -> Text:
+def _without_friction() -> str:
+    return _(
+        "not proved, as dry friction sticks and slips: judged without it, by the zones of single modes; that of mode "
+        "{mode} lies about {zone}"
+    )
+
+
+def _proved(
+    proof: ProvedSpeeds, between: Sequence[tuple[float, float]], zone: Mapping[str, object], *, rubs: bool
+) -> Text:
     """Return what is proved of the speeds in use and a tenth beyond."""
     inside = [k for one in between for k in proof.overlapping(*one).tolist()]
     near = sorted(proof.overlapping(*proof.looked).tolist(), key=lambda k: _away(proof, k, between))
@@ -161,6 +172,8 @@ def _proved(proof: ProvedSpeeds, between: Sequence[tuple[float, float]], zone: M
         low, high = (Quantity(float(one), "angular_speed", 5) for one in (proof.lowest[k], proof.highest[k]))
         away = Quantity(_away(proof, k, between), "share", 3)
         return say(text, low=low, high=high, zone=proof.zone.name((k,)), away=away)
+    if rubs and not shown:
+        return say(_without_friction(), **zone)
     if shown or not len(proof.unsettled):
         text = _("not proved throughout: backlash opens or the motion jumps; the zone of mode {mode} lies about {zone}")
         if shown:

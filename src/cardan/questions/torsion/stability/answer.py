@@ -180,7 +180,7 @@ def _edge(speed: Any, over: MapAxis) -> Quantity:
 
 def _unproved(found: Stability, over: MapAxis) -> Iterator[Remark]:
     """Yield how sure the ranges of speed are."""
-    proof = found.proof
+    proof, rubs = found.proof, any(one.friction > 0.0 for _element, one in found.train.springs)
     if proof is None:
         return
     if not proof.looked_at:
@@ -189,18 +189,24 @@ def _unproved(found: Stability, over: MapAxis) -> Iterator[Remark]:
             "Only points {step} apart were judged: narrower zones may be missed, and a proof between them would take "
             "too long for a line this stiff."
         )
+        if rubs:
+            text = _(
+                "Only points {step} apart were judged: narrower zones may be missed, as nothing is proved where dry "
+                "friction sticks and slips."
+            )
         yield Remark(text=say(text, step=step), tone="warning")
         return
     rest = _within(proof.unproved, proof.unsettled, inside=False)
     late = _("Not settled at {where}: the motion changes so often with the speed there that it takes too long.")
-    for kind, text in (
+    jumps = _("Not proved at {where}: backlash opens, friction slips or a spring bends there, or the motion jumps.")
+    kinds = [
         (_within(proof.unproved, proof.unsettled), late),
-        (
-            _within(rest, proof.open),
-            _("Not proved at {where}: backlash opens, friction slips or a spring bends there, or the motion jumps."),
-        ),
+        (_within(rest, proof.open), jumps),
         (_within(rest, proof.open, inside=False), _("Not proved at {where}: the margin is too small there.")),
-    ):
+    ]
+    if rubs:
+        kinds = [(proof.unproved, _("Not proved at {where}: dry friction sticks and slips."))]
+    for kind, text in kinds:
         if len(kind):
             where = [say(_("{low:bare} to {high}"), low=_edge(a, over), high=_edge(b, over)) for a, b in kind[:NAMED]]
             others = _(" and others") if len(kind) > NAMED else ""

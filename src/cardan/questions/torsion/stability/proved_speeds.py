@@ -135,10 +135,7 @@ class ProvedSpeeds:
             whole: Array = np.concatenate([own, others[more]])[order]
             return whole
 
-        unproved = self.unproved
-        if not self.looked_at and known.any():
-            cuts = np.unique([self.looked[0], *speed[known], self.looked[1]])
-            unproved = np.stack([cuts[:-1], cuts[1:]], axis=-1)
+        unproved = np.asarray([pair for one in self.unproved for pair in _cut(one, speed[known])]).reshape(-1, 2)
         names = [one.name for one in fields(Zone)]
         return replace(
             self,
@@ -157,6 +154,13 @@ class ProvedSpeeds:
         if not len(self.lowest):
             return float("nan")
         return float(np.min(np.maximum(self.lowest - abs(speed), abs(speed) - self.highest)))
+
+
+def _cut(stretch: Array, speed: Array) -> Array:
+    """Return a stretch (2,) in parts that end at the speeds (n,) within it, array (k, 2)."""
+    inside = speed[(stretch[0] < speed) & (speed < stretch[1])]
+    cuts = np.unique([stretch[0], *inside, stretch[1]])
+    return np.stack([cuts[:-1], cuts[1:]], axis=-1)
 
 
 def proved_speeds(
