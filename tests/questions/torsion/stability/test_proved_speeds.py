@@ -19,7 +19,8 @@ from cardan.questions.torsion.stability.proved_speeds import proved_speeds
 from cardan.questions.torsion.stability.torsion_stability import proved_in_band
 from cardan.questions.torsion.steady import steady
 from cardan.questions.torsion.steady.run_stability import Verdict, floquet
-from cardan.questions.torsion.steady.steady import periodic_response
+from cardan.questions.torsion.steady.several import stable_motions
+from cardan.questions.torsion.steady.steady import periodic_response, steady_orbits
 from cardan.units import rpm
 from tests.builders.torsion_in_time import drive
 from tests.questions.torsion.transient.test_springs import drive as rubbing
@@ -35,7 +36,7 @@ def test_a_zone_between_the_points_asked_is_found_to_its_edges() -> None:
     assert not np.any(found.verdict == Verdict.UNSTABLE)
     proof = found.proof
     assert proof is not None
-    assert proof.hidden < 0.01 * rpm  # where three motions meet at 669 rpm, see test_drift
+    assert proof.hidden < 0.2 * rpm  # where three motions meet at 669 rpm, see test_drift
     assert np.all((665 * rpm < proof.unproved) & (proof.unproved < 675 * rpm))
 
     def growth(speed):
@@ -70,12 +71,17 @@ def test_the_grid_does_not_move_the_edges() -> None:
 def test_what_is_proved_stands_against_many_samples() -> None:
     model = drive(damping=0.2, joint_angle=0.5)
     proof = proved_speeds(model, 60.0, 140.0)
-    assert proof.hidden < 0.01
-    assert len(proof.lowest) >= 2
+    assert len(proof.lowest) == 2
+    assert np.array_equal(proof.open, proof.unproved)
+    (jump,) = proof.open  # there the motion followed is the middle one of three: another, stable, runs beside it
+    assert 0.0 < jump[1] - jump[0] < 0.2
+    orbit = stable_motions(*steady_orbits(model, speed=np.linspace(*jump, 5)[1:-1]))[0]
+    assert floquet(orbit).stable.all()
     speeds = np.sort(np.random.default_rng(1).uniform(60.0, 140.0, 600))
     verdict = floquet_map(model, speed=speeds).floquet.verdict
-    inside = np.any((proof.lowest <= speeds[:, None]) & (speeds[:, None] <= proof.highest), axis=-1)
-    near = np.min(np.abs(np.concatenate([proof.lowest, proof.highest]) - speeds[:, None]), axis=-1) < 1e-3
+    ends = np.concatenate([[proof.lowest, proof.highest], proof.open.T], axis=-1)
+    inside = np.any((ends[0] <= speeds[:, None]) & (speeds[:, None] <= ends[1]), axis=-1)
+    near = np.min(np.abs(ends.ravel() - speeds[:, None]), axis=-1) < 1e-3
     assert np.array_equal((verdict == Verdict.UNSTABLE)[~near], inside[~near])
 
 

@@ -31,6 +31,7 @@ from cardan.questions.torsion.steady.run_stability import (
     straight_damping,
     vibrating,
 )
+from cardan.questions.torsion.steady.several import settled_judgement
 from cardan.questions.torsion.steady.steady import closed, stays_closed, steady_orbits
 from cardan.texts import _
 
@@ -212,10 +213,19 @@ def proved_speeds(
 
 def _described(drive: _Drive, proof: Proof, looked: tuple[float, float], sense: float) -> ProvedSpeeds:
     """Return what is unstable with where it grows fastest, and near which zone."""
+    inner, found = _inside(drive, proof.outside, sense)
+    if found is not None:  # ranges in which only the middle one of three motions grows are left unproved
+        grows = np.any(found.verdict.reshape(inner.shape) == Verdict.UNSTABLE, axis=-1)
+        jumps = proof.outside[~grows]
+        if len(jumps):
+            proof = replace(
+                proof,
+                outside=proof.outside[grows],
+                unproved=_joined(proof.unproved, jumps),
+                unsampled=_joined(proof.unsampled, jumps),
+            )
+            inner, found = _inside(drive, proof.outside, sense)
     low, high = proof.outside.T
-    inner = low[:, None] + (high - low)[:, None] * (np.arange(INNER) + 0.5) / INNER
-    flat = sense * inner.reshape(-1)
-    found = floquet_map(drive.model(flat), speed=flat, opened=NO_SEARCH).floquet if len(flat) else None
     growth = (
         np.zeros(inner.shape) if found is None else np.nan_to_num(found.growth_rate, nan=-np.inf).reshape(inner.shape)
     )
@@ -238,6 +248,28 @@ def _described(drive: _Drive, proof: Proof, looked: tuple[float, float], sense: 
         neutral=drive.neutral,
         cancelled=proof.stopped,
     )
+
+
+def _inside(drive: _Drive, ranges: Array, sense: float) -> tuple[Array, Floquet | None]:
+    """Return places within ranges of speed (k, 2) and how stable running is there, None where there is no range."""
+    low, high = ranges.T
+    inner = low[:, None] + (high - low)[:, None] * (np.arange(INNER) + 0.5) / INNER
+    flat = sense * inner.reshape(-1)
+    if not len(flat):
+        return inner, None
+    found = floquet_map(drive.model(flat), speed=flat, opened=NO_SEARCH)
+    return inner, settled_judgement(found.orbit, found.status, found.floquet)
+
+
+def _joined(stretches: Array, others: Array) -> Array:
+    """Return stretches (k, 2) with others, in order, those that meet as one."""
+    found: list[list[float]] = []
+    for low, high in sorted(np.concatenate([stretches, others]).tolist()):
+        if found and low <= found[-1][1]:
+            found[-1][1] = max(found[-1][1], high)
+        else:
+            found.append([low, high])
+    return np.asarray(found).reshape(-1, 2)
 
 
 def _problems(build: Build | TorsionalModel, lowest: float, highest: float) -> list[Problem]:

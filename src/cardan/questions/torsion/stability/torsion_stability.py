@@ -19,7 +19,8 @@ from cardan.questions.torsion.model.joint_bends import bends
 from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained, sprung, torsional_train
-from cardan.questions.torsion.steady.run_stability import Verdict, Zone
+from cardan.questions.torsion.steady.run_stability import Floquet, Verdict, Zone
+from cardan.questions.torsion.steady.several import settled_judgement
 from cardan.questions.torsion.steady.torsion_response import (
     Progress,
     damped,
@@ -30,7 +31,7 @@ from cardan.questions.torsion.steady.torsion_response import (
 from cardan.texts import _
 from cardan.units import deg
 
-from .floquet_map import floquet_map, within
+from .floquet_map import FloquetMap, floquet_map, within
 from .proved_speeds import WORK, ProvedSpeeds, proved_speeds
 
 CHUNK, FEW = 2048, 128
@@ -235,7 +236,7 @@ def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     if not held.size:
         return proof
     model = loaded_model(drive, drive.duty, sense * held, pieces=pieces)[1]
-    return proof.judged_at(floquet_map(parted(model)[0], speed=sense * held).floquet, held)
+    return proof.judged_at(_settled(floquet_map(parted(model)[0], speed=sense * held)), held)
 
 
 def proved_in_band(drive: Drive, low: float, high: float) -> ProvedSpeeds | None:
@@ -274,7 +275,7 @@ def _least_loss(variants: _Variants) -> float:
         lossy = replace(train.model, loss_factor=loss[:, None] * np.ones_like(train.model.loss_factor))
         model = sprung(damped(lossy, train.model, speeds), train, speed[0])
         model = model if model.free else replace(model, input_speed=speeds)
-        return np.asarray(floquet_map(parted(model)[0], speed=speeds).floquet.verdict) <= Verdict.NEUTRAL
+        return np.asarray(_settled(floquet_map(parted(model)[0], speed=speeds)).verdict) <= Verdict.NEUTRAL
 
     trial = np.concatenate(([0.0], np.geomspace(*RANGE, TRIALS)))
     for _round in range(ROUNDS):
@@ -291,10 +292,15 @@ def _least_loss(variants: _Variants) -> float:
 def _judged(model: TorsionalModel, speed: Array, progress: Progress | None) -> tuple[dict[str, Array], bool]:
     """Return what is known of some points, and whether the work was stopped."""
     found = floquet_map(model, speed=speed, progress=progress)
-    verdict = found.floquet
+    verdict = _settled(found)
     zone = {f"zone_{one.name}": getattr(verdict.zone, one.name) for one in fields(Zone)}
     names = ("verdict", "kind", "growth_rate", "spectral_radius", "order", "multipliers")
     return {name: getattr(verdict, name) for name in names} | zone | {"speed": speed}, found.cancelled
+
+
+def _settled(found: FloquetMap) -> Floquet:
+    """Return how stable the motions of a map are, a stable one in place of the middle one of three."""
+    return settled_judgement(found.orbit, found.status, found.floquet)
 
 
 def _unknown(like: dict[str, Array], count: int) -> dict[str, Array]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from cardan.questions.torsion.model.torsional_layouts import Turning, single
 from cardan.questions.torsion.model.torsional_modes import straight_modes
 
 from .orbit import Orbit, at_rest, pieces_near
-from .run_stability import Verdict, floquet
+from .run_stability import Floquet, Kind, Verdict, Zone, floquet
 from .settling import ALIKE, Run, near, padded, ramped, settled
 from .steady import CHUNK, HARMONICS, LOWER, MOST, fourier_of, sums_of
 from .steady_result import read_off
@@ -24,6 +24,12 @@ SIZES = (1.0, 1.5, 3.0)
 
 PHASES = 8
 """Phases that they begin with."""
+
+LOOKED = 100
+"""Motions that may be middle ones are looked at by themselves, up to so many."""
+
+ASIDE, WAY = 0.02, 25
+"""Share of the speed from which motions of free drives are followed, and in how many steps."""
 
 SAME = 1e-4
 """Difference of two motions, over the larger of them, below which it is one exactly."""
@@ -55,8 +61,9 @@ def stable_motions(orbit: Orbit, status: Array) -> tuple[Orbit, Array, tuple[Bes
     Others are sought where play may open, by following the drive in time from swings of the mode next to a low multiple
     of the speed until they repeat, and where the motion found is the middle one of three, by harmonic balance from the
     same swings: a search from so many starts, no proof that there are no others. With play motions may repeat after
-    several periods only, or not at all. The speed of free drives is held by nothing that is known; of them none is
-    sought.
+    several periods only, or not at all. The speed of free drives is held by nothing that is known, so that no ramp can
+    be followed in time; where the motion found of one is the middle one, others are followed from lower and from
+    higher speeds, each by the one before.
 
     Of several stable motions one counts, by one rule for all: of those that a slow run-up or run-down leads to
     (`cardan.questions.torsion.steady.settling`) the one with the largest swing of the torque. It is the motion that is
@@ -67,9 +74,9 @@ def stable_motions(orbit: Orbit, status: Array) -> tuple[Orbit, Array, tuple[Bes
     """
     rows = np.flatnonzero(_several(orbit, status))
     coefficient = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])
-    states, pieces = np.array(status).reshape(-1), dict(orbit.pieces)
+    states, pieces, force = np.array(status).reshape(-1), dict(orbit.pieces), np.array(orbit.force).reshape(-1)
     beside: list[Beside] = []
-    for row, runs in _searched(orbit, rows):
+    for row, runs in _followed(orbit, rows) if orbit.model.free else _searched(orbit, rows):
         own = _alone(orbit, row)
         known = [own] if floquet(own).verdict[0] == Verdict.STABLE else []
         motions = _distinct([*known, *_others(orbit, row, [one.mean for one in runs if one.periods])])
@@ -80,11 +87,13 @@ def stable_motions(orbit: Orbit, status: Array) -> tuple[Orbit, Array, tuple[Bes
         width = max(coefficient.shape[-1], first.coefficient.shape[-1])
         coefficient = padded(coefficient, width)
         coefficient[row], states[row] = padded(first.coefficient, width)[0], Status.CONVERGED
+        force[row] = first.force[0]
         pieces.pop(row, None)
         if first.pieces:
             pieces[row] = first.pieces[0]
     shaped = coefficient.reshape(*orbit.angle_error, *coefficient.shape[1:])
-    return replace(orbit, coefficient=shaped, pieces=pieces), states.reshape(np.shape(status)), tuple(beside)
+    found = replace(orbit, coefficient=shaped, pieces=pieces, force=force.reshape(np.shape(orbit.force)))
+    return found, states.reshape(np.shape(status)), tuple(beside)
 
 
 def _counted(
@@ -92,7 +101,7 @@ def _counted(
 ) -> tuple[Orbit | None, list[Beside]]:
     """Return the motion of one period that is told, and what else is stable beside it, with what runs."""
     part = orbit.turning.part(np.asarray([row]))
-    if len(motions) > 1 and part.model.steppable and not any(one.reached for one in runs):
+    if len(motions) > 1 and part.model.steppable and not part.model.free and not any(one.reached for one in runs):
         runs = [*ramped(part), *runs]
     waves = [one.mean for one in runs if one.reached]
     once = []
@@ -119,8 +128,10 @@ def _size(one: Beside) -> float:
 def _several(orbit: Orbit, status: Array) -> Array:
     """Tell which drives may have several stable motions, or have one that was not found, array of bool (b,)."""
     turning, state = orbit.turning, np.ravel(status)
-    if turning.model.free or not turning.coordinates:
+    if not turning.coordinates:
         return np.zeros(orbit.count, dtype=bool)
+    if turning.model.free:
+        return middle_ones(orbit)
     loose = np.broadcast_to(orbit.model.backlash, (*orbit.angle_error, len(orbit.model.elements))) > 0.0
     found: Array = (np.any(loose, axis=-1).reshape(-1) | orbit.model.special) & (state != Status.CANCELLED)
     smooth = np.flatnonzero(~found & (state != Status.CANCELLED) & (state != Status.NO_CONVERGENCE))
@@ -129,6 +140,38 @@ def _several(orbit: Orbit, status: Array) -> Array:
         part, sums = turning.part(rows), orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])
         found[rows] = odd_growth(part, part.frequency, sums[rows][:, part.first :])
     return found
+
+
+def middle_ones(orbit: Orbit, judged: Floquet | None = None) -> Array:
+    """Tell which motions may be the middle one of three: smooth, and growing without swinging, array of bool (b,).
+
+    Of a free drive that growth may have met the drift of the mean speed, so that both swing.
+    """
+    said = floquet(orbit) if judged is None else judged
+    kind = np.ravel(said.kind)
+    grows = (np.ravel(said.verdict) == Verdict.UNSTABLE) & (kind != Kind.DOUBLING)
+    grows &= (kind == Kind.REPEATING) | orbit.model.free
+    played = np.broadcast_to(orbit.model.backlash, (*orbit.angle_error, len(orbit.model.elements))) > 0.0
+    found: Array = grows & ~np.any(played, axis=-1).reshape(-1) & ~np.isin(np.arange(orbit.count), list(orbit.pieces))
+    return found
+
+
+def _followed(orbit: Orbit, rows: Array) -> Iterator[tuple[int, list[Run]]]:
+    """Yield rows with the motions that are followed to their speed from below and from above."""
+    few = HARMONICS * round(orbit.period / np.pi)
+    how = HarmonicBalance(harmonics=few, most=MOST)
+    for some in np.split(rows, range(CHUNK, len(rows), CHUNK)):
+        part = orbit.turning.part(some)
+        runs: list[list[Run]] = [[] for _row in some]
+        for begin in (1.0 - ASIDE, 1.0 + ASIDE):
+            wave, there = at_rest(part), np.ones(len(some), dtype=bool)
+            for share in np.linspace(begin, 1.0, WAY):
+                led = sums_of(Turning(part.model, part.angle_error, share * part.speed, part.period), wave, how)
+                there &= led.status == Status.CONVERGED
+                wave = np.where(np.isfinite(led.coefficient), led.coefficient, 0.0)
+            for k in np.flatnonzero(there).tolist():
+                runs[k].append(Run(wave=wave[k], reached=True))
+        yield from zip(some.tolist(), runs, strict=True)
 
 
 def widened(lowest: Array, highest: Array, beside: Sequence[Beside]) -> tuple[Array, Array]:
@@ -263,8 +306,44 @@ def _others(orbit: Orbit, row: int, sums: Sequence[Array]) -> Iterator[Orbit]:
                 continue
             coefficient, pieces = fourier_of(found, LOWER), {0: found}
         alone = _of_one(part, np.pad(coefficient, ((part.first, 0), (0, 0))), pieces)
+        if part.model.free:
+            how = HarmonicBalance(harmonics=one.shape[-1] - 1, most=one.shape[-1] - 1)
+            alone = replace(alone, force=sums_of(part, one[None], how).force)
         if floquet(alone).verdict[0] == Verdict.STABLE:
             yield alone
+
+
+def settled_judgement(orbit: Orbit, status: Array, judged: Floquet) -> Floquet:
+    """Return how stable motions (b,) are, those that are the middle one of three replaced by a stable one beside it.
+
+    status, judged (b,): of the motions; many at a time are left as they are, see `LOOKED`.
+    """
+    rows = np.flatnonzero(middle_ones(orbit, judged))
+    if not rows.size or rows.size > LOOKED:
+        return judged
+    part = orbit.turning.part(rows)
+    own = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])[rows]
+    some = Orbit(
+        model=part.model, speed=part.speed, period=part.period, coefficient=own, force=np.ravel(orbit.force)[rows]
+    )
+    again = floquet(stable_motions(some, np.ravel(status)[rows])[0])
+    good = np.flatnonzero(again.verdict == Verdict.STABLE)
+    if not good.size:
+        return judged
+
+    def put(values: Array, others: Array) -> Array:
+        flat = np.array(values).reshape(judged.verdict.size, *values.shape[judged.verdict.ndim :])
+        if flat.ndim > 1 and flat.shape[-1] > others.shape[-1] and flat.dtype.kind == "c":
+            others = np.pad(others, ((0, 0), (0, flat.shape[-1] - others.shape[-1])), constant_values=np.nan)
+        flat[rows[good]] = others[good]
+        whole: Array = flat.reshape(values.shape)
+        return whole
+
+    zone = Zone(
+        **{one.name: put(getattr(judged.zone, one.name), getattr(again.zone, one.name)) for one in fields(Zone)}
+    )
+    names = [one.name for one in fields(Floquet) if one.name not in ("zone", "period")]
+    return replace(judged, zone=zone, **{name: put(getattr(judged, name), getattr(again, name)) for name in names})
 
 
 def _alone(orbit: Orbit, row: int) -> Orbit:
@@ -275,7 +354,7 @@ def _alone(orbit: Orbit, row: int) -> Orbit:
 
 
 def _of_one(part: Turning, coefficient: Array, pieces: dict[int, Pieces]) -> Orbit:
-    """Return a motion (R, H+1) of one drive whose speed is forced."""
+    """Return a motion (R, H+1) of one drive, without the force of a free one."""
     return Orbit(
         model=part.model,
         speed=part.speed,
