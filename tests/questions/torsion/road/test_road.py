@@ -15,6 +15,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.stats import norm
 
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.duty import Harmonic as Wave
@@ -23,7 +25,8 @@ from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
 from cardan.errors import InputError
 from cardan.questions.motion.standing import still
-from cardan.questions.torsion.road.places import sign_changes
+from cardan.questions.torsion.road.answer import answer
+from cardan.questions.torsion.road.places import Standing, sign_changes
 from cardan.questions.torsion.road.road import RoadTorsion, road_torsion
 from cardan.questions.torsion.steady.torsion_response import torsion_response
 
@@ -348,3 +351,33 @@ def test_play_opens_where_the_torque_falls_through_zero() -> None:
     theta = speed * times
     yoke = theta + np.arctan2(tau * np.sin(2.0 * theta), 1.0 - tau * np.cos(2.0 * theta))
     assert found.opened.high[k, 0] == pytest.approx(STIFFNESS * (np.max(yoke - path[0]) - half), rel=0.01)
+
+
+def test_steep_random_movements_are_bounded_and_say_what_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """120 mm over a stub shaft of 150 mm: from 72° on nothing runs steadily, and no ray is asked far beyond that."""
+    asked: list[int] = []
+    at = Standing.at
+
+    def counted(self, points, progress=None):
+        found = at(self, points, progress)
+        asked.append(int(np.sum(~found.found)))
+        return found
+
+    monkeypatch.setattr(Standing, "at", counted)
+    drive = replace(
+        Drive.from_points([(-0.15, 0, 0), (0, 0, 0), (0.6, 0, 0.05), (0.75, 0, 0.05)]),
+        shafts=(Shaft(number=2, stiffness=4000.0, damping=4.0),),
+        stations=(Station(shaft=1, inertia=0.5), Station(shaft=3, inertia=0.4)),
+        duty=Duty(speed=100.0, torque=100.0),
+        movements=(random_lift(0.12),),
+    )
+    shares: list[float] = []
+    found = road_torsion(drive, progress=shares.append)
+    assert 12 <= sum(asked) <= 3 * 64
+    assert len(shares) > 10
+    assert shares == sorted(shares)
+    places = found.standing
+    lost = 1.0 - float(np.sum(places.share[places.found]))
+    assert 1e-4 < lost < 1e-2
+    said = [told(one.text, USUAL) for one in answer(drive, found).remarks]
+    assert any("no steady motion was found in" in one for one in said)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 
@@ -11,13 +13,14 @@ from cardan.drive.drive import Drive
 from cardan.drive.models.geometry import geometry
 from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import peak
+from cardan.maths.periodic.switching_orbit import Shooting
 from cardan.questions.motion.standing import given_at
 from cardan.questions.torsion.model.joint_bends import Bends, bends
 from cardan.questions.torsion.model.side_bands import side_waves
 from cardan.questions.torsion.model.torsional_balance import element_torques
 from cardan.questions.torsion.model.torsional_layouts import period_of
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
-from cardan.questions.torsion.stability.floquet_map import floquet_map
+from cardan.questions.torsion.stability.floquet_map import LONG, floquet_map
 from cardan.questions.torsion.steady.alternating_torque import BANDS
 from cardan.questions.torsion.steady.orbit import Orbit
 from cardan.questions.torsion.steady.run_stability import Verdict
@@ -31,6 +34,15 @@ HIGHEST = 8.0
 
 CHUNK = 256
 """Motions whose torques are read off at once."""
+
+STRIDE, LOST = 32, 12
+"""Places on a ray that are asked at once, and those behind each other without a motion from which on it is left."""
+
+NO_SEARCH = Shooting(work=0)
+"""No search by shooting."""
+
+Progress: TypeAlias = Callable[[float], object]
+"""Told the share done; may answer "stop"."""
 
 NOISE = 1e-9
 """Share of the largest torque below which one has no sign."""
@@ -99,12 +111,16 @@ class Standing:
         chain, possible = given_at(self.drive, points)
         return bends(self.drive.joints, replace(chain, start_phase=chain.start_phase + start)), possible
 
-    def at(self, points: Array) -> Places:
-        """Return the vibration at places of the points (t, n+2, 3) [m], all of the same share."""
+    def at(self, points: Array, progress: Progress | None = None) -> Places:
+        """Return the vibration at places of the points (t, n+2, 3) [m], all of the same share.
+
+        Without friction every motion is smooth: none is searched by shooting where there is no Fourier sum.
+        """
         turns, possible = self.turned(points)
         count = len(points)
         speeds = np.full(count, self.speed)
-        found = floquet_map(replace(self.model, **turns), speed=speeds)
+        opened = LONG if self.model.rubs else NO_SEARCH
+        found = floquet_map(replace(self.model, **turns), speed=speeds, opened=opened, progress=progress)
         known = possible & (found.floquet.verdict != Verdict.UNKNOWN)
         parts = [self._read(found.orbit, rows) for rows in _chunks(count)]
         mean, low, high, reversals, amplitude = (np.concatenate(each) for each in zip(*parts, strict=True))
@@ -123,6 +139,37 @@ class Standing:
             amplitude=held(amplitude),
             growth=held(found.floquet.growth_rate),
         )
+
+    def outward(self, points: Array, rays: int, progress: Progress | None = None) -> Places:
+        """Return the same at places along rays from the middle of a distribution, ray by ray (rays·r, n+2, 3).
+
+        A ray is left where `LOST` places behind each other have no motion: farther out joints bend more steeply still,
+        and every search there is in vain.
+        """
+        width = len(points) // rays
+        rows, parts, lost, stopped = [], [], np.zeros(rays, dtype=int), False
+        for first in range(0, width, STRIDE):
+            columns = np.arange(first, min(first + STRIDE, width))
+            left = np.flatnonzero(lost < LOST)
+            if not left.size or stopped:
+                break
+            rows.append((left[:, None] * width + columns).ravel())
+            parts.append(self.at(points[rows[-1]]))
+            there = parts[-1].found.reshape(len(left), -1)
+            behind = np.argmax(there[:, ::-1], axis=-1)
+            lost[left] = np.where(there.any(axis=-1), behind, lost[left] + len(columns))
+            stopped = progress is not None and progress((first + len(columns)) / width) == "stop"
+        own, count = np.concatenate(rows), len(points)
+
+        def whole(values: list[Array]) -> Array:
+            found = np.full((count, *values[0].shape[1:]), np.nan)
+            found[own] = np.concatenate(values)
+            return found
+
+        names = ("low", "high", "mean", "reversals", "amplitude", "growth")
+        known = {name: whole([np.asarray(getattr(part, name)) for part in parts]) for name in names}
+        angle = self.turned(points)[0]["joint_angle"]
+        return Places(share=np.full(count, 1.0 / count), points=points, joint_angle=angle, **known)
 
     @property
     def order(self) -> Array:

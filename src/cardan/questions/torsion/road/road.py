@@ -282,13 +282,13 @@ def road_torsion(drive: Drive, *, progress: Progress | None = None) -> RoadTorsi
     speed, modes = standing.speed, torsion_modes(replace(standing.drive, movements=()))
     random = [one for one in drive.movements if isinstance(one, Random)]
     if len(random) == len(drive.movements):
-        places, risk = _at_random(standing, random)
+        places, risk = _at_random(standing, random, progress)
         times = np.zeros(0)
         span, periodic = max(one.duration for one in random), False
     else:
         times, risk = default_times(drive.movements), None
         times = times[:: -(-times.size // MOST)]
-        places = standing.at(moving_points(standing.base, drive.movements, times)[0])
+        places = standing.at(moving_points(standing.base, drive.movements, times)[0], progress)
         places = replace(places, times=times, share=_shares(times))
         span, periodic = float(times[-1] - times[0]), all(isinstance(one, Oscillation) for one in drive.movements)
     orders = {2.0, 4.0} if np.nanmax(places.joint_angle) > STEEP else {2.0}
@@ -376,11 +376,16 @@ def _shares(times: Array) -> Array:
     return np.asarray(own / np.sum(own))
 
 
-def _at_random(standing: Standing, random: Sequence[Random]) -> tuple[Places, Chance]:
+def _at_random(standing: Standing, random: Sequence[Random], progress: Progress | None) -> tuple[Places, Chance]:
     """Return the vibration over the distribution of random movements, and the torques as functions of it."""
     grid = grid_of(len(random), fewer=FEWER if len(random) > 1 else 1)
     shifts = random_shifts(len(standing.drive.joints), random)
     every: list[Places] = []
+    calls = 1 if len(random) == 1 else 1 + 2 * len(random)  # beside the places themselves a step to either side
+    done = 0
+
+    def told(share: float) -> object:
+        return None if progress is None else progress((done + share) / calls)
 
     def torques(places: Array) -> Array:
         points = standing.base + np.tensordot(places, shifts, axes=1)
@@ -388,7 +393,9 @@ def _at_random(standing: Standing, random: Sequence[Random]) -> tuple[Places, Ch
         if not np.all(standing.turned(points)[1] | ~inside):
             text = _("a joint bends 90° or more within {count} standard deviations of the random movements")
             raise refuse("movements", text.format(count=f"{SURE:.0f}"))
-        found = standing.at(points)
+        nonlocal done
+        found = standing.outward(points, len(grid.ray), told)
+        done += 1
         every.append(found)
         # where nothing runs steadily, as far out as hardly ever, the torque of the nearest ray inside stands in
         assert found.amplitude is not None
