@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import numpy as np
+
 from cardan.answers.quantity import numbered
 from cardan.answers.question import Gathering
 from cardan.catalogue.provenance import unconfirmed
@@ -13,10 +15,14 @@ from cardan.catalogue.rows import UNSURE, sureness
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.models.kinematics_model import mixed, unmapped
+from cardan.questions.torsion.steady.pendulum_swing import strikes_in_use
 from cardan.texts import _
 
 from .design import Design
 from .verdict import Sense, Verdict
+
+VIBRATING = frozenset({"torsional_resonance", "torque_reversal"})
+"""Checks whose verdicts on shafts rest on the alternating torque, beside those that grow with a power of it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,7 +140,19 @@ class Check:
         rows = design.filled_by(*one.design_variables, *one.rests)
         own = [_(UNSURE[one.confidence])] if one.confidence in UNSURE else []
         least = min((one.confidence, *(row.confidence for row in rows if row.confidence in UNSURE)), key=sureness)
-        return replace(one, confidence=least, provenance=(*own, *unconfirmed(rows)))
+        found = replace(one, confidence=least, provenance=(*own, *unconfirmed(rows)))
+        return _unfit(found, _struck()) if self._struck(found, design) else found
+
+    def _struck(self, one: Verdict, design: Design) -> bool:
+        """Tell whether a verdict is met by the torque of pendulums that hit their stops, as their motion does not know.
+
+        Of designs that vary the drive is judged as its small oscillations have it.
+        """
+        if design.varied or not (self.power or (one.subject and self.name in VIBRATING)):
+            return False
+        if not any(case.vibration is not None for case in design.loaded) or not strikes_in_use(design.drive):
+            return False
+        return bool(np.all(one.passed))
 
 
 def part_of(drive: Drive, subject: str) -> str:
@@ -149,6 +167,13 @@ def part_of(drive: Drive, subject: str) -> str:
     number = int(rest.partition("]")[0]) + 1
     parts = getattr(drive, kind)
     return numbered(number, parts[number - 1].name if number <= len(parts) else "")
+
+
+def _struck() -> str:
+    return _(
+        "met without the stops of a pendulum that hits them: the torque is larger than counted, see torsion simulate "
+        "with --settled"
+    )
 
 
 def _ruled(joint: Joint) -> str:

@@ -89,7 +89,7 @@ def answer(drive: Drive, result: Strength) -> Answer:
     return Answer(
         name="strength",
         title=_("Strength"),
-        sentence=_sentence(result) if not tired else _ending(drive, result, tired),
+        sentence=_sentence(drive, result) if not tired else _ending(drive, result, tired),
         tone=tone,
         figures=lambda: drawn().strength_figures(result),
         tables=tuple(_tables(drive, result)),
@@ -109,8 +109,10 @@ def _torque(value: float) -> Quantity:
     return Quantity(value, "torque")
 
 
-def _sentence(result: Strength) -> Say | str:
+def _sentence(drive: Drive, result: Strength) -> Say | str:
     first = result.governing
+    if first is None and strikes_in_use(drive):
+        return _("not judged: a pendulum hits its stops, and the torque is larger than counted.")
     if first is None and result.judged:
         return _("rules of thumb alone could be judged; the drive file lacks what the other checks need.")
     if first is None:
