@@ -9,6 +9,9 @@ TOP = "the speeds in use end where the range is varied to end, so that a lower e
 HELD = "end shafts without a support are held by their machines, as in forces, bending and assembly"
 
 BINS = "bins are as wide as a power of two of the unit, which is per cent now"
+ALIKE = (
+    "one steady motion is judged, with the structural damping of its main order; disturbances have that of their zone"
+)
 BANDS = "orders that do not repeat are answered with the joints, side bands and all, and no longer by the straight line"
 
 LACKS = "a joint without a cross no longer silences the other joints: what is refused is what the file lacks"
@@ -158,6 +161,8 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         r"crossings\..*",
         "side bands of the engine's order are among them",
     ),
+    (r"torsion stability examples/truck-power-unit\.toml", r"(growth_rate_per_s|spectral_radius|multipliers.*)", ALIKE),
+    (r"torsion road examples/pto-baler", r"mean_growth_per_s", ALIKE),
     (
         r"torsion absorber examples/(cured-drive|unstable-drive|truck-power-unit)\.toml",
         r"unstable_(before|after)_rpm",
