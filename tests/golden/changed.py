@@ -161,7 +161,11 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         r"crossings\..*",
         "side bands of the engine's order are among them",
     ),
-    (r"torsion stability examples/truck-power-unit\.toml", r"(growth_rate_per_s|spectral_radius|multipliers.*)", ALIKE),
+    (
+        r"torsion stability examples/(pto-flywheel|truck-power-unit)\.toml",
+        r"(growth_rate_per_s|spectral_radius|order|multipliers.*)",
+        ALIKE,
+    ),
     (r"torsion road examples/pto-baler", r"mean_growth_per_s", ALIKE),
     (
         r"torsion absorber examples/(cured-drive|unstable-drive|truck-power-unit)\.toml",
