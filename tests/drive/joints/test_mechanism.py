@@ -54,6 +54,26 @@ def test_a_cross_as_a_mechanism_turns_as_hookes_joint(joint_angle):
         assert np.abs(one - other).max() < 1e-10
 
 
+@pytest.mark.parametrize(("joint_angle", "most"), [(80.0, 1e-11), (84.0, 1e-11), (88.0, 1e-10)])
+def test_a_cross_as_a_mechanism_turns_as_hookes_joint_near_where_it_locks(joint_angle, most):
+    """Its law is sharp there: at 88° harmonics fade by 3 % from one even order to the next."""
+    joint, bend = hooke(), np.asarray(np.radians(joint_angle))
+    quarter = 0.0 if joint.pair(np.asarray(0.3))[1].real < 0.0 else 0.5 * np.pi
+    own, known = joint.deviation(ANGLE, bend), Hooke().deviation(ANGLE + quarter, bend)
+    assert np.abs(own[0] - known[0]).max() < most
+    assert np.abs(own[1] - known[1]).max() < 100.0 * most
+    assert abs(joint.near_pair(bend)[1]) == pytest.approx(abs(Hooke().pair(bend)[1]), rel=1e-11)
+
+
+@pytest.mark.slow
+def test_sharp_laws_at_many_joint_angles_are_not_smoothed():
+    joint = hooke()
+    bends = np.radians(84.0) - np.linspace(0.0, 1e-3, 17)
+    many = joint.deviation(ANGLE[:, None], bends)[0]
+    for k in (0, 16):
+        assert np.abs(many[:, k] - joint.deviation(ANGLE, bends[k])[0]).max() < 1e-10
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["hooke-stiff-bearings", "thompson"])
 def test_the_law_at_many_joint_angles_is_that_at_each(name):

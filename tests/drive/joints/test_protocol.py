@@ -16,6 +16,7 @@ from cardan.drive.joints import JOINTS, Joint
 from cardan.drive.joints.common import inner
 from cardan.drive.joints.common.inner import Stance
 from cardan.drive.joints.joint import REFUSALS
+from cardan.drive.models.kinematics_model import left_over
 from cardan.joints import ClemensProfile
 from cardan.mechanism.mechanism import PAIRS
 from cardan.texts import speaking
@@ -179,3 +180,49 @@ def test_a_law_asked_at_many_joint_angles_is_that_at_each(kind):
             each = np.asarray([joint.near_pair(np.asarray(one))[1] for one in bends.tolist()])
         assert np.allclose(many, each, rtol=0.0, atol=1e-15, equal_nan=True)
     assert np.any(np.abs(many) > 0.0)
+
+
+SHARP = {
+    "elastic_half_cardan": ({"pairs": 1}, 84.0),
+    "rzeppa": ({"balls": 4, "lever_b": 2.0, "lever_c": 0.5}, 88.0),
+    "weiss": ({"balls": 1, "driving_offset": 0.0263, "driven_offset": 0.0033, "groove_radius": 0.0241}, 59.0),
+    "pin_coupling": ({"driving_distance": 0.05, "driven_distance": 0.07}, 70.0),
+    "clemens": (UNEVEN["clemens"], 60.0),
+}
+"""Kinds whose laws are no maps -> sizes and a joint angle [°] at which they are sharp."""
+
+
+def test_sharp_laws_are_all_that_are_no_maps():
+    laws = {kind for kind, own in JOINTS.items() if own.deviation is not Joint.deviation}
+    assert laws - {"mechanism"} == set(SHARP), "tests/drive/joints/test_mechanism.py has own mechanisms"
+
+
+@pytest.mark.parametrize("kind", SHARP)
+@pytest.mark.parametrize("share", [0.02, 0.5, 1.0])
+def test_the_nearest_map_is_told_to_rounding_at_any_joint_angle(kind, share):
+    """By 4001 places, which no number of places that the program takes divides."""
+    sizes, steep = SHARP[kind]
+    joint, bend = JOINTS[kind](**sizes), np.radians(share * steep)
+    theta = np.arange(4001) * (2.0 * np.pi / 4001)
+    lead = joint.deviation(theta, np.asarray(bend))[0]
+    tau = float(lead @ np.sin(2.0 * theta)) * (2.0 / 4001)
+    for bends in (np.asarray(bend), np.asarray([bend, 0.01])):
+        a, b = (np.ravel(part)[0] for part in joint.near_pair(bends))
+        assert abs(-(b / a).real - tau) < 1e-15
+    nearest = np.arctan2(tau * np.sin(2.0 * theta), 1.0 - tau * np.cos(2.0 * theta))
+    assert left_over(joint, float(bend)) == pytest.approx(np.max(np.abs(lead - nearest)), rel=3e-5, abs=1e-14)
+
+
+def test_a_contact_that_is_lost_between_two_places_keeps_no_map():
+    """Near its largest joint angle a pin coupling turns back over less than the places of a turn are apart."""
+    joint = JOINTS["pin_coupling"](driving_distance=0.05, driven_distance=0.07)
+    theta = np.arange(30720) * (2.0 * np.pi / 30720)
+    low, high = np.radians(70.0), np.radians(89.0)
+    for _halving in range(30):
+        middle = 0.5 * (low + high)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            turns = np.all(np.isfinite(joint.deviation(theta, np.asarray(middle))[0]))
+        low, high = (middle, high) if turns else (low, middle)
+    with np.errstate(invalid="ignore"):
+        assert np.isfinite(joint.near_pair(np.asarray(low))[1])
+        assert np.isnan(joint.near_pair(np.asarray(high + 1e-4))[1])

@@ -88,7 +88,9 @@ CROSS_ONLY = frozenset(("friction", "material_friction", "fit", "cross", "needle
 
 
 TOGETHER = 64  # joint angles at which a law is asked at once
-PLACES = 120  # places in a turn at which a law is looked at for its second order: more change it by rounding alone
+PLACES = 120  # places in a turn at which a law is looked at for its second order, and more where these do not tell it
+MOST = 64 * PLACES  # most of them
+TOLD = 1e-9  # harmonics [rad] of the upper half of the orders below which more places change the second by rounding
 
 
 REFUSALS: Mapping[str, str] = MappingProxyType(
@@ -529,10 +531,7 @@ def both_or_none(joint: Joint, *names: str) -> Iterator[Problem]:
 @lru_cache(maxsize=4096)
 def _second_order(joint: Joint, joint_angle: float) -> float:
     """Return the amplitude of the second order of a law at a bend [rad]: many loads and variants ask for few bends."""
-    theta = np.arange(PLACES) * (2.0 * np.pi / PLACES)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        angle_error = joint.deviation(theta, np.asarray(joint_angle))[0]
-    return float(angle_error @ np.sin(2.0 * theta)) * (2.0 / PLACES)
+    return float(_second(joint, np.asarray([joint_angle]))[0])
 
 
 @lru_cache(maxsize=256)
@@ -540,17 +539,39 @@ def _second_orders(joint: Joint, bends: tuple[float, ...]) -> Array:
     """Return the same at several bends [rad], array (m,): of many at once, but where the law does not turn at some."""
     if len(bends) == 1 or not joint.many_angles:
         return np.asarray([_second_order(joint, one) for one in bends])
-    theta = np.arange(PLACES) * (2.0 * np.pi / PLACES)
     found = []
     for first in range(0, len(bends), TOGETHER):
-        some = np.asarray(bends[first : first + TOGETHER])
-        with np.errstate(invalid="ignore", divide="ignore"):
-            ahead = np.broadcast_to(joint.deviation(theta, some[:, None])[0], (len(some), PLACES))
-        if np.all(np.isfinite(ahead)):
-            found.append(ahead @ np.sin(2.0 * theta) * (2.0 / PLACES))
-        else:
-            found.append(np.asarray([_second_order(joint, one) for one in some.tolist()]))
+        some = bends[first : first + TOGETHER]
+        told = _second(joint, np.asarray(some))
+        found.append(told if np.all(np.isfinite(told)) else np.asarray([_second_order(joint, one) for one in some]))
     return np.concatenate(found)
+
+
+def _second(joint: Joint, bends: Array) -> Array:
+    """Return the second order of a law at bends (m,) [rad], from as many places of a turn as tell it."""
+    found, open_, count = np.zeros(len(bends)), np.arange(len(bends)), PLACES
+    while len(open_):
+        theta = np.arange(count) * (2.0 * np.pi / count)
+        alpha = bends[open_, None] if len(open_) > 1 else bends[open_[0]]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            ahead = np.broadcast_to(joint.deviation(theta, alpha)[0], (len(open_), count))
+        found[open_] = ahead @ np.sin(2.0 * theta) * (2.0 / count)
+        open_ = open_[~_followed(ahead)] if count < MOST else open_[:0]
+        count *= 4
+    return found
+
+
+def _followed(ahead: Array) -> Array:
+    """Tell whether leads (m, p) [rad] at even places tell the curve between them, and that it never turns back.
+
+    A contact that is lost, or turns back, between two places shows at more of them.
+    """
+    count = ahead.shape[-1]
+    wave = np.fft.rfft(ahead) * (2.0 / count)
+    faded = np.max(np.abs(wave[..., count // 4 :]), axis=-1) < TOLD
+    rate = np.fft.irfft(1j * np.arange(wave.shape[-1]) * wave, 8 * count) * (4.0 * count)
+    told: Array = ~np.isfinite(np.sum(ahead, axis=-1)) | (faded & (np.min(rate, axis=-1) > -1.0))
+    return told
 
 
 # One measure of what else moves inside a joint: wobble, orbits, strokes, play, planes that are missed.

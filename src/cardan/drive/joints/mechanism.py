@@ -23,7 +23,7 @@ from cardan.units import deg, mm, plain
 from .common import inner
 from .common import site as drawn
 from .common.inner import DRIVEN, DRIVING, InnerPair, Stance, Tolerated
-from .common.laws import waved
+from .common.laws import faded, waved
 from .common.site import Site
 from .joint import CROSS_ONLY, EXACT, REFUSALS, SHIFTS, Joint
 from .joint import Inside as Measure
@@ -31,11 +31,11 @@ from .joint import Inside as Measure
 PLACES = 64
 """Places of a turn at which the loops are closed one after the other; between them all at once."""
 
-FINEST = 256
-"""Most places at which the law is taken; a joint that turns has no harmonics of half that order."""
+FINE = 256
+"""Places at which laws of several joint angles stand beside each other, more where one has harmonics beyond."""
 
-FADED = 1e-13
-"""Harmonics [rad] of the upper half of the orders below which a law is told by its places."""
+FINEST = 4096
+"""Most places at which the law is taken: near the joint angle at which a joint locks it is ever sharper."""
 
 EVEN = 1e-11
 """Leads [rad] below which a joint is uniform: what closing its loops leaves is a tenth of it."""
@@ -413,16 +413,14 @@ class Inside:
             poses = self.turn(joint_angle)
             leads, count = self._leads(poses, joint_angle), PLACES
             while count < FINEST and np.all(np.isfinite(leads)):
-                wave = np.abs(np.fft.rfft(leads))[count // 4 :] * (2.0 / count)
-                if np.max(wave) < FADED:
+                if faded(leads):
                     break
                 count *= 2
                 theta = np.arange(count) * (2.0 * np.pi / count) + self.start
                 poses = self._followed(np.repeat(poses, 2, axis=0), theta, joint_angle)
                 leads = self._leads(poses, joint_angle)
             if self.start:  # angles count from another mark than that drawn: the same curve from there
-                grid = np.arange(FINEST) * (2.0 * np.pi / FINEST)
-                leads = waved(grid - self.start, leads)[0]
+                leads = waved(even(max(FINE, len(leads))) - self.start, leads)[0]
             leads = leads - self.lead
             self.laws[joint_angle] = np.where(np.max(np.abs(leads)) < max(EVEN, self.blur), 0.0, leads)
         return self.laws[joint_angle]
@@ -449,24 +447,26 @@ class Inside:
 
         Many by polynomials in the joint angle through the nearest `NODES` full degrees: they miss the law by rounding.
         """
-        tables: dict[int, Array] = {}
+        tables: dict[int, Array | None] = {}
         for alpha in joint_angles.tolist():
             first = math.floor(alpha / DEGREE) - NODES // 2 + 1
             if len(joint_angles) > MANY and first not in tables:
-                tables[first] = np.stack([self._fine((first + k) * DEGREE) for k in range(NODES)])
-            if first not in tables or not np.all(np.isfinite(tables[first])):
+                rows = [self._fine((first + k) * DEGREE) for k in range(NODES)]
+                tables[first] = np.stack(rows) if {len(row) for row in rows} == {FINE} else None
+            table = tables.get(first)
+            if table is None or not np.all(np.isfinite(table)):
                 yield self.law(alpha)
                 continue
             near = [(first + k) * DEGREE for k in range(NODES)]
             weight = [math.prod((alpha - b) / (a - b) for b in near if b != a) for a in near]
-            yield np.asarray(weight) @ tables[first]
+            yield np.asarray(weight) @ table
 
     def _fine(self, joint_angle: float) -> Array:
-        """Return leads at `FINEST` places of a turn; a joint bent the other way stands as half a turn on."""
+        """Return leads at `FINE` places of a turn or more; a joint bent the other way stands as half a turn on."""
         leads = self.law(abs(joint_angle))
-        if len(leads) < FINEST:
-            leads = waved(np.arange(FINEST) * (2.0 * np.pi / FINEST), leads)[0]
-        return np.roll(leads, FINEST // 2) if joint_angle < 0.0 else leads
+        if len(leads) < FINE:
+            leads = waved(even(FINE), leads)[0]
+        return np.roll(leads, len(leads) // 2) if joint_angle < 0.0 else leads
 
     @property
     def mapped(self) -> bool:
@@ -602,6 +602,11 @@ class Inside:
             joint_angle=joint_angle / deg,
         )
         return said + by_rounding(gap)
+
+
+def even(count: int) -> Array:
+    """Return even places of a turn, array (count,) [rad]."""
+    return np.arange(count) * (2.0 * np.pi / count)
 
 
 def steepness(leads: Array) -> float:

@@ -18,7 +18,7 @@ from cardan.units import deg, plain, quantity
 
 from .common import site as drawn
 from .common.inner import DRIVEN, DRIVING, Contact, InnerPair, Stance, carried, centred
-from .common.laws import waved
+from .common.laws import faded, waved
 from .common.site import Site
 from .joint import CROSS_ONLY, NO_BEARING, REFUSALS, Inside, Joint, both_or_none, missed
 
@@ -38,7 +38,8 @@ def groove_course(
 
     def angle_error(theta: Array) -> Array:
         each: Array = deviation(theta[:, None] + places, joint_angle, first, second, radius)
-        return np.mean(each, axis=-1)
+        leaps = np.abs(each - np.roll(each, 1, axis=0)) > LEAP  # it turns the shaft another way round: no joint
+        return np.mean(np.where(np.any(leaps), np.nan, each), axis=-1)
 
     return course(angle, angle_error)
 
@@ -228,7 +229,9 @@ class Weiss(Joint):
 
 # A law of motion known point by point: its derivatives by its harmonics.
 
-SAMPLES = 256  # places in a turn at which a law is looked at; a joint that turns has no harmonics of half that order
+SAMPLES = 256  # places in a turn at which a law is looked at, and more where it has harmonics beyond
+MOST = 16 * SAMPLES  # most of them
+LEAP = 1.0  # step [rad] of what a ball asks for from one place to the next that its grooves cannot have
 
 
 def course(angle: Array, angle_error: Callable[[Array], Array]) -> tuple[Array, Array, Array]:
@@ -242,7 +245,12 @@ def course(angle: Array, angle_error: Callable[[Array], Array]) -> tuple[Array, 
     >>> print([f"{float(one):.9f}" for one in found])
     ['0.078332691', '1.186482990', '-0.704994219']
     """
-    return waved(angle, np.asarray(angle_error(np.arange(SAMPLES) * (2.0 * np.pi / SAMPLES)), dtype=float))
+    count = SAMPLES
+    while True:
+        samples = np.asarray(angle_error(np.arange(count) * (2.0 * np.pi / count)), dtype=float)
+        if count == MOST or faded(samples):
+            return waved(angle, samples)
+        count *= 4
 
 
 # Balls between circular grooves whose centres stand off the joint: curved Weiss grooves, offset Rzeppa grooves.

@@ -12,6 +12,7 @@ from cardan.drive.joints import Joint
 from cardan.drive.joints.joint import PLACES
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array, namespace, unit_complex
+from cardan.maths.curves.extremes import peaks
 from cardan.maths.kernel import mobius
 from cardan.texts import _
 
@@ -182,13 +183,15 @@ def left_over(joint: Joint, joint_angle: float) -> float:
     """
     if joint.has_map:
         return 0.0
-    theta = np.arange(PLACES) * (2.0 * np.pi / PLACES)
-    alpha = np.asarray(joint_angle)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        angle_error = joint.deviation(theta, alpha)[0] - mobius.angle_error(
-            joint.near_pair(alpha), unit_complex(2.0 * theta)
-        )
-    return float(np.max(np.abs(angle_error)))
+    theta, alpha = np.arange(PLACES) * (2.0 * np.pi / PLACES), np.asarray(joint_angle)
+    near = joint.near_pair(alpha)
+
+    def rest(angle: Array) -> Array:
+        with np.errstate(invalid="ignore", divide="ignore"):
+            angle_error = joint.deviation(angle, alpha)[0]
+        return np.abs(angle_error - mobius.angle_error(near, unit_complex(2.0 * angle)))[None]
+
+    return float(peaks(rest, theta, rest(theta))[1][0])
 
 
 def refuse_kinds(drive: Drive, question: str, key: str = "cross") -> None:

@@ -101,3 +101,24 @@ def test_any_array_library_computes_them():
     lengths = [strict.asarray(x) for x in (0.004, 0.003, 0.03)]
     found = weiss.deviation(phi, joint_angle, *lengths)
     assert np.array_equal(np.asarray(found), weiss.deviation([0.1, 0.6], [0.3, 0.7], 0.004, 0.003, 0.03))
+
+
+@pytest.mark.parametrize("balls", [1, 3, 4])
+def test_balls_that_share_turn_as_the_mean_of_each_however_sharp(balls):
+    """Grooves offset eight times as far as the others, far bent: the law has harmonics of a hundredfold order."""
+    joint = weiss.Weiss(driving_offset=0.0263, driven_offset=0.0033, groove_radius=0.0241, balls=balls)
+    theta = np.linspace(0.0, 2.0 * np.pi, 331) + 0.013
+    each = [weiss.deviation(theta + k * 2.0 * np.pi / balls, 59.0 * deg, 0.0263, 0.0033, 0.0241) for k in range(balls)]
+    found = joint.deviation(theta, np.asarray(59.0 * deg))
+    assert np.abs(found[0] - np.mean(each, axis=0)).max() < 1e-12
+
+
+def test_grooves_that_turn_the_shaft_another_way_round_make_no_joint():
+    """The ball passes between both shafts, so that the driven one swings to and fro instead of turning."""
+    sizes = 0.0273, 0.0148, 0.0238
+    theta = np.linspace(0.0, 2.0 * np.pi, 4001)
+    turned = np.unwrap(theta + weiss.deviation(theta, 72.0 * deg, *sizes))
+    assert np.ptp(turned) < 2.0 * np.pi - 0.1
+    joint = weiss.Weiss(**dict(zip(weiss.Weiss.law_sizes, sizes, strict=True)), balls=1)
+    assert np.all(np.isnan(joint.deviation(theta, np.asarray(72.0 * deg))[0]))
+    assert np.all(np.isfinite(joint.deviation(theta, np.asarray(20.0 * deg))[0]))

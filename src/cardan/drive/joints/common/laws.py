@@ -259,6 +259,17 @@ def places(links: int) -> int:
 NOISE = 1e-15  # harmonics below this [rad] are rounding; their derivatives would grow with the order
 
 
+FADED = 1e-13
+"""Harmonics [rad] of the upper half of the orders below which a law is told by its places."""
+
+
+def faded(samples: Array) -> bool:
+    """Tell whether leads at even places (p,) [rad] tell all harmonics of a law."""
+    count = len(samples)
+    upper = np.abs(np.fft.rfft(samples))[count // 4 :] * (2.0 / count)
+    return bool(np.max(upper) < FADED)
+
+
 def waved(angle: Array, samples: Array) -> tuple[Array, Array, Array]:
     """Return a smooth law of period 2π with two derivatives, given by its leads at even places of a turn.
 
