@@ -80,6 +80,7 @@ class Linkage:
         here = self.scaled(poses, 1.0)
         if not len(moving):
             return poses, self._misfit(self.rows(here)[1])
+        here[..., :3, :3] = _rigid(here[..., :3, :3])
         for _round in range(ROUNDS):
             slope, rest = self.slopes(here, moving, tied)
             turned = np.swapaxes(slope, -1, -2)
@@ -91,6 +92,7 @@ class Linkage:
             self.step(here, step, moving, tied)
             if np.max(np.abs(step)) < RESTS:
                 break
+        here[..., :3, :3] = _rigid(here[..., :3, :3])
         return self.scaled(here, -1.0), self._misfit(self.rows(here)[1])
 
     def slopes(self, poses: Array, moving: Sequence[int], tied: tuple[int, int] | None) -> tuple[Array, Array]:
@@ -217,6 +219,14 @@ def _held(pair: Pair) -> list[int]:
     forces = {"": (0, 1, 2), "axis": (1, 2), "across": (0,)}[pair.kind.slides]
     couples = {"": (3, 4, 5), "axis": (4, 5), "both": (3,), "all": ()}[pair.kind.turns]
     return [*forces, *couples]
+
+
+def _rigid(turn: Array) -> Array:
+    """Return turns (..., 3, 3) without what rounding strains them: by products link after link that would grow.
+
+    A link longer by 10⁻¹⁴ turns by 10⁻¹¹ near a change point, and its speed is off by 10⁻⁸.
+    """
+    return 1.5 * turn - 0.5 * turn @ np.swapaxes(turn, -1, -2) @ turn
 
 
 def _turned(turn: Array, vector: Array) -> Array:

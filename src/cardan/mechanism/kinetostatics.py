@@ -34,6 +34,8 @@ NEAR = 1e-6
 LOCKED = 1e-8
 """Share of the friction that the last round may have left; more where it grows without end."""
 
+EPS = float(np.finfo(float).eps)
+
 SLOW = 1e-12
 """Speeds below this share of the largest are rounding, and rub nowhere."""
 
@@ -184,6 +186,15 @@ class Rates:
     free: Array  # (..., w, n, 6): motions left while the input stands, w the most anywhere; those that are not are 0
     count: Array  # (...) of int: how many there are
     open: Array  # (...): what keeps the rates of the pairs from closing, over the largest
+    steep: Array  # (...): largest over least of what the pairs hold, without bounds toward a change point
+
+    def blur(self, order: int) -> Array:
+        """Return what rounding may make of places (0), speeds (1) and accelerations (2), (...), lengths over the size.
+
+        What a place is off by tilts what the pairs hold, and that again grows by how little of it is left.
+        """
+        found: Array = EPS * self.steep ** (order + 1)
+        return found
 
 
 def rates(placed: Placed, *, input_link: int, about: Array, base: int = FRAME) -> Rates:
@@ -230,6 +241,7 @@ def rates(placed: Placed, *, input_link: int, about: Array, base: int = FRAME) -
         free=np.reshape(ways, (*shape, most, n, 6)) * lengths,
         count=count,
         open=miss,
+        steep=np.max(inverse, axis=-1, initial=0.0) * np.max(sizes, axis=-1, initial=0.0),
     )
 
 

@@ -53,6 +53,15 @@ def test_slider_crank_carries_what_its_plane_equations_say():
     np.testing.assert_allclose(-found.reaction[:, 3, 4], want[:, 6], atol=1e-8)
 
 
+def test_a_rod_that_only_swings_round_needs_no_torque_and_loads_all_pins_alike():
+    """Its inertia m ω² r turns with the cranks: half on each, also a tenth of a degree beside a change point."""
+    found = mechanism_forces(example_mechanism("parallelogram"))
+    assert not np.any(found.input_torque)
+    assert found.unbalanced < 1e-12
+    np.testing.assert_allclose(found.largest, 0.5 * 0.8 * (10 * np.pi) ** 2 * 0.06, rtol=1e-12)
+    assert not np.any(found.most)
+
+
 @pytest.mark.slow
 def test_input_does_the_work_of_the_loads():
     found = mechanism_forces(replace(example_mechanism("crank-slider"), masses=()), TURN)

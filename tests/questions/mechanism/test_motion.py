@@ -9,6 +9,7 @@ from cardan import InputError
 from cardan.maths.kernel import frames
 from cardan.mechanism.turning import turned
 from cardan.mechanisms import Mechanism, Pair, example_mechanism, mechanism_motion
+from cardan.questions.mechanism.motion_answer import answer
 from cardan.units import deg
 
 TURN = np.radians(np.arange(0.0, 360.0, 5.0))
@@ -124,6 +125,37 @@ def test_a_parallelogram_goes_through_its_change_points():
     found = mechanism_motion(example_mechanism("parallelogram"), TURN)
     assert [one.way for one in found.links] == ["turns", "shifts", "turns"]
     np.testing.assert_allclose(found.output.angle, TURN, atol=1e-9)
+
+
+def test_rounding_next_to_a_change_point_is_told_as_none():
+    """A tenth of a degree beside it what the pairs hold is a thousandth: both cranks turn alike for all that."""
+    found = mechanism_motion(example_mechanism("parallelogram"))
+    assert np.abs(found.output.angle - found.position).max() < 1e-12
+    assert np.abs(found.output.ratio - 1.0).max() < 1e-9
+    assert found.output.constant
+    assert not np.any(found.output.slope)
+    said = answer(found.mechanism, found)
+    assert [one.value.value for one in said.keys if one.name == "speed_fluctuation"] == [0.0]
+
+
+def test_an_uneven_ratio_stays_told_however_small():
+    """A rod longer by a hundredth of a millimetre: the driven crank leads and lags by what plane geometry says."""
+    made = example_mechanism("parallelogram")
+    shift = 1e-5
+    moved = {"driven crank pin": (0.186 + shift, 0.048, 0.0), "driven bearing": (0.150 + shift, 0.0, 0.0)}
+    made = replace(made, joints=tuple(replace(one, point=moved.get(one.id, one.point)) for one in made.joints))
+    longer = replace(made.joints[3], point=(0.150 + 2.0 * shift, 0.0, 0.0))
+    made = replace(made, joints=(*made.joints[:3], longer), input_range=(-0.7, 1.0))
+    found = mechanism_motion(made).output
+    assert not found.constant
+    theta = np.linspace(-0.7, 1.0, 401)
+    driven = mechanism_motion(made, theta).output
+    pin = 0.06 * np.stack((np.cos(theta + np.arctan2(48, 36)), np.sin(theta + np.arctan2(48, 36))), axis=-1)
+    crank = np.hypot(0.036 - shift, 0.048)
+    start = np.arctan2(0.048, 0.036 - shift) + driven.angle
+    other = np.array([0.150 + 2.0 * shift, 0.0]) + crank * np.stack((np.cos(start), np.sin(start)), axis=-1)
+    np.testing.assert_allclose(np.hypot(*(other - pin).T), 0.150 + shift, atol=1e-14)
+    np.testing.assert_allclose(np.gradient(driven.angle, theta)[3:-3], driven.ratio[3:-3], atol=1e-6)
 
 
 def test_speeds_are_not_told_in_a_change_point():

@@ -10,6 +10,7 @@ import numpy as np
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
+from cardan.maths.ties import foremost
 from cardan.mechanism.kinetostatics import each_carried
 from cardan.mechanism.mechanism import Mechanism, Pair
 from cardan.texts import _
@@ -38,6 +39,8 @@ class MechanismForces:
         Of all loads, weight and inertia, at the speed of the input, or 1 rad/s (1 m/s) where it is not known.
     loss : array (p, m) [W]
         What friction takes in each pair, at the same speed.
+    blur : array (p,) [N]
+        What rounding may make of a force in a pair.
     unbalanced : float
         What is left of power and balance of every link, over the largest of each.
     """
@@ -48,6 +51,7 @@ class MechanismForces:
     reaction: Array
     power: Array
     loss: Array
+    blur: Array
     unbalanced: float
 
     @property
@@ -72,6 +76,19 @@ class MechanismForces:
     def force(self) -> Array:
         """Amount of the force in each pair, array (p, m) [N]."""
         return frames.norm(self.reaction[..., 3:])
+
+    @property
+    def most(self) -> Array:
+        """Places at which each pair carries most, array (m,): the first where it carries the same but for rounding."""
+        force = self.force
+        same = np.nanmax(force - self.blur[:, None], axis=0) <= np.nanmin(force + self.blur[:, None], axis=0)
+        first = int(np.argmax(np.isfinite(force[:, 0])))
+        return np.where(same, first, foremost(force.T))
+
+    @property
+    def largest(self) -> Array:
+        """Largest force in each pair, array (m,) [N]."""
+        return np.asarray(self.force[self.most, np.arange(self.force.shape[1])])
 
     @property
     def couple(self) -> Array:
@@ -144,20 +161,36 @@ def mechanism_forces(mechanism: Mechanism, position: Array | None = None) -> Mec
     blank = np.where(told, 1.0, np.nan)
     pace = abs(speed) or 1.0
     loss = pace * here.loss
-    power = pace * np.sum(rates.speed * moving, axis=(-2, -1))
-    driven = pace * here.input_torque
-    largest = float(np.max(np.abs(driven[told]), initial=0.0))
+    each = pace * rates.speed * moving
+    power, driven = np.sum(each, axis=(-2, -1)), pace * here.input_torque
+    largest = float(np.max(np.sum(np.abs(each), axis=(-2, -1))[told], initial=0.0))
     sense = 1.0 if speed >= 0.0 else -1.0
+    blur = _blur(motion, still, speed)
     gap = float(np.max(np.abs((driven + power - sense * np.sum(loss, axis=-1))[told]), initial=0.0)) / (largest or 1.0)
     return MechanismForces(
         motion=motion,
-        input_torque=here.input_torque * blank,
-        still_torque=rows[0].input_torque * blank,
+        input_torque=np.where(np.abs(here.input_torque) > blur[1], here.input_torque, 0.0) * blank,
+        still_torque=np.where(np.abs(rows[0].input_torque) > blur[0], rows[0].input_torque, 0.0) * blank,
         reaction=here.reaction * blank[:, None, None],
         power=power,
         loss=loss * blank[:, None],
+        blur=blur[1] * rates.steep * blank / (1.0 if mechanism.slides else turned.placed.size),
         unbalanced=max(gap, float(np.max(here.unbalanced[told], initial=0.0))),
     )
+
+
+def _blur(motion: MechanismMotion, load: Array, speed: float) -> tuple[Array, Array]:
+    """Return what rounding may make of the drive, without and with inertia, arrays (p,) [N·m], [N] where it slides.
+
+    Of loads (p, n, 6) at speeds, and of inertia, which goes with the square of the speed, at accelerations.
+    """
+    rates, size = motion.turned.rates, motion.turned.placed.size
+    points = np.stack([one.point for one in motion.links], axis=-2)
+    force, couple = frames.norm(load[..., 3:]), frames.norm(load[..., :3] - frames.cross(points, load[..., 3:]))
+    per = size if motion.mechanism.slides else 1.0
+    still = np.sum(force * size + couple, axis=-1) * rates.blur(1) / per
+    inert = sum(one.mass * size**2 + float(np.max(np.abs(one.tensor))) for one in motion.mechanism.masses)
+    return still, still + inert * (speed / per) ** 2 * (rates.blur(1) + rates.blur(2)) / per
 
 
 def _check_turns(mechanism: Mechanism, angle: Array, locked: Array) -> None:

@@ -75,11 +75,11 @@ def answer(mechanism: Mechanism, result: MechanismForces, listed: MechanismForce
 
 def _sentence(result: MechanismForces) -> Say:
     low, high = float(np.nanmin(result.input_torque)), float(np.nanmax(result.input_torque))
-    pair = result.mechanism.joints[int(foremost(np.nanmax(result.force, axis=0)))]
+    pair = result.mechanism.joints[int(foremost(result.largest))]
     values: dict[str, Any] = {"input": result.mechanism.input_link, "pair": pair.id}
     load = input_of(result.mechanism).load
     values |= {"low": Quantity(low, load), "high": Quantity(high, load)}
-    values["force"] = Quantity(float(np.nanmax(result.force)), "force")
+    values["force"] = Quantity(float(np.max(result.largest)), "force")
     text = _("{input} needs {low} to {high}; {pair} carries most, up to {force}.")
     if np.isclose(low, high, rtol=1e-6, atol=1e-9):
         text = _("{input} needs {high} all the time; {pair} carries most, up to {force}.")
@@ -114,8 +114,7 @@ def _tables(result: MechanismForces, held: Mobility) -> Iterator[Table]:
         ),
     )
     forces = float(np.nanmax(result.force))
-    couples = max(float(np.nanmax(result.couple)), ROUNDING * forces * result.motion.turned.placed.size)
-    most = [int(foremost(np.nan_to_num(result.force[:, k]))) for k in range(len(pairs))]
+    couples = max(float(np.nanmax(result.couple)), forces * result.motion.turned.placed.size)
     tight = {one.id for one in held.joints if one.strained}
     yield Table(
         name="pairs",
@@ -126,12 +125,10 @@ def _tables(result: MechanismForces, held: Mobility) -> Iterator[Table]:
             Column(
                 key="force",
                 heading=_("largest force"),
-                values=[_told(float(one), forces) for one in np.nanmax(result.force, axis=0)],
+                values=[_told(float(one), forces) for one in result.largest],
                 dimension="force",
             ),
-            Column(
-                key="force_at", heading=_("at"), values=[float(angle[k]) for k in most], dimension=by.place, decimals=0
-            ),
+            Column(key="force_at", heading=_("at"), values=angle[result.most], dimension=by.place, decimals=0),
             Column(
                 key="axial_force",
                 heading=_("along its axis ±"),
@@ -332,8 +329,8 @@ def _keys(result: MechanismForces) -> Iterator[KeyFigure]:
     else:
         torque = Quantity(peak(result.input_torque), "torque")
         yield KeyFigure(name="input_torque", title=_("largest input torque"), value=torque)
-    k = int(foremost(np.nanmax(result.force, axis=0)))
-    force = Quantity(float(np.nanmax(result.force)), "force")
+    k = int(foremost(result.largest))
+    force = Quantity(float(np.max(result.largest)), "force")
     yield KeyFigure(
         name="joint_force", title=_("largest force in a joint"), place=result.mechanism.joints[k].id, value=force
     )
@@ -383,7 +380,7 @@ def _told_of(mechanism: Mechanism) -> tuple[OutputColumn, ...]:
 def _numbers(found: MechanismForces) -> tuple[float, ...]:
     """Return the same in SI; the efficiency is nan where nothing rubs."""
     share = found.efficiency
-    return peak(found.input_torque), float(np.nanmax(found.force)), float("nan") if share is None else share
+    return peak(found.input_torque), float(np.max(found.largest)), float("nan") if share is None else share
 
 
 COLUMNS = (

@@ -31,6 +31,10 @@ STILL = 1e-7
 """Speeds below this, lengths over the size, are none: what closing loops next to a change point leaves is a tenth."""
 
 
+EVEN = 1e-9
+"""Fluctuation of a ratio below which it is constant."""
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LinkMotion:
     """How a link moves, at an input speed of 1 rad/s; nan at change points, where its speed is not told.
@@ -60,6 +64,8 @@ class LinkMotion:
         Second one: rate of the speed along the axis, else the amount of the acceleration.
     point : array (p, 3) [m]
         Its point: the centre of mass where the file has one, the middle of its pairs where not.
+    blur : array (p,)
+        What rounding may make of the ratio; of slope and curve such is told as nought.
     """
 
     link: str
@@ -73,11 +79,18 @@ class LinkMotion:
     speed: Array
     curve: Array
     point: Array
+    blur: Array
 
     @property
     def turns(self) -> bool:
         """Whether it turns."""
         return self.way in ("turns", "screws", "plane", "space")
+
+    @property
+    def constant(self) -> bool:
+        """Whether its ratio is the same everywhere, but for rounding."""
+        low, high = float(np.nanmin(self.ratio + self.blur)), float(np.nanmax(self.ratio - self.blur))
+        return high - low <= EVEN * max(abs(high), abs(low))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -234,6 +247,7 @@ def _moved(found: Turned, k: int, size: float) -> LinkMotion:
     else:
         speed = pace @ axis if straight else frames.norm(pace)
         curve = swept @ axis if straight else frames.norm(swept)
+    slope, curve = _beyond(slope, found.rates.blur(2)), _beyond(curve, size * found.rates.blur(2))
     blank = np.where(told, 1.0, np.nan)
     return LinkMotion(
         link=link,
@@ -247,7 +261,13 @@ def _moved(found: Turned, k: int, size: float) -> LinkMotion:
         speed=speed * blank / per,
         curve=curve * blank / per**2,
         point=point,
+        blur=found.rates.blur(1) / per,
     )
+
+
+def _beyond(values: Array, blur: Array) -> Array:
+    """Return values, nought where rounding alone may make them."""
+    return np.where(np.abs(values) > blur, values, 0.0)
 
 
 def reference(mechanism: Mechanism, link: str) -> Array:

@@ -21,16 +21,13 @@ from cardan.questions.mobility.rounded import rounded
 from cardan.texts import _, mark
 from cardan.units import deg, preferred
 
-from .motion import WAYS, LinkMotion, MechanismMotion, PartErrors, peak
+from .motion import EVEN, WAYS, LinkMotion, MechanismMotion, PartErrors, peak
 from .motion import mechanism_motion as ask
 from .transfer import Input, input_of
 
 drawn = later("cardan.questions.mechanism.figure")
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "sentence"]
-
-EVEN = 1e-9
-"""Fluctuation of a ratio below which it is constant."""
 
 STEP = 30.0 * deg
 """Step of the printed table."""
@@ -84,7 +81,7 @@ def sentence(result: MechanismMotion) -> Say:
             text = _("{output} turns through {angle}, by {low} to {high} of {input}.")
             values = {"low": Quantity(tidied(low), by.ratio), "high": Quantity(tidied(high), by.ratio)}
             return say(text, output=output.link, input=given, angle=Quantity(_span(output.angle), "angle"), **values)
-        if high - low <= EVEN * max(abs(high), abs(low)):
+        if output.constant:
             text = _("{output} turns at a constant ratio of {ratio} to {input}.")
             return say(text, output=output.link, input=given, ratio=Quantity(tidied(0.5 * (low + high))))
         text = _("{output} turns at {low} to {high} of the speed of {input}; speed fluctuation δ = {share}.")
@@ -105,7 +102,7 @@ def fluctuation(link: LinkMotion, angle: Array) -> float | None:
     if low * high <= 0.0:
         return None
     known = np.isfinite(link.ratio)
-    if np.count_nonzero(known) < 2:
+    if np.count_nonzero(known) < 2 or link.constant:
         return 0.0
     mean = float(np.trapezoid(link.ratio[known], angle[known])) / float(np.ptp(angle[known]))
     return (high - low) / abs(mean)
