@@ -27,7 +27,7 @@ from cardan.errors import InputError
 from cardan.questions.motion.standing import still
 from cardan.questions.torsion.road.answer import answer
 from cardan.questions.torsion.road.places import Standing, sign_changes
-from cardan.questions.torsion.road.road import RoadTorsion, road_torsion
+from cardan.questions.torsion.road.road import RoadTorsion, road_torsion, standing_torques
 from cardan.questions.torsion.steady.torsion_response import torsion_response
 
 STIFFNESS, DAMPING, INERTIA, LOAD, LIFT = 4000.0, 4.0, 0.4, 100.0, 0.1
@@ -381,3 +381,12 @@ def test_steep_random_movements_are_bounded_and_say_what_is_left_out(monkeypatch
     assert 1e-4 < lost < 1e-2
     said = [told(one.text, USUAL) for one in answer(drive, found).remarks]
     assert any("no steady motion was found in" in one for one in said)
+
+
+def test_torques_by_which_checks_find_instants_are_those_of_the_road():
+    """They are asked without whether the motions are stable, for hundreds of variants of a drive."""
+    drive = lifted(swing(0.05, 1.0))
+    road = road_torsion(drive).standing
+    found = standing_torques(drive, road.times)
+    assert np.ptp(found, axis=1).max() > 1.0
+    np.testing.assert_allclose(found, np.concatenate([road.high, -road.low], axis=-1).T, rtol=1e-8, atol=1e-6)

@@ -13,6 +13,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.models.geometry import geometry
 from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import peak
+from cardan.maths.periodic.harmonics import Status
 from cardan.maths.periodic.switching_orbit import Shooting
 from cardan.questions.motion.standing import given_at
 from cardan.questions.torsion.model.joint_bends import Bends, bends
@@ -24,6 +25,7 @@ from cardan.questions.torsion.stability.floquet_map import LONG, floquet_map
 from cardan.questions.torsion.steady.alternating_torque import BANDS
 from cardan.questions.torsion.steady.orbit import Orbit
 from cardan.questions.torsion.steady.run_stability import Verdict
+from cardan.questions.torsion.steady.steady import steady_orbits
 from cardan.questions.torsion.steady.two_frequencies import envelope, of_drives
 
 LOOK = 60
@@ -170,6 +172,22 @@ class Standing:
         known = {name: whole([np.asarray(getattr(part, name)) for part in parts]) for name in names}
         angle = self.turned(points)[0]["joint_angle"]
         return Places(share=np.full(count, 1.0 / count), points=points, joint_angle=angle, **known)
+
+    def torques(self, points: Array) -> tuple[Array, Array]:
+        """Return least and largest torques of the elements at places of the points (t, n+2, 3), arrays (t, E) [N·m].
+
+        As `at` tells them, without asking whether the motions are stable, but where friction leaves that unknown.
+        """
+        if self.model.rubs:
+            found = self.at(points)
+            return found.low, found.high
+        turns, possible = self.turned(points)
+        speeds = np.full(len(points), self.speed)
+        orbit, status = steady_orbits(replace(self.model, **turns), speed=speeds, opened=NO_SEARCH)
+        known = possible & (status <= Status.COARSE)
+        parts = [self._read(orbit, rows)[1:3] for rows in _chunks(len(points))]
+        low, high = (np.where(known[:, None], np.concatenate(each), np.nan) for each in zip(*parts, strict=True))
+        return low, high
 
     @property
     def order(self) -> Array:

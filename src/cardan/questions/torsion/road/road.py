@@ -337,8 +337,8 @@ def standing_torques(drive: Drive, times: Array) -> Array:
     Backlash counts as closed; nan where no motion is found. Raises InputError: what the torsional model misses.
     """
     _train, _whole, standing = _stood(drive)
-    found = standing.at(moving_points(standing.base, drive.movements, times)[0])
-    return np.concatenate([found.high, -found.low], axis=-1).T
+    low, high = standing.torques(moving_points(standing.base, drive.movements, times)[0])
+    return np.concatenate([high, -low], axis=-1).T
 
 
 def _with_play(found: RoadTorsion, standing: Standing, loose: TorsionalModel) -> RoadTorsion:
