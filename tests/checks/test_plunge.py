@@ -102,3 +102,22 @@ def test_many_drives_are_judged_at_once():
         moved = replace(half_shaft().joints[1], centre=(0.0, 0.4, height * 1e-3))
         alone = replace(half_shaft(), joints=(half_shaft().joints[0], moved))
         assert out.value[k] == pytest.approx(check(alone, only=["plunge"])[0].value)
+
+
+def test_articulation_tells_the_same_way_and_when_it_is_too_far():
+    """By plain distances, at both ends of each span and in its middle."""
+    drawn, least, most = lengths()
+    found = articulation(half_shaft(first=TRIPOD.replace("14", "3").replace("12", "0.5")))
+    flags = {flag.field: flag for one in found.splines for flag in one.flags}
+    assert flags["joints[0].plunge_out"].value == pytest.approx(most - drawn, rel=1e-6)
+    assert flags["joints[0].plunge_in"].value == pytest.approx(drawn - least, rel=1e-6)
+    for key, sign, limit in (("plunge_out", 1.0, 0.003), ("plunge_in", -1.0, 0.0005)):
+        flag = flags[f"joints[0].{key}"]
+        assert flag.limit == limit
+        assert flag.spans
+        for start, end in flag.spans:
+            wave = np.sin(3.0 * np.pi * np.linspace(start, end, 101))
+            ways = sign * (np.hypot(400 + 5 * wave, 30 + 60 * wave) * 1e-3 - drawn)
+            assert np.min(ways) > limit - 2e-6
+    assert not any(one.flags for one in articulation(half_shaft()).splines if most - drawn < 0.014)
+    assert not any(one.flags for one in articulation(half_shaft(first='kind = "tripod"')).splines)

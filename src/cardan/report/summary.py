@@ -93,9 +93,12 @@ def uniformity(on: Subject) -> Words:
     if posed > max(swings, on.fluctuation) + UTMOST:
         tone = "warning" if tone == "good" and posed > CALM else tone
         parts.append(say(_("In the pose {name} the speed fluctuation is {share}."), name=pose, share=_share(posed)))
-    if on.moving is not None and any(one.flags for one in on.moving.splines):
+    flags = [flag.field for one in (on.moving.splines if on.moving is not None else ()) for flag in one.flags]
+    if any(".spline." in field for field in flags):
         parts.append(_("A spline does not follow the movement."))
-        tone = "failed"
+    if any(".plunge_" in field for field in flags):
+        parts.append(_("A joint does not plunge as far as the movement asks."))
+    tone = "failed" if flags else tone
     return Words(
         text=Joined(parts, between=" "), tone="failed" if any(steep_joints(on.drive, on.joint_angle)) else tone
     )

@@ -9,6 +9,7 @@ import numpy as np
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
+from cardan.questions.motion.length import plunging
 from cardan.texts import _, mark
 
 from .spline_overlap import ROUNDING, slid
@@ -19,7 +20,7 @@ KEYS = ("plunge_out", "plunge_in")
 
 def _judge(design: Design) -> Iterator[Verdict]:
     drive = design.drive
-    taken = {k: plunging(design, k) for k in range(1, design.joints)}
+    taken = {k: plunging(design.drive, k) for k in range(1, design.joints)}
     ways = slid(design, [k for k, joints in taken.items() if joints])
     for k, (out, back, stood) in ways.items():
         joints = taken[k]
@@ -46,18 +47,6 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 design_variables=tuple(paths),
                 note=both if len(joints) > 1 else moved,
             )
-
-
-def plunging(design: Design, k: int) -> list[int]:
-    """Return which joints take up the length of a shaft counted from 0: those that plunge at its ends.
-
-    None where a spline does, its own or that of an end shaft beside it.
-    """
-    shafts, joints = design.drive.shafts, design.drive.joints
-    ends = {0, len(shafts) - 1} & {k - 1, k + 1}
-    if any(shafts[one].spline is not None for one in (k, *ends)):
-        return []
-    return [i for i in (k - 1, k) if "plunge_out" in joints[i].own_fields() and joints[i].slides]
 
 
 CHECK = Check(

@@ -23,7 +23,7 @@ from cardan.texts import _
 
 from .instants import Instants, Position, Question
 from .kinds import kind_name
-from .length import LengthCompensation, length_compensation, slip_ends, slipping
+from .length import LengthCompensation, length_compensation, plunge_of, slip_ends, slipping
 from .moving_points import default_times, moving_path, shortest_period, start_time
 from .random_motion import RandomMotion, random_motion
 
@@ -288,6 +288,7 @@ def _splines(drive: Drive, place: Geometry, found: Instants) -> tuple[LengthComp
             limits=drive.limits,
             drawn=float(place.length[k]),
             shaft=k + 1,
+            plunge=plunge_of(drive, k),
         )
         if one.slides or drive.shafts[k].spline:
             splines.append(one)

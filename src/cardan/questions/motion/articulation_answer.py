@@ -24,7 +24,7 @@ from .articulation import Articulation, Worst, takes_up
 from .articulation import articulation as ask
 from .equivalence import SPECK, SYNCHRONOUS
 from .instants import Position
-from .length import LengthCompensation
+from .length import LengthCompensation, plunge_of
 from .random_motion import Expected, RandomMotion
 
 drawn = later("cardan.questions.motion.figures")
@@ -192,7 +192,8 @@ def _shafts(drive: Drive, found: Articulation) -> Table:
 def _state(drive: Drive, one: LengthCompensation) -> Cell:
     if one.flags:
         return Cell(value=_("failed"), tone="failed")
-    if drive.shafts[one.shaft - 1].spline:
+    plunge = plunge_of(drive, one.shaft - 1)
+    if drive.shafts[one.shaft - 1].spline or (plunge is not None and None not in (plunge.out, plunge.back)):
         return Cell(value=_("passed"), tone="good")
     return Cell(value="" if takes_up(drive, one.shaft) else _("no spline"))
 

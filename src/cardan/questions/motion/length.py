@@ -38,6 +38,15 @@ class Flag:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class Plunge:
+    """How far joints that take up the length of a shaft may plunge."""
+
+    joints: tuple[int, ...]  # which, from 0
+    out: float | None  # [m]: together, pulled out of where they are drawn; None where one does not say it
+    back: float | None  # [m]: pushed in
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class LengthCompensation:
     """What the sliding of one shaft amounts to over a movement."""
 
@@ -76,6 +85,7 @@ def length_compensation(
     limits: Limits | None = None,
     drawn: float | None = None,
     shaft: int = 2,
+    plunge: Plunge | None = None,
 ) -> LengthCompensation:
     """Return stroke, sliding speed, slip path, engaged length and gap of one shaft over a movement.
 
@@ -85,6 +95,7 @@ def length_compensation(
     limits: smallest engaged length allowed, ``spline_overlap``; more than zero when not given.
     drawn [m]: length L_0 in the drawn position; that of the first instant by default.
     shaft: number of the shaft, for the flags.
+    plunge: how far joints at its ends that take up its length may be pulled out and pushed in.
     Raises InputError: times that do not rise, arrays of different lengths.
 
     engaged = engaged_0 - (L - L_0), gap = gap_0 + (L - L_0). Between the instants the length follows the quintic
@@ -100,7 +111,11 @@ def length_compensation(
     low, high = int(foremost_on(values, least=True)), int(foremost_on(values))
     engaged = spline.engaged if spline else None
     gap = spline.gap if spline else None
-    flags = (*_short(series, base, engaged, limits, shaft, at, values), *_bottoms(series, base, gap, shaft, at, values))
+    flags = (
+        *_short(series, base, engaged, limits, shaft, at, values),
+        *_bottoms(series, base, gap, shaft, at, values),
+        *(_plunged(series, base, plunge, shaft, at, values) if plunge is not None else ()),
+    )
     return LengthCompensation(
         shaft=shaft,
         drawn=base,
@@ -115,6 +130,28 @@ def length_compensation(
         gap_min=None if gap is None else gap + (float(values[low]) - base),
         flags=flags,
     )
+
+
+def plunging(drive: Drive, k: int) -> list[int]:
+    """Return which joints take up the length of a shaft counted from 0: those that plunge at its ends.
+
+    None where a spline does, its own or that of an end shaft beside it.
+    """
+    ends = {0, len(drive.shafts) - 1} & {k - 1, k + 1}
+    if any(drive.shafts[one].spline is not None for one in (k, *ends)):
+        return []
+    joints = drive.joints
+    return [i for i in (k - 1, k) if "plunge_out" in joints[i].own_fields() and joints[i].slides]
+
+
+def plunge_of(drive: Drive, k: int) -> Plunge | None:
+    """Return how far the joints that take up the length of a shaft counted from 0 may plunge; None where none does."""
+    taken = plunging(drive, k) if 0 < k < len(drive.joints) else []
+    if not taken:
+        return None
+    out, back = ([getattr(drive.joints[i], key) for i in taken] for key in ("plunge_out", "plunge_in"))
+    ways = (None if None in own else sum(own) for own in (out, back))
+    return Plunge(joints=tuple(taken), out=next(ways), back=next(ways))
 
 
 def slip_ends(drive: Drive) -> tuple[int, ...]:
@@ -206,6 +243,23 @@ def _bottoms(series: Series, base: float, gap: float | None, shaft: int, at: Arr
     least = gap + (float(values[worst]) - base)
     text = _("the spline of shaft {shaft} bottoms: the way left falls to {value} at {time}")
     return (_flag(f"shafts[{shaft - 1}].spline.gap", text, shaft, float(at[worst]), least, 0.0, spans),)
+
+
+def _plunged(series: Series, base: float, plunge: Plunge, shaft: int, at: Array, values: Array) -> tuple[Flag, ...]:
+    """Flag joints pulled out or pushed in farther than they may."""
+    texts = {
+        "plunge_out": _("shaft {shaft} pulls its joint out by {value} at {time}; allowed is {limit}"),
+        "plunge_in": _("shaft {shaft} pushes its joint in by {value} at {time}; allowed is {limit}"),
+    }
+    found = []
+    for (key, text), sign, limit in zip(texts.items(), (1.0, -1.0), (plunge.out, plunge.back), strict=True):
+        spans = () if limit is None else _spans(series, base + sign * limit, longer=sign > 0.0, touching=False)
+        if spans and limit is not None:
+            worst = int(foremost_on(values, least=sign < 0.0))
+            way = sign * (float(values[worst]) - base)
+            field = f"joints[{plunge.joints[0]}].{key}"
+            found.append(_flag(field, text, shaft, float(at[worst]), way, limit, spans))
+    return tuple(found)
 
 
 def _flag(
