@@ -226,6 +226,17 @@ def test_json_and_csv_exclude_each_other(cardan):
     assert done.complaint["problems"][0]["field"] == "--csv"
 
 
+@pytest.mark.parametrize("command", ["motion", "phasing", "losses"])
+def test_a_joint_that_does_not_turn_is_named_with_its_file_and_key(cardan, tmp_path, command):
+    path = tmp_path / "balls.toml"
+    sizes = "balls = 1\ndriving_offset_mm = 27.3\ndriven_offset_mm = 14.8\ngroove_radius_mm = 23.8\n"
+    path.write_text(f'format = 1\n[[joints]]\nkind = "weiss"\njoint_angle_deg = 72\n{sizes}')
+    done = cardan(command, path)
+    assert done.code == 2
+    assert done.err.startswith(f"error: {path}: joints[0].joint_angle_deg: ")
+    assert "swings to and fro by 132.2°" in done.err
+
+
 def test_a_fault_of_ours_is_no_traceback(cardan, monkeypatch):
     def broken(*_ways, **_more):
         raise ZeroDivisionError("division by zero")

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
+from cardan.cli.shared.asked import keys_of
 from cardan.cli.shared.options import option
 from cardan.cli.shared.output import check_common, check_speed
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
@@ -40,7 +41,8 @@ def articulation(
     drive = read(file)
     times = instants(until, step)
     speed = None if speed_rpm is None else speed_rpm * rpm
-    result = ask(drive, times=times, until=until if times is None else None, speed=speed)
+    with keys_of(file):
+        result = ask(drive, times=times, until=until if times is None else None, speed=speed)
     return tell(answer(drive, result), file, drive, json=json, csv=csv, plot=plot)
 
 

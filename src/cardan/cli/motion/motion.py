@@ -8,6 +8,7 @@ from typing import Annotated, Any
 import numpy as np
 
 from cardan.cli.shared import mechanisms
+from cardan.cli.shared.asked import keys_of
 from cardan.cli.shared.options import flag, option
 from cardan.cli.shared.output import check_common, check_speed
 from cardan.cli.shared.source import AsCsv, AsJson, EitherFile, Plot, SpeedRpm, read_either
@@ -57,7 +58,8 @@ def motion(
         return mechanisms.told("motion", machine, file, asked, listed=table, json=json, csv=csv, plot=plot)
     speed = drive.duty.speed if speed_rpm is None else speed_rpm * rpm
     listed = positions(angle, step or STEP) if table or angle or step is not None else None
-    result = ask(drive, positions(angle, step or 1.0), speed=speed, listed=listed)
+    with keys_of(file):
+        result = ask(drive, positions(angle, step or 1.0), speed=speed, listed=listed)
     return tell(answer(drive, result), file, drive, json=json, csv=csv, plot=plot)
 
 

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from cardan.answers.answer import Answer
 from cardan.cli.shared.apply import check_copy, named, written
+from cardan.cli.shared.asked import keys_of
 from cardan.cli.shared.options import flag, option
 from cardan.cli.shared.output import check_common
 from cardan.cli.shared.progress import watching
@@ -88,7 +89,7 @@ def phasing(
         found, changed = place.phasing, layout_answer.values(place)
         said: Answer = layout_answer.answer(drive, place, fixed=held, nearest=nearest)
     else:
-        found = _ask(drive, held, goal)
+        found = _ask(file, drive, held, goal)
         said = answer(drive, found, fixed=held, nearest=nearest)
     if apply is not None and out is None:
         named(every_setting(found), apply)
@@ -121,13 +122,16 @@ def held_yokes(fix: Sequence[str]) -> dict[int, float]:
     return found
 
 
-def _ask(drive: Drive, held: dict[int, float], goal: Goal) -> Phasing:
+def _ask(file: Path, drive: Drive, held: dict[int, float], goal: Goal) -> Phasing:
     wish = NEAREST if goal == "nearest" else SYNCHRONOUS
     try:
         with watching(_("searching yoke angles")) as progress:
             return ask(drive, fixed=held, goal=wish, progress=progress)
     except InputError as error:
-        raise error.renamed(_as_option) from error
+        if any(_as_option(one.field) != one.field for one in error.problems):
+            raise error.renamed(_as_option) from error
+        with keys_of(file):
+            raise
 
 
 def _with_layout(drive: Drive, held: dict[int, float], goal: Goal, over: Over) -> Layout:

@@ -29,6 +29,7 @@ from .weiss import (
     groove_course,
     groove_inside,
     groove_mechanism,
+    groove_stuck,
 )
 
 LEVER = ("lever_b", "lever_c")
@@ -105,6 +106,11 @@ class Rzeppa(Joint):
         return groove_course(
             angle, joint_angle, self.driving_offset, self.driven_offset, self.groove_radius, self.balls
         )
+
+    def stuck(self, joint_angle: float) -> str:
+        """Return where its grooves do not meet."""
+        why = groove_stuck(joint_angle, self.driving_offset, self.driven_offset, self.groove_radius)
+        return f"{Joint.stuck(self, joint_angle)}: {why}" if why else Joint.stuck(self, joint_angle)
 
     @property
     def alike(self) -> int:

@@ -14,7 +14,7 @@ from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 from cardan.maths.kernel import frames, mobius
 from cardan.maths.kernel.meshes import ball, placed
 from cardan.texts import _, mark
-from cardan.units import deg, plain, quantity
+from cardan.units import deg, mm, plain, quantity
 
 from .common import site as drawn
 from .common.inner import DRIVEN, DRIVING, Contact, InnerPair, Stance, carried, centred
@@ -42,6 +42,32 @@ def groove_course(
         return np.mean(np.where(np.any(leaps), np.nan, each), axis=-1)
 
     return course(angle, angle_error)
+
+
+def groove_stuck(joint_angle: float, first: float | None, second: float | None, radius: float | None) -> str:
+    """Return in a sentence where offset grooves do not meet, or turn the shaft back; "" where a ball goes round."""
+    if first is None or second is None or radius is None:
+        return ""
+    theta = np.arange(720) * (0.5 * deg)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        along, _out = ball_centre(theta, joint_angle, first, second, radius)
+        ahead = deviation(theta, joint_angle, first, second, radius)
+    if np.any(np.isnan(along)):
+        lean, rise = second * math.sin(joint_angle) * np.cos(theta), first + second * math.cos(joint_angle)
+        far = 0.5 * float(_distance(*floats(joint_angle, first, second))) ** 2 / np.hypot(rise, lean)
+        k = int(np.argmax(far))
+        if far[k] > radius:
+            text = _(
+                "with its driving mark {angle:.4g}° from the plane of the shafts its grooves miss the plane of the "
+                "balls by {gap:.3g} mm"
+            )
+            return text.format(angle=float(theta[k]) / deg, gap=float(far[k] - radius) / mm)
+        return _("a ball would stand on the axis of its shaft")
+    turned = float(np.ptp(np.unwrap(theta + ahead)))
+    if turned < 2.0 * math.pi - LEAP:
+        text = _("its balls pass between both shafts, so that the driven one swings to and fro by {angle:.4g}°")
+        return text.format(angle=turned / deg)
+    return ""
 
 
 def balls_inside(tilt: float, angle_errors: Array) -> Iterator[Inside]:
@@ -169,6 +195,11 @@ class Weiss(Joint):
         return groove_course(
             angle, joint_angle, self.driving_offset, self.driven_offset, self.groove_radius, self.balls
         )
+
+    def stuck(self, joint_angle: float) -> str:
+        """Return where its grooves do not meet."""
+        why = groove_stuck(joint_angle, self.driving_offset, self.driven_offset, self.groove_radius)
+        return f"{Joint.stuck(self, joint_angle)}: {why}" if why else Joint.stuck(self, joint_angle)
 
     @property
     def alike(self) -> int:

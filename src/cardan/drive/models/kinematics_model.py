@@ -188,8 +188,8 @@ def left_over(joint: Joint, joint_angle: float) -> float:
 
     def rest(angle: Array) -> Array:
         with np.errstate(invalid="ignore", divide="ignore"):
-            angle_error = joint.deviation(angle, alpha)[0]
-        return np.abs(angle_error - mobius.angle_error(near, unit_complex(2.0 * angle)))[None]
+            angle_error = joint.deviation(angle, alpha)[0] - mobius.angle_error(near, unit_complex(2.0 * angle))
+        return np.abs(angle_error)[None]
 
     return float(peaks(rest, theta, rest(theta))[1][0])
 

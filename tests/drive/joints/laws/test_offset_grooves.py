@@ -10,6 +10,8 @@ from scipy.optimize import fsolve
 
 from cardan.drive.joints import weiss
 from cardan.drive.joints.common import laws
+from cardan.joints import Rzeppa
+from cardan.texts import speaking
 from cardan.units import deg
 
 E1, P1, N = np.eye(3)
@@ -122,3 +124,24 @@ def test_grooves_that_turn_the_shaft_another_way_round_make_no_joint():
     joint = weiss.Weiss(**dict(zip(weiss.Weiss.law_sizes, sizes, strict=True)), balls=1)
     assert np.all(np.isnan(joint.deviation(theta, np.asarray(72.0 * deg))[0]))
     assert np.all(np.isfinite(joint.deviation(theta, np.asarray(20.0 * deg))[0]))
+    with speaking("en"):
+        assert joint.stuck(72.0 * deg).endswith(f"swings to and fro by {np.ptp(turned) / deg:.4g}°")
+
+
+def test_grooves_that_do_not_meet_are_told_with_place_and_gap():
+    """The plane of the balls is as far from one groove centre as from the other: its points in the meridian plane."""
+    c1, c2, radius = 0.03, 0.025, 0.02
+    other = c2 * axes(30.0 * deg)[0]
+    gaps = []
+    for phi in np.radians(np.arange(0.0, 360.0, 0.5)):
+        way = np.cos(phi) * P1 + np.sin(phi) * N
+        normal = c1 * E1 - other
+        level = 0.5 * (c1**2 - other @ other)
+        a, b = normal @ E1, normal @ way
+        gaps.append(abs(level - a * c1) / np.hypot(a, b) - radius)
+    k = int(np.argmax(gaps))
+    for kind in (weiss.Weiss, Rzeppa):
+        with speaking("en"):
+            said = kind(driving_offset=c1, driven_offset=c2, groove_radius=radius).stuck(30.0 * deg)
+        assert f"driving mark {0.5 * k:.4g}°" in said
+        assert said.endswith(f"by {gaps[k] * 1e3:.3g} mm")
