@@ -1,12 +1,17 @@
 import dataclasses
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from cardan.checks import check
 from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
 from cardan.drive.movement import MOVEMENTS, Arm, Body, Harmonic, Hitch, Movement, Parallel, Random, Spectrum, Table
+from cardan.drive.shaft import Segment
 from cardan.errors import InputError
 from cardan.questions.motion.moving_points import CARRY, common_period, default_times, moving_points, shortest_period
+from cardan.questions.motion.standing import still
 
 POINTS = np.asarray([[-1.0, 0.1, 0.0], [0.0, 0.0, 0.1], [1.2, 0.1, -0.2], [2.0, 0.2, -0.3]])
 ALL = ("input", "joints[0]", "joints[1]", "output")
@@ -192,3 +197,15 @@ def test_a_long_time_is_followed_as_finely_as_a_short_one_or_refused():
     assert np.diff(times)[0] <= period / 6.0
     with pytest.raises(InputError, match="look at a shorter time"):
         default_times([swing], 100_000.0 * period)
+
+
+def test_the_stretches_of_a_shaft_that_slides_are_drawn_to_fit_where_it_stands():
+    steps = (Segment(length=0.3, outer=0.05), Segment(length=0.7, outer=0.08, inner=0.07))
+    bare = Drive.from_points([(-0.2, 0, 0), (0, 0, 0), (1, 0, 0), (1.3, 0, 0)])
+    slide = Harmonic(moves=("joints[1]", "output"), amplitude=(0.04, 0.0, 0.0), frequency=2.0 * np.pi)
+    shafts = (bare.shafts[0], replace(bare.shafts[1], segments=steps), bare.shafts[2])
+    drive = replace(bare, shafts=shafts, movements=(slide,), duty=Duty(speed=100.0, torque=200.0))
+    here = still(drive, 0.25)
+    assert [one.length for one in here.shafts[1].segments] == pytest.approx([0.3 * 1.04, 0.7 * 1.04], rel=1e-12)
+    assert here.shafts[1].segments[1].inner == 0.07
+    assert check(drive)

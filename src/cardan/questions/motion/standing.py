@@ -13,6 +13,7 @@ from cardan.drive.models.dynamics_model import Train
 from cardan.drive.models.geometry import geometry, geometry_from_points, in_form
 from cardan.drive.models.kinematics_model import Chain, turning, unmapped
 from cardan.drive.movement import Movement, Oscillation, Random
+from cardan.drive.shaft import Shaft
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import ROUNDS, highest
 from cardan.maths.kernel import frames
@@ -140,7 +141,20 @@ def still(drive: Drive, time: float) -> Drive:
         input=replace(bare.input, point=points[0]),
         output=replace(bare.output, point=points[-1]),
         joints=tuple(replace(one, centre=point) for one, point in zip(bare.joints, points[1:-1], strict=True)),
+        shafts=tuple(_stretched(one, rows) for one in bare.shafts),
     )
+
+
+def _stretched(shaft: Shaft, points: Array) -> Shaft:
+    """Return a shaft with the stretches of its body drawn to fit the distance of its joints, as `body.pieces` does.
+
+    points (p, 3) [m]: of the drive, its ends included.
+    """
+    if not shaft.segments or not 1 < shaft.number < len(points) - 1:
+        return shaft
+    length = float(np.linalg.norm(points[shaft.number] - points[shaft.number - 1]))
+    fit = length / sum(one.length for one in shaft.segments)
+    return replace(shaft, segments=tuple(replace(one, length=fit * one.length) for one in shaft.segments))
 
 
 def standing_chain(drive: Drive, times: ArrayLike) -> tuple[Chain, Array]:
