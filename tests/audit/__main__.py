@@ -1,4 +1,8 @@
-"""``python -m tests.audit [COUNT [FIRST]]``: the audit over drives at random, each by its seed; 10,000 by default."""
+"""``python -m tests.audit [COUNT [FIRST [RARE]]]``: the audit over drives at random, each by its seed.
+
+COUNT is 10,000 by default. RARE is the probability of each part that few drives carry: ``often``, ``seldom``, the
+default, or a number.
+"""
 
 from __future__ import annotations
 
@@ -6,14 +10,19 @@ import sys
 import time
 from collections import Counter
 
+from tests.builders.any_drive import OFTEN, SELDOM
+
 from .running import audited
 
+NAMED = {"often": OFTEN, "seldom": SELDOM}
 
-def main(count: int = 10_000, first: int = 0) -> int:
+
+def main(count: str = "10000", first: str = "0", rare: str = "seldom") -> int:
     """Print every contradiction with the seed of its drive, and how often each pair was compared."""
+    share = NAMED[rare] if rare in NAMED else float(rare)
     start, pairs, bad, made = time.perf_counter(), Counter[str](), 0, 0
-    for seed in range(first, first + count):
-        found = audited(seed)
+    for seed in range(int(first), int(first) + int(count)):
+        found = audited(seed, rare=share)
         if found is None:
             continue
         made += 1
@@ -32,4 +41,4 @@ def main(count: int = 10_000, first: int = 0) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(*map(int, sys.argv[1:])))
+    sys.exit(main(*sys.argv[1:]))

@@ -20,11 +20,19 @@ from cardan.drive.support import Support
 from cardan.joints import ConstantVelocity
 from cardan.units import deg, hour, mm, rpm
 
+from .rare_parts import with_rare_parts
+
 Rng = np.random.Generator
 
+SELDOM, OFTEN = 0.01, 0.15
+"""Probabilities of each of the rare parts: where drives are to be quick to judge, and where many are to have some."""
 
-def any_drive(seed: int) -> Drive:
-    """Return the drive of a seed: one to five joints in space, bodies, supports, masses, duty as chance has it."""
+
+def any_drive(seed: int, rare: float = SELDOM) -> Drive:
+    """Return the drive of a seed: one to five joints in space, bodies, supports, masses, duty as chance has it.
+
+    rare: probability of each part that few drives carry; without them it is the same drive.
+    """
     rng = np.random.default_rng(seed)
     joints = int(rng.integers(1, 6))
     points = [np.asarray((-rng.uniform(0.1, 0.5), 0.0, 0.0)), np.zeros(3)]
@@ -47,7 +55,7 @@ def any_drive(seed: int) -> Drive:
         drive = replace(drive, stations=_stations(rng, joints))
     if rng.random() < 0.25:
         drive = replace(drive, movements=(_movement(rng, joints),))
-    return drive
+    return with_rare_parts(drive, seed, rare)
 
 
 def _joint(rng: Rng, joint: Any) -> Any:

@@ -1,5 +1,6 @@
 """Answers that speak of the same quantity agree, of all examples and of drives at random; where not, it is told."""
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -12,9 +13,13 @@ from cardan.checks.audit import answers_agree, pairs
 from cardan.checks.audit.answers_agree import CHECK, Compared, audit
 from cardan.checks.audit.pairs import PAIRS
 from cardan.checks.design import Design
+from cardan.checks.strength.section import sections
+from cardan.checks.strength.shaft_life import fatigue, fatigue_life, lasting
 from cardan.choices.check_answer import answer, checked
 from cardan.drive.duty import Limits
 from cardan.drive.joints import JOINTS
+from cardan.drive.machine import Event
+from cardan.drive.material import Material
 from cardan.io.examples import example_names
 from cardan.questions.motion.turning import each_shaft
 from tests.audit.running import audited
@@ -122,6 +127,21 @@ def test_strength_that_leaves_the_torques_of_starts_out_contradicts_what_they_co
     monkeypatch.setattr(pairs, "happening", lambda _design: [])
     found = contradictions(audit(design(started())))
     assert {name.partition(":")[0] for name, *_rest in found} == {"largest torque of every shaft in starts and events"}
+
+
+def test_a_shaft_that_lasts_but_for_its_load_steps_is_no_contradiction():
+    """What it bears as it runs is without end; the steps of its load tire it beside that."""
+    drive = example("pto-flywheel")
+    shafts = list(drive.shafts)
+    shafts[1] = replace(shafts[1], material=Material(grade="C45"))
+    step = Event(kind="load_step", count=1e5, torque=1500.0, duration=0.01)
+    drive = replace(drive, shafts=tuple(shafts), duty=replace(drive.duty, torque=100.0, life=1.8e7, events=(step,)))
+    subject = design(drive)
+    assert all(
+        float(fatigue(subject, 1, one, case).safety) > 1.0 for one in sections(subject, 1) for case in lasting(subject)
+    )
+    assert math.isfinite(fatigue_life(subject, 1))
+    assert contradictions(audit(subject)) == []
 
 
 def test_a_contradiction_fails_the_drive_and_is_told_with_both_values(monkeypatch):

@@ -349,8 +349,8 @@ def _safeties(asked: Asked, k: int) -> list[float]:
 
 def _endurance(asked: Asked, lasts: Callable[[int], bool]) -> Values:
     here = asked.here
-    if not lasting(here) or here.duty.torque_history is not None or here.duty.starts is not None:
-        return {}
+    if not lasting(here) or here.duty.torque_history is not None or here.events:
+        return {}  # what is measured, and starts and events, damage beside the ways of running
     found = {}
     for k in range(here.joints + 1):
         stretches = list(sections(here, k))
