@@ -56,6 +56,12 @@ class Course:
     largest: float  # [N·m]: its largest size
 
 
+def plays(drive: Drive) -> bool:
+    """Tell whether joints or splines have backlash: in starts and events it counts as closed."""
+    splines = any(shaft.spline is not None and shaft.spline.backlash > 0.0 for shaft in drive.shafts)
+    return splines or any(joint.backlash > 0.0 for joint in drive.joints)
+
+
 def followed(drive: Drive, event: Event | RunUp | None = None) -> dict[int, Course] | tuple[Problem, ...]:
     """Return the torque of every shaft that can twist over one event; or why it cannot be followed.
 

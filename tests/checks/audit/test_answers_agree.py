@@ -82,7 +82,13 @@ def started():
     return replace(drive, duty=replace(drive.duty, starts=12000.0, life=1.8e7))
 
 
+def run_up():
+    """Return the same with an absorber and without play."""
+    return replace(example("pto-flywheel-absorber"), duty=started().duty)
+
+
 WIDE = (
+    "car-propshaft",
     "propshaft-with-rzeppa",
     "steering-column",
     "pto-flywheel-absorber",
@@ -95,7 +101,7 @@ WIDE = (
 @pytest.mark.slow
 def test_every_pair_is_compared_somewhere():
     """A pair whose readings never meet would compare nothing."""
-    drives = (*map(example, WIDE), turning_about(), borne(), started())
+    drives = (*map(example, WIDE), turning_about(), borne(), started(), run_up())
     found = [one for drive in drives for one in audit(design(drive))]
     found += audited(6) or ()
     assert {named(one) for one in PAIRS} == {named(one.pair) for one in found}

@@ -7,15 +7,18 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.checks import check
 from cardan.checks.design import design
+from cardan.checks.strength.answer import answer, ask
 from cardan.checks.strength.shaft_life import start_damage
 from cardan.checks.strength.strength import strength
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke
 from cardan.drive.machine import Event, RunUp
 from cardan.drive.material import Material
-from cardan.drive.shaft import Shaft
+from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.station import Station
 from cardan.questions.life.rainflow import rainflow
 from cardan.questions.torsion.transient.torsion_transient import run_up_torque, transient
@@ -107,3 +110,17 @@ def test_many_drives_with_starts_are_each_alone(path, values):
     each = [check(made, only=["start_fatigue"], vary={path: value})[0].value for value in values]
     np.testing.assert_allclose(many.value, each, rtol=1e-9)
     assert np.all(np.asarray(each) > 0.0)
+
+
+@pytest.mark.parametrize("play", [0.0, 0.8 * deg])
+def test_that_backlash_counts_as_closed_is_told(play):
+    """The run-up itself is followed with it open, and tells another torque."""
+    plain = drive(starts=12000.0)
+    shafts = list(plain.shafts)
+    shafts[1] = replace(shafts[1], spline=Spline(backlash=play))
+    loose = replace(plain, shafts=tuple(shafts))
+    (found,) = [one for one in check(loose) if one.check == "start_fatigue"]
+    assert ("backlash" in told(found.note, USUAL)) == (play > 0.0)
+    said = answer(loose, ask(loose))
+    (events,) = [one for one in said.tables if one.name == "events"]
+    assert ("Backlash" in told(events.note, USUAL)) == (play > 0.0)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeVar
+
+import numpy as np
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
@@ -30,11 +33,18 @@ from cardan.questions.motion.motion import Motion, motion
 from cardan.questions.motion.turning import Evenness, each_shaft
 from cardan.questions.phases.phases import Phasing, phases
 from cardan.questions.torsion.model.answer import lacking
+from cardan.questions.torsion.model.excitation import turns_freely
 from cardan.questions.torsion.road.answer import lacking as road_lacking
 from cardan.questions.torsion.road.road import RoadTorsion, road_torsion
+from cardan.questions.torsion.steady.run_stability import Verdict as Stability
 from cardan.questions.torsion.steady.torsion_response import TorsionResponse, torsion_response
+from cardan.questions.torsion.transient.run_up_answer import FollowedRunUp, follow
+from cardan.questions.torsion.transient.torsion_transient import Transient, transient
 
 T = TypeVar("T")
+
+TURNS, FEW = 2, 257
+"""Turns in which a steady motion repeats, and samples of a simulation, whose extremes are found between them."""
 
 
 def _told(ask: Callable[[], T]) -> T | None:
@@ -71,6 +81,11 @@ class Asked:
             moves = replace(self.design, drive=replace(self.design.drive, poses=()))
             found = worst_of_poses(found, list(stopped(moves, lambda one: tuple(check.verdicts(one)))))
         return [one for one in found if one.run]
+
+    @property
+    def moving(self) -> Design:
+        """The design with its movements, but as drawn: without poses."""
+        return replace(self.design, drive=replace(self.design.drive, poses=()))
 
     @property
     def case(self) -> Case | None:
@@ -124,6 +139,26 @@ class Asked:
         if lacking(self.drive) or not self.drive.duty.speed:
             return None
         return _told(lambda: torsion_response(self.drive))
+
+    @cached_property
+    def simulated(self) -> Transient | None:
+        """The same in time, over two turns from the steady motion, where that repeats in them and keeps to itself."""
+        found = self.response
+        if found is None or found.apart or found.beside or not bool(np.all(found.steady.found)):
+            return None
+        if int(found.floquet.verdict) != Stability.STABLE:
+            return None
+        duty = replace(self.drive.duty, run_up=None)
+        span = TURNS * 2.0 * math.pi / abs(float(found.speed))
+        return _told(lambda: transient(self.drive, duty, span=span, times=FEW, start="settled"))
+
+    @cached_property
+    def run_up(self) -> FollowedRunUp | None:
+        """Its run-up in time; None where torques turn its input."""
+        duty, course = self.drive.duty, self.drive.duty.run_up
+        if course is None or lacking(self.drive) or turns_freely(self.drive, duty):
+            return None
+        return _told(lambda: follow(self.drive, course))
 
     @cached_property
     def road(self) -> RoadTorsion | None:

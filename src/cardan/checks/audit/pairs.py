@@ -18,11 +18,13 @@ from cardan.checks.check import Check
 from cardan.checks.event_loads import followed
 from cardan.checks.load_case import largest
 from cardan.checks.moving import happening
-from cardan.checks.speeds import critical_speed
+from cardan.checks.practice import spline_overlap
+from cardan.checks.speeds import balance, critical_speed
 from cardan.checks.speeds.whirl import whirls
 from cardan.checks.strength.joints import bearing_life
 from cardan.checks.strength.section import sections
 from cardan.checks.strength.shaft_life import STRENGTHS, fatigue, fatigue_life, lasting
+from cardan.checks.supports import support_life
 from cardan.checks.torsion.parametric_stability import CHECK as PARAMETRIC
 from cardan.checks.torsion.torque_reversal import CHECK as REVERSAL
 from cardan.drive.models.kinematics_model import mixed, unmapped
@@ -38,7 +40,9 @@ from cardan.questions.motion.motion import motion
 from cardan.questions.motion.standing import still
 from cardan.questions.motion.turning import each_shaft
 from cardan.questions.torsion.model.excitation import turns_freely
+from cardan.questions.torsion.model.torsional_train import TorsionalTrain
 from cardan.questions.torsion.steady.run_stability import Verdict as Stability
+from cardan.questions.torsion.transient.torsion_transient import Transient
 from cardan.texts import mark
 
 from .asked import Asked, of_parts
@@ -101,10 +105,10 @@ def _seen_uneven(asked: Asked) -> Values:
 
 
 def _phased(asked: Asked) -> Values:
+    if unmapped(asked.drive.joints) or wobbling(asked.drive):
+        return {}  # the phasing says what it leaves out, and seeks yoke angles long
     found = asked.phasing
-    if found is None or unmapped(asked.drive.joints) or wobbling(asked.drive):
-        return {}  # the phasing says what it leaves out
-    return of_parts("shafts", found.as_built.shaft_speed_fluctuation, 2)
+    return {} if found is None else of_parts("shafts", found.as_built.shaft_speed_fluctuation, 2)
 
 
 def _judged(check: Check, *, errors: bool = True) -> Callable[[Asked], Values]:
@@ -175,6 +179,25 @@ def _standing(asked: Asked) -> Values:
         if one.what == "joint_angle":
             here = motion(still(asked.design.drive, one.time), [0.0])
             told[one.what] = float(here.joint_angle[one.number - 1])
+    return told
+
+
+def _engaged(asked: Asked) -> Values:
+    """Return engaged length and way left to bottoming of every spline while the drive moves."""
+    found = asked.articulation
+    told: dict[str, float] = {}
+    for one in found.splines if found is not None else ():
+        for what, value in (("engaged", one.engaged_min), ("gap", one.gap_min)):
+            if value is not None:
+                told[f"shafts[{one.shaft - 1}].spline.{what}"] = value
+    return told
+
+
+def _engaged_judged(asked: Asked) -> Values:
+    told: dict[str, float] = {}
+    for one in spline_overlap.CHECK.verdicts(asked.moving) if asked.articulation is not None else ():
+        if one.run and one.design_variables:
+            told[one.design_variables[0]] = float(np.max(one.value))
     return told
 
 
@@ -332,6 +355,17 @@ def _life_told(asked: Asked) -> Values:
     return {} if found is None else of_parts("joints", found.of("iso"))
 
 
+def _supports_told(asked: Asked) -> Values:
+    found = asked.life
+    if found is None or found.supports is None:
+        return {}
+    return {f"supports[{n - 1}]": float(one) for n, one in zip(found.supports.number, found.of_supports, strict=True)}
+
+
+def _supports_judged(asked: Asked) -> Values:
+    return {one.subject: float(np.max(one.value)) for one in asked.verdicts(support_life.CHECK)}
+
+
 def _fatigued(asked: Asked) -> Values:
     """Return of every shaft whether the ways of running that make up its time keep below its endurance, 1, or not."""
     return _endurance(asked, lambda k: min(_safeties(asked, k)) > 1.0)
@@ -370,14 +404,53 @@ def _torque_of_response(asked: Asked) -> Values:
     found, case = asked.response, asked.case
     if found is None or case is None or not bool(np.all(found.steady.found)):
         return {}
-    model = found.train.model
-    size = np.maximum(np.abs(found.torque_lowest), np.abs(found.torque_highest))
+    return _by_shaft(found.train, np.maximum(np.abs(found.torque_lowest), np.abs(found.torque_highest)))
+
+
+def _by_shaft(train: TorsionalTrain, size: Array) -> Values:
+    """Return the largest torque of every shaft, from those of the elements (E,)."""
     told: dict[str, float] = {}
-    for e, (a, b) in enumerate(model.elements):
-        if found.train.hangs[b] is None:
-            path = f"shafts[{model.shaft[a]}]"
+    for e, (a, b) in enumerate(train.model.elements):
+        if train.hangs[b] is None:
+            path = f"shafts[{train.model.shaft[a]}]"
             told[path] = max(told.get(path, 0.0), float(size[e]))
     return told
+
+
+def _torque_steady(asked: Asked) -> Values:
+    """Return the largest torque of every shaft in a steady motion that keeps to itself."""
+    found, followed_too = asked.response, asked.simulated
+    if found is None or followed_too is None or not followed_too.complete:
+        return {}
+    return _by_shaft(found.train, np.maximum(np.abs(found.torque_lowest), np.abs(found.torque_highest)))
+
+
+def _torque_in_time(asked: Asked) -> Values:
+    """Return the same as it is followed in time."""
+    found = asked.simulated
+    return {} if found is None else _by_shaft(found.train, _largest(found))
+
+
+def _largest(found: Transient) -> Array:
+    """Return the largest torque of every element in time, array (E,)."""
+    ends = found.motion.extremes
+    return np.maximum(np.abs(ends.torque_low), np.abs(ends.torque_high))
+
+
+def _torque_in_run_up(asked: Asked) -> Values:
+    """Return the largest torque of every shaft in the run-up, followed to the end, where starts count."""
+    found = asked.run_up if asked.drive.duty.starts is not None else None
+    if found is None or found.motion is None or not found.motion.complete:
+        return {}
+    if np.any(found.motion.train.model.backlash > 0.0):
+        return {}  # what is counted of starts takes backlash as closed, and says so
+    return _by_shaft(found.motion.train, _largest(found.motion))
+
+
+def _torque_in_starts(asked: Asked) -> Values:
+    """Return the same as a start has it."""
+    courses = followed(asked.drive)
+    return {} if isinstance(courses, tuple) else {f"shafts[{k}]": one.largest for k, one in courses.items()}
 
 
 def _torque_in_events(asked: Asked) -> Values:
@@ -491,6 +564,22 @@ def _one_mass(asked: Asked) -> Values:
 def _balanced_mass(asked: Asked) -> Values:
     found = asked.balance
     return {} if found is None else {f"shafts[{one.number - 1}]": one.mass for one in found.shafts}
+
+
+def _unbalanced(asked: Asked) -> Values:
+    """Return the unbalance of every shaft between joints over what its grade allows, in the worse plane."""
+    found = asked.balance
+    if found is None or (asked.drive.duty.balance_class and not asked.drive.duty.balance_grade):
+        return {}
+    used = {f"shafts[{one.number - 1}]": [plane.utilisation for plane in one.planes] for one in found.shafts}
+    return {path: max(two) for path, two in used.items() if two}
+
+
+def _unbalance_judged(asked: Asked) -> Values:
+    told: dict[str, float] = {}
+    for one in asked.verdicts(balance.CHECK):
+        told.setdefault(one.subject, float(np.max(one.value)) / float(np.max(np.asarray(one.limit))))
+    return told
 
 
 def _mass_carried(asked: Asked) -> Values:
@@ -657,6 +746,17 @@ PAIRS: tuple[Pair, ...] = (
         quick=False,
     ),
     Pair(
+        quantity=mark("engaged length and remaining travel of every spline"),
+        first="articulation",
+        second="spline_overlap",
+        read=(_engaged, _engaged_judged),
+        tolerance=1e-6,
+        why=SEARCHED,
+        dimension="length",
+        least=0.1,
+        quick=False,
+    ),
+    Pair(
         quantity=mark("torque of every shaft"),
         first="forces",
         second="strength",
@@ -731,6 +831,15 @@ PAIRS: tuple[Pair, ...] = (
         dimension="duration",
     ),
     Pair(
+        quantity=mark("life of the bearings of every support"),
+        first="life",
+        second="support_life",
+        read=(_supports_told, _supports_judged),
+        tolerance=FOLLOWS,
+        why=EXACT,
+        dimension="duration",
+    ),
+    Pair(
         quantity=mark("whether every shaft keeps below its endurance"),
         first="tube_fatigue",
         second="shaft_life",
@@ -747,6 +856,28 @@ PAIRS: tuple[Pair, ...] = (
         why=SEARCHED,
         dimension="torque",
         sense="at_most",
+        quick=False,
+    ),
+    Pair(
+        quantity=mark("largest torque of every shaft in torsional vibration"),
+        first="torsion",
+        second="torsion simulate",
+        read=(_torque_steady, _torque_in_time),
+        tolerance=FOUND,
+        why=SEARCHED,
+        dimension="torque",
+        least=1.0,
+        quick=False,
+    ),
+    Pair(
+        quantity=mark("largest torque of every shaft while it runs up"),
+        first="run-up",
+        second="start_fatigue",
+        read=(_torque_in_run_up, _torque_in_starts),
+        tolerance=DRAWN,
+        why=mark("both follow it in time, in steps of their own"),
+        dimension="torque",
+        least=1.0,
         quick=False,
     ),
     Pair(
@@ -820,6 +951,15 @@ PAIRS: tuple[Pair, ...] = (
         why=EXACT,
         dimension="angular_speed",
         quick=False,
+    ),
+    Pair(
+        quantity=mark("unbalance of every shaft over what its grade allows"),
+        first="balance",
+        second="balance",
+        read=(_unbalanced, _unbalance_judged),
+        tolerance=FOLLOWS,
+        why=EXACT,
+        least=1.0,
     ),
     Pair(
         quantity=mark("mass of every shaft"),

@@ -12,6 +12,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import Catalogue
+from cardan.checks.event_loads import plays
 from cardan.checks.verdict import AMBER, Verdict
 from cardan.checks.verdict_table import (
     least_needs,
@@ -150,7 +151,7 @@ def _tables(drive: Drive, result: Strength) -> Iterator[Table]:
         yield replace(verdict_table(order, _("Limits of the parts"), torque=result.torque), aside=True)
     yield _shafts(drive, result)
     yield _joints(drive, result)
-    yield from _events(result)
+    yield from _events(drive, result)
     missing = [one for one in result.verdicts if not one.run]
     if missing:
         depth: Depth = "full" if result.judged else "brief"
@@ -198,7 +199,7 @@ def _shafts(drive: Drive, result: Strength) -> Table:
     )
 
 
-def _events(result: Strength) -> Iterator[Table]:
+def _events(drive: Drive, result: Strength) -> Iterator[Table]:
     """Yield what starts and events cost, and what a start costs with other times of its run-up."""
     for name, title, rows in (
         ("events", _("Damage by starts and events"), result.events),
@@ -207,6 +208,9 @@ def _events(result: Strength) -> Iterator[Table]:
         if not rows:
             continue
         best = cheapest(rows) if name == "ramps" else None
+        said: list[Text] = [_("Each in time, its cycles by rainflow; of the shaft that it tires most.")]
+        if plays(drive):
+            said.append(_("Backlash of joints and splines counts as closed; cardan torsion simulate follows it open."))
         head = Column(key="name", heading=_("event"), values=[one.name for one in rows], left=True)
         if best is not None:
             words = [_("least damage") if k == best else "" for k in range(len(rows))]
@@ -241,7 +245,7 @@ def _events(result: Strength) -> Iterator[Table]:
                 ),
             ),
             tones=["good" if k == best else "plain" for k in range(len(rows))] if best is not None else (),
-            note=_("Each in time, its cycles by rainflow; of the shaft that it tires most.")
+            note=(Joined(said, between=" ") if len(said) > 1 else said[0])
             if best is None
             else _("A faster run-up asks more of what drives it; at no damage the least torque counts."),
         )

@@ -9,7 +9,7 @@ import numpy as np
 from cardan.answers.quantity import Joined, Quantity, say
 from cardan.checks.check import Check
 from cardan.checks.design import Design
-from cardan.checks.event_loads import event_name, followed
+from cardan.checks.event_loads import event_name, followed, plays
 from cardan.checks.strength.section import sections
 from cardan.checks.strength.shaft_life import (
     STRENGTHS,
@@ -55,6 +55,8 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
         )
         for _k, one, count in events
     ]
+    if plays(design.drive):
+        notes.append(say(_("with the backlash of joints and splines closed")))
     yield Verdict(
         value=np.asarray(design.value("duty.life")) / fatigue_life(design, k),
         limit=1.0,
