@@ -36,15 +36,20 @@ from cardan.questions.torsion.model.answer import lacking
 from cardan.questions.torsion.model.excitation import turns_freely
 from cardan.questions.torsion.road.answer import lacking as road_lacking
 from cardan.questions.torsion.road.road import RoadTorsion, road_torsion
+from cardan.questions.torsion.steady.pendulum_swing import pendulum_swing
 from cardan.questions.torsion.steady.run_stability import Verdict as Stability
 from cardan.questions.torsion.steady.torsion_response import TorsionResponse, torsion_response
 from cardan.questions.torsion.transient.run_up_answer import FollowedRunUp, follow
 from cardan.questions.torsion.transient.torsion_transient import Transient, transient
+from cardan.units import deg
 
 T = TypeVar("T")
 
 TURNS, FEW = 2, 257
 """Turns in which a steady motion repeats, and samples of a simulation, whose extremes are found between them."""
+
+NEAR = 0.5 * deg
+"""Swing of a pendulum that is small."""
 
 
 def _told(ask: Callable[[], T]) -> T | None:
@@ -146,8 +151,8 @@ class Asked:
         found = self.response
         if found is None or found.apart or found.beside or not bool(np.all(found.steady.found)):
             return None
-        if int(found.floquet.verdict) != Stability.STABLE:
-            return None
+        if int(found.floquet.verdict) != Stability.STABLE or np.any(pendulum_swing(found) > NEAR):
+            return None  # a pendulum that swings wider is not the one that is counted, and that is told
         duty = replace(self.drive.duty, run_up=None)
         span = TURNS * 2.0 * math.pi / abs(float(found.speed))
         return _told(lambda: transient(self.drive, duty, span=span, times=FEW, start="settled"))

@@ -22,7 +22,7 @@ from cardan.drive.station import Pendulum, Station, ToNext
 from cardan.questions.torsion.model.torsional_balance import accelerations, balance, energy, slopes
 from cardan.questions.torsion.model.torsional_train import swinging, torsional_train
 from cardan.questions.torsion.steady.answer import answer as steady_answer
-from cardan.questions.torsion.steady.pendulum_swing import pendulum_swing, strikes, strikes_in_use
+from cardan.questions.torsion.steady.pendulum_swing import WIDE, pendulum_swing, strikes, strikes_in_use
 from cardan.questions.torsion.steady.torsion_response import torsion_response
 from cardan.questions.torsion.transient.answer import answer
 from cardan.questions.torsion.transient.fixed_steps import FixedStep
@@ -200,6 +200,28 @@ def test_steady_answers_tell_how_far_pendulums_oscillate_and_that_they_hit_their
         for remarks in (its.remarks for its in answers):
             assert sum("hits its stops" in str(its.text) for its in remarks) == count
     assert transient(struck, span=1.0, start="settled", method=FAST).swings[0] > 0.9 * swing
+
+
+@pytest.mark.parametrize(("bend", "wide"), [(4 * deg, False), (8 * deg, True)])
+def test_where_pendulums_swing_wide_every_answer_says_that_more_alternates_than_counted(bend, wide) -> None:
+    """Near their tuning: small oscillations tell some percent too little at ±4°, a third at ±17°."""
+    hung = Pendulum(mass=0.3, radius=0.1, length=0.1 / 1.9**2, count=4)
+    one = replace(
+        Drive.from_angles([bend]),
+        shafts=(Shaft(number=2, stiffness=2e4, damping=2.0),),
+        stations=(Station(shaft=2, end="end", inertia=0.3, pendulum=hung),),
+        duty=Duty(speed=100.0, torque=100.0),
+    )
+    counted = torsion_response(one)
+    ends = transient(one, span=4.0 * np.pi / 100.0, start="settled", times=301).motion.extremes
+    swung = float((ends.torque_high - ends.torque_low)[0])
+    assert swung / float((counted.torque_highest - counted.torque_lowest)[0]) == pytest.approx(
+        1.35 if wide else 1.05, abs=0.04
+    )
+    assert (pendulum_swing(counted)[0] > WIDE) == wide
+    assert len(strikes_in_use(one)) == wide
+    for its in (steady_answer(one, counted), strength_answer(one, strength(one))):
+        assert sum("too wide" in str(remark.text) for remark in its.remarks) == wide
 
 
 def test_slopes_and_energy_are_those_of_the_balance() -> None:
