@@ -22,7 +22,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.duty import Harmonic as Wave
 from cardan.drive.movement import Harmonic, Movement, Random, Spectrum, Table
 from cardan.drive.shaft import Shaft
-from cardan.drive.station import Station
+from cardan.drive.station import Absorber, Station
 from cardan.errors import InputError
 from cardan.questions.motion.standing import still
 from cardan.questions.torsion.road.answer import answer
@@ -390,3 +390,11 @@ def test_torques_by_which_checks_find_instants_are_those_of_the_road():
     found = standing_torques(drive, road.times)
     assert np.ptp(found, axis=1).max() > 1.0
     np.testing.assert_allclose(found, np.concatenate([road.high, -road.low], axis=-1).T, rtol=1e-8, atol=1e-6)
+
+
+def test_a_line_on_which_but_an_absorber_swings_has_nothing_to_follow() -> None:
+    """Its shafts are rigid: it is refused, as in time, with what to give."""
+    hung = Station(shaft=2, inertia=INERTIA, absorber=Absorber(inertia=0.05, stiffness=2000.0, damping=1.0))
+    rigid = replace(lifted(swing(0.05, 1.0)), shafts=(), stations=(hung,))
+    with pytest.raises(InputError, match="every shaft counts as rigid"):
+        road_torsion(rigid)

@@ -279,6 +279,9 @@ def road_torsion(drive: Drive, *, progress: Progress | None = None) -> RoadTorsi
     if not drive.movements:
         raise refuse("movements", _("missing; torsion along a movement needs one"), "missing")
     train, whole, standing = _stood(drive)
+    if all(train.hangs[b] is not None for _a, b in train.model.elements):
+        text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")
+        raise refuse("shafts[0].stiffness", text)
     speed, modes = standing.speed, torsion_modes(replace(standing.drive, movements=()))
     random = [one for one in drive.movements if isinstance(one, Random)]
     if len(random) == len(drive.movements):
