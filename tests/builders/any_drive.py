@@ -24,11 +24,11 @@ from .rare_parts import with_rare_parts
 
 Rng = np.random.Generator
 
-SELDOM, OFTEN = 0.01, 0.15
+NEVER, OFTEN = 0.0, 0.1
 """Probabilities of each of the rare parts: where drives are to be quick to judge, and where many are to have some."""
 
 
-def any_drive(seed: int, rare: float = SELDOM) -> Drive:
+def any_drive(seed: int, rare: float = NEVER) -> Drive:
     """Return the drive of a seed: one to five joints in space, bodies, supports, masses, duty as chance has it.
 
     rare: probability of each part that few drives carry; without them it is the same drive.
