@@ -144,7 +144,7 @@ class Check:
         return _unfit(found, _struck()) if self._struck(found, design) else found
 
     def _struck(self, one: Verdict, design: Design) -> bool:
-        """Tell whether a verdict is met by the torque of pendulums that hit their stops, as their motion does not know.
+        """Tell whether a verdict is met by the torque of pendulums that do not swing as small oscillations have it.
 
         Of designs that vary the drive is judged as its small oscillations have it.
         """
@@ -171,8 +171,8 @@ def part_of(drive: Drive, subject: str) -> str:
 
 def _struck() -> str:
     return _(
-        "met without the stops of a pendulum that hits them: the torque is larger than counted, see torsion simulate "
-        "with --settled"
+        "met by small oscillations of a pendulum that swings wide or hits its stops: the torque may be larger than "
+        "counted, see torsion simulate with --settled"
     )
 
 
