@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cardan import Drive, InputError, forces, losses, moving_forces
+from cardan import Drive, InputError, forces, losses, motion, moving_forces
+from cardan.answers.reader import Reader
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke
@@ -17,13 +18,17 @@ from cardan.drive.models.wobble import course
 from cardan.drive.support import Support
 from cardan.io.drive_file import loads
 from cardan.joints import OffsetCross
+from cardan.maths.kernel import frames
 from cardan.mechanism.load import LinkMass, Load
 from cardan.mechanism.mechanism import Mechanism, Pair
+from cardan.questions.forces.answer import answer, ask
 from cardan.questions.forces.assembly import assembly
 from cardan.questions.forces.inner_loads import inner_loads
 from cardan.questions.mechanism.forces import mechanism_forces
 from cardan.questions.mobility.drive_mechanism import mechanism_of
+from cardan.questions.mobility.finite_mobility import finite_mobility
 from cardan.questions.motion.joint_mechanism import joint_carried
+from cardan.questions.motion.kinds import carried_on
 
 SINGLE = """format = 1
 [input]
@@ -256,3 +261,157 @@ def test_pins_of_an_own_joint_carry_what_journals_do():
             assert high == pytest.approx([journals[:, :2].max(), journals[:, 2:].max()], rel=1e-6)
         else:  # its ball pushes the pins too
             assert min(high) > journals.max()
+
+
+PAIR = """format = 1
+[[joints]]
+kind = "offset_cross"
+offset_mm = 20
+pin_side = "{side}"
+reach_mm = 200
+joint_angle_deg = 28
+[[joints]]
+joint_angle_deg = 28
+plane_twist_deg = 60
+{joint}
+[[shafts]]
+number = 2
+length_mm = 200
+yoke_angle_deg = -60
+{spline}
+[[supports]]
+shaft = 1
+position_mm = -100
+axial = {one}
+[[supports]]
+shaft = 1
+position_mm = -200
+[[supports]]
+shaft = 3
+position_mm = 100
+axial = {two}
+[[supports]]
+shaft = 3
+position_mm = 200
+[duty]
+speed_rpm = 600
+torque_Nm = 100
+"""
+
+HELD = {"one": "true", "two": "true"}
+CUT = "[[shafts]]\nnumber = {number}\n[shafts.spline]\nposition_mm = {place}"
+
+FLOATS = {
+    "spline": {"spline": "[shafts.spline]"},
+    "ahead": {"two": "false"},
+    "back": {"one": "false"},
+    "spline behind": {"spline": CUT.format(number=3, place=50)},
+    "spline before": {"spline": CUT.format(number=1, place=-50)},
+    "plunges": {"joint": 'kind = "constant_velocity"\nplunge_out_mm = 20'},
+    "tripod": {"joint": 'kind = "tripod"\ntrack_radius_mm = 25'},
+    "nothing": {},
+}
+
+
+def pair(floats: str, side: str = "near") -> Drive:
+    """Return an offset cross and a cross joint where its shaft swivels; what gives way along the shafts by name."""
+    return loads(PAIR.format(**{"joint": "", "spline": "", "side": side, **HELD, **FLOATS[floats]}))
+
+
+@pytest.mark.parametrize("side", ["near", "far"])
+@pytest.mark.parametrize("floats", [*FLOATS][:5])
+def test_what_floats_decides_how_the_drive_turns(floats, side):
+    """Closed loops of the whole drive, followed over a turn, turn as told; and the forces go with that."""
+    drive = pair(floats, side)
+    count = 90
+    angle = np.linspace(0.0, 2.0 * np.pi, count + 1)
+    moved = finite_mobility(mechanism_of(drive), angle=2.0 * np.pi, steps=count)
+    assert moved.closes
+    link = moved.mechanism.links.index(mechanism_of(drive).output_link)
+    axis = np.asarray(geometry(drive).axis[2])
+    aside = frames.perpendicular(axis)
+    turned = np.einsum("tij,j->ti", moved.displacement[:, link, :3, :3], aside)
+    told = np.unwrap(np.arctan2(turned @ np.cross(axis, aside), turned @ aside))
+    known = motion(drive, angle)
+    ours = known.shaft_angle[-1] - known.shaft_angle[-1][0]
+    assert np.max(np.abs(np.abs(told) - ours)) < 1e-9
+    found = forces(drive, angle=angle)
+    assert found.speed[-1] / found.speed[0] == pytest.approx(known.ratio, rel=1e-9)
+    given, taken = found.input_torque * found.speed[0], found.output_torque * found.speed[-1]
+    assert given == pytest.approx(taken, rel=1e-12)
+    assert max(np.max(one) for one in (found.power_left, found.force_left, found.moment_left)) < 1e-12
+
+
+def test_where_the_next_joint_plunges_both_joints_stay():
+    drive = pair("plunges")
+    angle = np.linspace(0.0, 6.0, 50)
+    assert np.max(np.abs(course(drive, angle).centre - geometry(drive).points[1:-1, None])) < 1e-15
+    found = forces(drive, angle=angle)
+    assert found.speed[-1] / found.speed[0] == pytest.approx(motion(drive, angle).ratio, rel=1e-9)
+    assert np.max(found.power_left) < 1e-12
+
+
+HEAVY = {"mass": 4.0, "centre_of_mass": 0.05, "inertia": 0.02, "transverse_inertia": 0.05}
+
+
+@pytest.mark.parametrize("floats", [*FLOATS][:3])
+def test_heavy_shafts_that_float_carry_what_the_mechanism_carries(floats):
+    """Weights at a place of the turn against the mechanism there; with inertia forces power balances over the turn."""
+    drive = pair(floats)
+    shafts = tuple(replace(shaft, **HEAVY) for shaft in drive.shafts)
+    drive = replace(drive, shafts=shafts, settings=replace(drive.settings, gravity=(3.0, 0.0, -9.81)))
+    assert np.max(forces(drive).power_left) < 1e-12
+    slow = replace(drive, duty=replace(drive.duty, speed=1e-4))
+    if floats != "ahead":
+        return
+    hinge = Support(shaft=1, position=-0.1, axial=True, tilt=True)
+    slow = replace(slow, supports=(hinge, *drive.supports[2:]))
+    for angle in (0.4, 2.1):
+        lying, place, found = course(slow, np.asarray([angle])), geometry(slow), forces(slow, angle=[angle])
+        middle = course(slow, np.arange(720) * (2.0 * np.pi / 720))
+        ahead = float(np.mean(np.sum((middle.start[0] - middle.centre[0]) * middle.axis[1], axis=-1)))
+        starts = (
+            lying.centre[0, 0] - float(place.length[0]) * place.axis[0], lying.start[0, 0] - ahead * lying.axis[1, 0],
+            lying.start[1, 0],
+        )  # fmt: skip
+        whole = standing(slow, angle)
+        masses = tuple(
+            LinkMass(link=f"shaft {k + 1}", mass=4.0, mass_centre=tuple(start + 0.05 * axis))
+            for k, (start, axis) in enumerate(zip(starts, lying.axis[:, 0], strict=True))
+        )
+        known = mechanism_forces(replace(whole, masses=masses, gravity=(3.0, 0.0, -9.81)), np.zeros(1))
+        assert float(found.input_torque[0]) == pytest.approx(abs(float(known.input_torque[0])), rel=1e-7)
+        sizes = [
+            np.linalg.norm(known.reaction[0, k, 3:])
+            for k, one in enumerate(known.mechanism.joints)
+            if one.id.startswith("support")
+        ]
+        assert np.linalg.norm(found.reaction[:, 0], axis=-1) == pytest.approx(np.asarray(sizes), rel=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("floats", "said"),
+    [
+        ("spline", None),
+        ("ahead", "Joint 2 moves ±1.45 mm along shaft 3"),
+        ("back", "Joint 1 moves ±1.49 mm along shaft 1"),
+        ("nothing", "shafts 1 and 3 are both held along: the drive binds"),
+        ("open", "nothing says what slides, so it counts as if shaft 2 did"),
+    ],
+)
+def test_motion_says_what_slides(floats, said):
+    drive = replace(pair("nothing"), supports=()) if floats == "open" else pair(floats)
+    told = [one.text.told(Reader()) for one in carried_on(drive) if one.code in {"slides", "binds"}]
+    assert [said in one for one in told] == ([] if said is None else [True])
+
+
+def test_forces_say_by_how_much_they_miss_a_wobble():
+    """A tripod runs around its own pin behind a shaft that wobbles, and its wobble is not in forces."""
+    text = str(answer(pair("tripod"), ask(pair("tripod"))))
+    assert "of the power that goes in neither comes out nor is lost" in text
+    offset = '"offset_cross"\noffset_mm = 20\npin_side = "{side}"\nreach_mm = 200'
+    first = PAIR.replace(offset, '"tripod"\ntrack_radius_mm = 25')
+    drive = loads(first.format(joint="", spline="", **HELD))
+    text = str(answer(drive, ask(drive)))
+    assert "wobbles is not in these torques and forces" in text
+    assert "neither comes out" not in str(answer(pair("ahead"), ask(pair("ahead"))))

@@ -54,7 +54,7 @@ def machine_held(drive: Drive) -> Drive:
         name = _("ball behind joint {number}").format(number=i + 1)
         made.append(Support(name=name, shaft=i + 2, position=far, bore=1e-3, friction=0.0))
     for number in machines_of(drive):
-        axial = not any(one.axial and _segment(drive, one) == _segment_of(drive, number) for one in made)
+        axial = not any(one.axial and segment_of(drive, one) == _segment_of_end(drive, number) for one in made)
         place = 0.0
         if drive.shafts[number - 1].spline is not None:  # beyond it, as it slides on the shaft of the machine
             place = 2.0 * spline_place(drive, number, float(geometry(drive).length[number - 1]))
@@ -63,12 +63,12 @@ def machine_held(drive: Drive) -> Drive:
     return replace(drive, supports=tuple(made))
 
 
-def _segment_of(drive: Drive, shaft: int) -> int:
+def _segment_of_end(drive: Drive, shaft: int) -> int:
     """Return in which part of the drive, cut where it slides, an end shaft is."""
-    return 0 if shaft == 1 else _cuts(drive, len(drive.shafts)) + (drive.shafts[-1].spline is not None)
+    return 0 if shaft == 1 else cuts_before(drive, len(drive.shafts)) + (drive.shafts[-1].spline is not None)
 
 
-def _cuts(drive: Drive, shaft: int) -> int:
+def cuts_before(drive: Drive, shaft: int) -> int:
     """Return how many splines and joints that slide lie before a shaft."""
     splines = sum(one.spline is not None for one in drive.shafts[: shaft - 1])
     return splines + sum(one.slides or one.loose for one in drive.joints[: shaft - 1])
@@ -85,9 +85,9 @@ def _beginnings(drive: Drive) -> list[tuple[int, float]]:
     return found
 
 
-def _segment(drive: Drive, support: Support) -> int:
+def segment_of(drive: Drive, support: Support) -> int:
     """Return in which part of the drive, cut where it slides, a support stands."""
-    before = _cuts(drive, support.shaft)
+    before = cuts_before(drive, support.shaft)
     if drive.shafts[support.shaft - 1].spline is None:
         return before
     cut = spline_place(drive, support.shaft, known_lengths(drive).get(support.shaft, 0.0))
@@ -110,9 +110,9 @@ def proposed(drive: Drive) -> tuple[Support, ...]:
             found.append(Support(name=_("centre bearing"), shaft=number, position=place))
             spare, need = spare - 1, need - 1
     for segment, (number, share) in enumerate(_beginnings(drive)[:-1], 1):
-        if any(one.axial and _segment(drive, one) == segment for one in drive.supports):
+        if any(one.axial and segment_of(drive, one) == segment for one in drive.supports):
             continue
-        inside = [k for k, one in enumerate(found) if _segment(drive, one) == segment]
+        inside = [k for k, one in enumerate(found) if segment_of(drive, one) == segment]
         if inside:
             found[inside[0]] = replace(found[inside[0]], axial=True)
         else:
@@ -126,8 +126,8 @@ def proposed(drive: Drive) -> tuple[Support, ...]:
             place = max((abs(one.position) for one in own), default=0.0) + (k + 1) * REACH
             found.append(Support(shaft=number, position=way * round(place, 3)))
             need -= 1
-        segment = _segment_of(drive, number)
-        if any(one.axial and _segment(drive, one) == segment for one in (*drive.supports, *found)):
+        segment = _segment_of_end(drive, number)
+        if any(one.axial and segment_of(drive, one) == segment for one in (*drive.supports, *found)):
             continue
         ends = [k for k, one in enumerate(found) if one.shaft == number]
         if ends:

@@ -20,6 +20,7 @@ from cardan.drive.joints.joint import EXACT
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 
+from .floating import Way, gives_way, swivels_at_next
 from .geometry import STRAIGHT, Geometry, geometry
 
 SAMPLES = 720  # places in a turn at which wobbling shafts are looked at; between them by the harmonics
@@ -67,7 +68,8 @@ def course(
     A shaft that starts off the centre of its joint swivels where it is held: in the ball of an offset cross, in its
     next joint otherwise. An end shaft that nothing holds keeps its direction. Beyond its ball a shaft carries the
     next joint around: at its length from where it starts, or, where it slides in a spline, as far along as drawn. Where
-    its length is not said the next joint stays where it is.
+    its length is not said the next joint stays where it is. A shaft that swivels in its next joint keeps its length
+    where this joint or its own one slides with a neighbouring shaft, see `gives_way`; else both joints stay.
     """
     place = geometry(drive) if place is None else place
     known, count = known_lengths(drive), len(drive.joints)
@@ -85,7 +87,8 @@ def course(
         made = held if held == length else joint.held(length, own)
         stop = None if made is None else here + np.asarray(made)[..., None] * rest
         drawn_angle, far = float(place.joint_angle[i]), float(place.length[i + 1])
-        stance = _settled(joint, centre, before, rest, stop, mark, far, still, own, drawn_angle)
+        slide = _slide(drive, place, i)
+        stance, stop = _settled(joint, centre, before, rest, stop, mark, far, still, own, drawn_angle, slide)
         head = joint.head(stance, own)
         rows.append(stance)
         starts.append(head)
@@ -95,7 +98,9 @@ def course(
         if i + 1 == count:
             break
         there = place.points[i + 2]
-        if stop is None or length is None or held == length:
+        if stop is not None and slide is not None and slide.ahead:
+            centre = stop
+        elif stop is None or length is None or held == length or swivels_at_next(drive, i):
             centre = np.broadcast_to(there, before.shape)
         elif drive.shafts[i + 1].spline is not None:
             centre = stop + (((there - stop) @ rest) / (stance.after @ rest))[..., None] * stance.after
@@ -126,19 +131,56 @@ def _settled(
     still: bool,
     off: Mapping[str, Array],
     drawn_angle: float,
-) -> Stance:
-    """Return how a joint stands once its driven shaft points from its start to where it is held."""
+    slide: _Slide | None,
+) -> tuple[Stance, Array | None]:
+    """Return how a joint stands once its driven shaft points from its start to where it is held, and that place."""
     after = np.broadcast_to(rest, before.shape) if stop is None else frames.unit(stop - centre)
     for _round in range(ROUNDS):
         stance = replace(_stance(joint, centre, before, after, mark, length, still), drawn_angle=drawn_angle)
         if stop is None:
-            return stance
-        turned = frames.unit(stop - joint.head(stance, off))
+            return stance, None
+        head = joint.head(stance, off)
+        if slide is not None and slide.ahead:
+            stop = slide.point + slide.way(head - slide.point)[..., None] * slide.axis
+        elif slide is not None:
+            far = stop - head + frames.dot(centre - slide.point, slide.axis)[..., None] * slide.axis
+            moved_to = slide.way(far)[..., None] * slide.axis
+            head, centre = head - centre + slide.point + moved_to, slide.point + moved_to
+        turned = frames.unit(stop - head)
         moved = float(np.max(np.abs(turned - after)))
         after = turned
         if moved <= CLOSE:
             break
-    return replace(_stance(joint, centre, before, after, mark, length, still), drawn_angle=drawn_angle)
+    return replace(_stance(joint, centre, before, after, mark, length, still), drawn_angle=drawn_angle), stop
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Slide:
+    """A joint at an end of a wobbling shaft slides along a line, as that shaft keeps its length."""
+
+    ahead: bool  # whether it is the joint behind that shaft; else that before it
+    point: Array  # (3,) [m]: where it is as drawn
+    axis: Array  # (3,): of the shaft with which it slides
+    length: float  # [m]: from the start of the wobbling shaft to its next joint
+
+    def way(self, far: Array) -> Array:
+        """Return how far along its line it is at that length from a place (..., 3) [m] relative to its point."""
+        along, off = frames.dot(far, self.axis), frames.dot(far, far) - self.length**2
+        root = np.sqrt(np.maximum(along**2 - off, 0.0))
+        return np.asarray(off / (along + np.copysign(root, along)))
+
+
+def _slide(drive: Drive, place: Geometry, i: int) -> _Slide | None:
+    """Return which joint slides as the shaft behind joint i wobbles, and how; None where none does."""
+    if not swivels_at_next(drive, i):
+        return None
+    way = gives_way(drive, i)
+    if way not in (Way.AHEAD, Way.BACK):
+        return None
+    length = float(place.length[i + 1]) - _ahead(drive.joints[i], place, i)
+    k = i + 1 if way is Way.AHEAD else i
+    axis = place.axis[i + 2 if way is Way.AHEAD else i]
+    return _Slide(ahead=way is Way.AHEAD, point=place.points[k + 1], axis=axis, length=length)
 
 
 def _stance(
@@ -219,6 +261,8 @@ class Wobble:
     lean: float  # [rad]: largest angle of the shaft with its place as drawn
     nutation: float  # [rad]: half the range of its directions
     way: float  # [m]: half the way on which the centre of the next joint is carried
+    gives: Way | None = None  # what gives way along the shafts where this one swivels in its next joint, and how far
+    slide: float = 0.0  # [m]: half that way
 
 
 def wobbles(drive: Drive) -> Iterator[Wobble]:
@@ -233,7 +277,13 @@ def wobbles(drive: Drive) -> Iterator[Wobble]:
         if lean <= STRAIGHT and i not in found:
             continue
         way = 0.5 * _widest(lying.centre[i + 1]) if i + 1 < len(drive.joints) else 0.0
-        yield Wobble(joint=i, lean=lean, nutation=0.5 * _widest(axis), way=way)
+        gives, slide = None, 0.0
+        if swivels_at_next(drive, i):
+            gives = gives_way(drive, i)
+            ends = {Way.AHEAD: lying.centre[i + 1], Way.BACK: lying.centre[i]}
+            drawn = frames.norm(lying.centre[i + 1] - lying.start[i])
+            slide = 0.5 * (_widest(ends[gives]) if gives in ends else float(np.ptp(drawn)))
+        yield Wobble(joint=i, lean=lean, nutation=0.5 * _widest(axis), way=way, gives=gives, slide=slide)
 
 
 def _widest(points: Array) -> float:

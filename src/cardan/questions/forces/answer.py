@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, KeyFigure, Listing, Remark, Table, closely
-from cardan.answers.quantity import Joined, Quantity, Say, Text, Written, say
+from cardan.answers.quantity import Joined, Quantity, Say, Text, Written, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
@@ -18,6 +18,7 @@ from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.wording import written
 from cardan.drive.models.kinematics_model import Chain
 from cardan.drive.models.machine_held import machine_held, machines_of, proposed, tables_of
+from cardan.drive.models.wobble import wobbling
 from cardan.errors import InputError, Problem
 from cardan.later import later
 from cardan.maths.arrays import Array
@@ -26,6 +27,7 @@ from cardan.maths.ties import foremost, largest
 from cardan.questions.assumed import centred_by_housings, held_by_machines, yokes_estimated
 from cardan.questions.motion.articulation_answer import random_facts, random_tables
 from cardan.questions.motion.kinds import steep_joints, without_vibration
+from cardan.questions.motion.motion import motion
 from cardan.questions.motion.random_motion import RandomMotion, Results, random_motion
 from cardan.texts import _, mark, plural
 
@@ -262,6 +264,7 @@ def _remarks(drive: Drive, result: Carried, machines: tuple[int, ...]) -> Iterat
     for k, problem in enumerate(result.unheld):
         text = _("Warning: forces on the supports are not calculated: {field}: {message}")
         yield Remark(text=say(text, **_parts(problem)), tone="warning", alarm=k == 0)
+    yield from _apart(drive, found)
     yield from steep_joints(drive)
     yield from without_vibration(drive)
     yield from yokes_estimated(drive)
@@ -341,6 +344,33 @@ def _pushed(pushed: Sequence[Thrust]) -> Iterator[Remark]:
             )
             values = {"most": Quantity(one.most, "force"), "amplitude": Quantity(one.amplitude, "force")}
             yield Remark(text=say(text, joint=one.joint, order=one.order, **values), code="generated_axial_force")
+
+
+def _apart(drive: Drive, found: Forces) -> Iterator[Remark]:
+    """Yield by how much speeds and forces do not belong together where shafts wobble."""
+    felt = wobbling(drive)
+    if not felt:
+        return
+    which = listed([i + 2 for i in felt])
+    ratio = found.speed[-1] / found.speed[0]
+    off = float(np.max(np.abs(ratio - motion(drive, found.angle).ratio)))
+    if off > ROUNDING:
+        text = plural(
+            "Warning: that shaft {which} wobbles is not in these torques and forces: with it the speed ratio of the "
+            "drive differs by up to {off}, see motion.",
+            "Warning: that shafts {which} wobble is not in these torques and forces: with it the speed ratio of the "
+            "drive differs by up to {off}, see motion.",
+            len(felt),
+        )
+        yield Remark(text=say(text, which=which, off=Quantity(off, "ratio", 2)), tone="warning", code="wobble")
+    left = float(np.max(found.power_left))
+    if left > ROUNDING:
+        text = _(
+            "Warning: up to {share} of the power that goes in neither comes out nor is lost: as the shafts are told to "
+            "wobble, a joint or bearing that is held here would have to give way; torques and forces are off by about "
+            "that."
+        )
+        yield Remark(text=say(text, share=Quantity(left, "share", 2)), tone="warning", code="power")
 
 
 def balanced(found: Forces) -> Remark:

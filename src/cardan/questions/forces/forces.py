@@ -33,6 +33,7 @@ from .reactions import (
     Load,
     forces_of,
     frame,
+    pulled,
     right_side,
     shoves,
     solved,
@@ -513,6 +514,7 @@ def forces_from(
     shape = found.shaft_torque.shape[:-1]
     push = thrusts(whole, stand, found, sense)
     joint_force = reaction = turn = force_left = moment_left = None
+    power = found.power
     status = xp.zeros(shape[:-1], dtype=xp.int64)
     equations = unknowns = 0
     carried_by: list[Array | None] = [None, None]
@@ -527,6 +529,8 @@ def forces_from(
         )
         joint_force, reaction, turn = forces_of(held, amounts)
         force_left, moment_left = whole_balance(whole, held, stand, found, loads, (reaction, turn), output)
+        if stand.head_rate is not None:
+            power = power + pulled(held, stand, loads, n if whole.cross_mass is not None else 0, push)
         carried_by = [joint_force - _cross_pull(whole, loads, joint_force), joint_force]
     span = xp.asarray(whole.span)[..., None, :] if whole.span is not None else xp.full((1, n), xp.nan)
     journals = journal_loads(found.driving, found.driven, stand.driving_arm, stand.driven_arm, span, *carried_by)
@@ -557,7 +561,7 @@ def forces_from(
         journals=JournalLoads(load=turned(journals.load, 3), thrust=turned(journals.thrust, 2)),
         spline_thrust=turned(push),
         loss=turned(found.loss),
-        power_left=xp.abs(found.power) / flow,
+        power_left=xp.abs(power) / flow,
         force_left=force_left,
         moment_left=moment_left,
         status=status,

@@ -49,6 +49,11 @@ class KinematicState:
     head_acceleration: Array | None = None  # (p, n, 3) [m/s²]
     ahead: Array | None = None  # (n) [m]: how far along its shaft it lies in the mean; lengths count from the centre
     rest: Array | None = None  # (n+1, 3): directions of the shafts as drawn, where some wobble
+    # where shafts wobble: shift (p, n, 3) [m], way of each joint centre from its place as drawn; rates [m/s] of what
+    # lies between them and the driven pins (p, n, 3), and of the points (p, n+2, 3)
+    shift: Array | None = None
+    head_rate: Array | None = None
+    point_rate: Array | None = None
 
     def couple_way(self, i: int) -> Array:
         """Direction of the couple that joint i passes on, array (..., p, 3)."""
@@ -98,7 +103,8 @@ class Couples:
     # (..., p, n+1, 3) [N·m]: S_i, couple across each shaft that its supports and the joint forces have to balance
     secondary: Array
     loss: Array  # (..., p, n) [W]: power lost in the journals of each joint
-    power: Array  # (..., p) [W]: what the power balance leaves
+    # (..., p) [W]: what the power balance leaves; where shafts wobble without what their masses take, see `pulled`
+    power: Array
     flow: Array  # (..., p) [W]: largest power in that balance, to judge what is left by
     # of each joint (..., p, 3) [N]: force that friction within it or its stiffness puts on its driven shaft, or None
     pushed: tuple[Array | None, ...]
@@ -242,7 +248,7 @@ def couples(train: Train, stand: KinematicState, load: Array, force: Array | Non
             work = work + sum(h * turn for h, turn in zip(swing.rate, swing.turning, strict=True))
         own = _own(train, stand, i)
         tau = frames.dot(given, e[..., i, :]) + ahead_of + own
-        work = work + own * w[..., i] + lost + ahead_of * w[..., i] - behind_of * w[..., i + 1]
+        work = work + own * w[..., i] + lost
         flow = xp.maximum(flow, xp.abs(tau * w[..., i]))
         for row, value in zip(
             (torque, pushed, driving, driven, losses, entering), (t, back, given, out, lost, tau), strict=True
@@ -252,7 +258,8 @@ def couples(train: Train, stand: KinematicState, load: Array, force: Array | Non
     if stand.axis_rate is not None:
         for i in range(n + 1):
             across = frames.cross(e[..., i, :], stand.axis_rate[..., i, :])
-            work = work + frames.dot(secondary[i] + swing_need(train, stand, i), across)
+            needed = swing_need(train, stand, i)
+            work = work + frames.dot((secondary[i] if stand.head is None else 0.0) + needed, across)
     return Couples(
         shaft_torque=xp.stack(entering, axis=-1),
         joint_torque=xp.stack(torque, axis=-1),

@@ -117,7 +117,8 @@ def _standing_places(train: Train, stand: KinematicState, drawn: Array) -> Array
         place = drawn[..., k]
         if s:
             e = stand.axis[..., s, :]
-            place = frames.dot(place[..., None] * stand.rest[s] - stand.head[..., s - 1, :], e)
+            from_start = place[..., None] * stand.rest[s] - stand.head[..., s - 1, :]
+            place = frames.dot(from_start if stand.shift is None else from_start - stand.shift[..., s - 1, :], e)
         rows.append(place)
     return np.stack(rows, axis=-1)
 
@@ -207,7 +208,10 @@ def weights(train: Train, frame: Frame, stand: KinematicState, acceleration: Arr
                 start, ahead = (1 if i == 0 else i), (place - drawn[..., None, 0] if i == 0 else place)
                 if behind:
                     start, ahead = i + 1, place - drawn[..., None, i]
-                where = frame.acting.length[..., i] + ahead if behind else place
+                slides = behind or (i == 0 and stand.shift is not None and behind is None)  # with the joint behind it
+                if i == 0 and stand.shift is not None and behind is False:
+                    start = 0
+                where = frame.acting.length[..., i] + ahead if slides else place
                 pull = gravity
                 if acceleration is not None:
                     if stand.axis_acceleration is None:
@@ -222,6 +226,37 @@ def weights(train: Train, frame: Frame, stand: KinematicState, acceleration: Arr
             force = train.cross_mass[..., None, i, None] * pull
             loads.append(Load(shaft=i, force=force, place=frame.acting.length[..., i]))
     return loads
+
+
+def pulled(frame: Frame, stand: KinematicState, loads: list[Load], crosses: int, thrust: Array) -> Array:
+    """Return the power of weights, inertia forces and friction thrusts on shafts that wobble, array (..., p) [W].
+
+    loads: of `weights`, those of the crosses, so many, last; thrust (..., p, number of splines) [N]: of `thrusts`.
+    Nothing else that acts along or across a shaft does work: supports stand still, joint forces meet each other.
+    """
+    assert stand.head_rate is not None
+    assert stand.point_rate is not None
+    assert stand.axis_rate is not None
+    power = 0.0 * stand.speed[..., 0]
+    length, points = frame.acting.length, stand.point_rate
+    for k, load in enumerate(loads):
+        i = load.shaft
+        if k >= len(loads) - crosses:
+            rate = points[..., i + 1, :]
+        elif i == 0:
+            rate = points[..., 0 if load.behind is False else 1, :]
+        elif load.behind:
+            rate = points[..., i + 1, :] + (load.place - length[..., i])[..., None] * stand.axis_rate[..., i, :]
+        else:
+            rate = points[..., i, :] + stand.head_rate[..., i - 1, :]
+            rate = rate + load.place[..., None] * stand.axis_rate[..., i, :]
+        power = power + frames.dot(load.force, rate)
+    for k, s in enumerate(frame.layout.splines):
+        none = 0.0 * stand.axis[..., s, :]
+        rear = none if s == points.shape[-2] - 2 else points[..., s + 1, :]
+        front = none if s == 0 else points[..., s, :] + stand.head_rate[..., s - 1, :]
+        power = power + thrust[..., k] * frames.dot(rear - front, stand.axis[..., s, :])
+    return power
 
 
 def shoves(

@@ -39,7 +39,10 @@ def wobbling_state(
     lying = course(drive, turn, place)
     check(_problems(drive, lying.centre - place.points[1:-1, None]))
     heads = np.moveaxis(lying.start - lying.centre, 1, 0)
-    ends = lying.start[-1] + float(place.length[-1]) * lying.axis[-1]
+    far = np.asarray(place.length[-1])
+    if drive.shafts[-1].spline is not None:  # beyond it nothing moves along
+        far = frames.dot(place.points[-1] - lying.start[-1], lying.axis[-1])
+    ends = lying.start[-1] + far[..., None] * lying.axis[-1]
     table = np.concatenate(
         (np.moveaxis(lying.axis, 1, 0), heads, np.moveaxis(lying.centre, 1, 0), ends[:, None]), axis=1
     )
@@ -62,17 +65,21 @@ def wobbling_state(
         acceleration=np.full(phi.shape, acceleration),
         kinds=[joint if joint.ball is None else Hooke() for joint in drive.joints],
     )
+
+    def points(centres: Array, first: Array) -> Array:
+        return np.concatenate((np.broadcast_to(first, (*phi.shape, 1, 3)), centres), axis=1)
+
     stand = swinging(
         axes,
         spins,
         head=value[head],
         head_acceleration=curve[head],
+        head_rate=rate[head],
+        point_rate=points(rate[rest], np.zeros(3)),
         ahead=np.mean(np.sum(heads * np.moveaxis(lying.axis[1:], 1, 0), axis=-1), axis=0),
         rest=np.asarray(place.axis),
+        shift=value[rest][:, :n] - place.points[1:-1],
     )
-
-    def points(centres: Array, first: Array) -> Array:
-        return np.concatenate((np.broadcast_to(first, (*phi.shape, 1, 3)), centres), axis=1)
 
     return stand, points(value[rest], place.points[0]), points(curve[rest], np.zeros(3))
 

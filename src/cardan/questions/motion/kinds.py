@@ -9,8 +9,9 @@ from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.joints.joint import Inside
+from cardan.drive.models.floating import Way
 from cardan.drive.models.kinematics_model import given_chain
-from cardan.drive.models.wobble import wobbles
+from cardan.drive.models.wobble import Wobble, wobbles
 from cardan.drive.torsional_layout import has_torsion
 from cardan.texts import _, plural
 
@@ -108,13 +109,39 @@ def carried_on(drive: Drive) -> Iterator[Remark]:
                 angle=Quantity(one.nutation, "angle", 3),
             )
         )
-        if one.way > TINY:
+        if one.gives is not None and one.slide > TINY:
+            yield from _along(one)
+        elif one.way > TINY:
             text = _(
                 "Joint {joint} is carried around, ±{way}: the bearings of shaft {shaft} must let it follow; a ball or "
                 "bearing at the joint itself would keep it in place."
             )
             said = say(text, joint=one.joint + 2, way=Quantity(one.way, "length", 3), shaft=one.joint + 3)
             yield Remark(text=said, tone="warning")
+
+
+def _along(one: Wobble) -> Iterator[Remark]:
+    """Yield what gives way along the shafts as the pin that runs around draws a shaft nearer and lets it go."""
+    before, shaft, behind = one.joint + 1, one.joint + 2, one.joint + 3
+    values = {"way": Quantity(one.slide, "length", 3), "shaft": shaft}
+    if one.gives in (Way.AHEAD, Way.BACK):
+        ahead = one.gives is Way.AHEAD
+        text = _("Joint {joint} moves ±{way} along shaft {shaft}, which no support holds along.")
+        values["shaft"] = behind if ahead else before
+        yield Remark(text=say(text, joint=shaft if ahead else before, **values), code="slides")
+    elif one.gives is Way.BOUND:
+        text = _(
+            "Warning: shaft {shaft} has no spline to change its length by ±{way}, and shafts {before} and {behind} are "
+            "both held along: the drive binds; it is told as if shaft {shaft} slid."
+        )
+        said = say(text, before=before, behind=behind, **values)
+        yield Remark(text=said, tone="warning", code="binds")
+    elif one.gives is Way.OPEN:
+        text = _(
+            "As shaft {shaft} wobbles, its length between its joints would change by ±{way}; nothing says what slides, "
+            "so it counts as if shaft {shaft} did, by a spline."
+        )
+        yield Remark(text=say(text, **values), code="slides")
 
 
 # What else moves inside a joint while it turns at a bend: wobble, orbits, strokes, play, planes that are missed.
