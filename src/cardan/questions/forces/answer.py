@@ -346,6 +346,10 @@ def _pushed(pushed: Sequence[Thrust]) -> Iterator[Remark]:
             yield Remark(text=say(text, joint=one.joint, order=one.order, **values), code="generated_axial_force")
 
 
+NOTED = 1e-3
+"""Share of a speed ratio from which what is left out is a warning."""
+
+
 def _apart(drive: Drive, found: Forces) -> Iterator[Remark]:
     """Yield by how much speeds and forces do not belong together where shafts wobble."""
     felt = wobbling(drive)
@@ -356,13 +360,14 @@ def _apart(drive: Drive, found: Forces) -> Iterator[Remark]:
     off = float(np.max(np.abs(ratio - motion(drive, found.angle).ratio)))
     if off > ROUNDING:
         text = plural(
-            "Warning: that shaft {which} wobbles is not in these torques and forces: with it the speed ratio of the "
+            "That shaft {which} wobbles is not in these torques and forces: with it the speed ratio of the "
             "drive differs by up to {off}, see motion.",
-            "Warning: that shafts {which} wobble is not in these torques and forces: with it the speed ratio of the "
+            "That shafts {which} wobble is not in these torques and forces: with it the speed ratio of the "
             "drive differs by up to {off}, see motion.",
             len(felt),
         )
-        yield Remark(text=say(text, which=which, off=Quantity(off, "ratio", 2)), tone="warning", code="wobble")
+        said = say(text, which=which, off=Quantity(off, digits=2))
+        yield Remark(text=said, tone="warning" if off > NOTED else "plain", code="wobble")
     left = float(np.max(found.power_left))
     if left > ROUNDING:
         text = _(
