@@ -353,7 +353,7 @@ NOTED = 1e-3
 def _apart(drive: Drive, found: Forces) -> Iterator[Remark]:
     """Yield by how much speeds and forces do not belong together where shafts wobble."""
     felt = wobbling(drive)
-    if not felt:
+    if not felt or not np.all(found.speed[0]):
         return
     which = listed([i + 2 for i in felt])
     ratio = found.speed[-1] / found.speed[0]
