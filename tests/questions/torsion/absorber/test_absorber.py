@@ -16,6 +16,9 @@ from cardan.drive.station import Station
 from cardan.formulas.absorbers import h_infinity
 from cardan.questions.torsion.absorber.absorber import absorber
 from cardan.questions.torsion.absorber.absorber_search import branch_of, host_named, hosts, hung
+from cardan.questions.torsion.absorber.band import GROWS, growth, lines, unstable_speeds
+from cardan.questions.torsion.stability.torsion_stability import stability
+from cardan.questions.torsion.steady.run_stability import Verdict
 from cardan.questions.torsion.steady.torsion_response import torsion_response
 from cardan.units import deg, rpm
 
@@ -259,3 +262,26 @@ def test_the_example_says_what_is_found() -> None:
     assert found.closed_form.peak == pytest.approx(720.0, rel=0.01)
     assert np.max(found.twist) / deg == pytest.approx(5.0, abs=0.3)
     assert np.max(found.heat) == pytest.approx(150.0, rel=0.05)
+
+
+@pytest.mark.parametrize("loss", [0.0175, 0.03])
+def test_a_search_judges_by_the_damping_that_stability_judges_by(loss: float) -> None:
+    """Amid the principal zone of a mode of 2ζ = η structural damping is that of order 1, by which 3 % are enough."""
+    made = replace(
+        Drive.from_angles([12 * deg]),
+        shafts=(Shaft(number=1, stiffness=C, loss_factor=loss),),
+        stations=(Station(shaft=2, inertia=J),),
+        duty=Duty(speed=OWN),
+    )
+    speed = OWN * np.linspace(0.97, 1.03, 13)
+    told = stability(made, over={"duty.speed_rad_s": speed})
+    two = lines([made, made], OWN)
+    run = two.swings(np.stack([speed, speed]))
+    grown = growth(run, np.stack([speed, speed]), two.omega, np.ones(2, dtype=bool))
+    one = lines([made], OWN)
+    unstable = unstable_speeds(one.swings(speed[None]), one.omega, speed)
+    assert unstable.tolist() == speed[told.verdict == Verdict.UNSTABLE].tolist()
+    assert bool(unstable.size) == (loss < 0.0217)  # m = α²/2 of Mathieu's equation
+    most = float(np.max(np.maximum(told.growth_rate, 0.0) * run.orbit.period / speed))
+    assert np.all((grown > GROWS) == bool(unstable.size))
+    assert grown == pytest.approx(most, rel=0.02, abs=GROWS)

@@ -150,7 +150,7 @@ class Settings:
             stiffness[:, self.element] *= factor[:, 0] ** 2
         if len(reach) > 1:
             damping[:, self.element] = middle.damping * factor[:, 1]
-        return replace(model, stiffness=stiffness, damping=damping)
+        return replace(model, stiffness=stiffness, damping=damping, disturbed_damping=None)  # stability is not asked
 
 
 def highest(swing: Array, speed: Array, elements: Sequence[int] | Array) -> tuple[float, float, int]:

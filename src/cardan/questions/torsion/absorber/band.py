@@ -23,7 +23,7 @@ from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chain
 from cardan.questions.torsion.stability.stability_kernel import vibration_growth
 from cardan.questions.torsion.steady.alternating_torque import TorqueSwings, torque_swings
 from cardan.questions.torsion.steady.orbit import straight_frequencies
-from cardan.questions.torsion.steady.torsion_response import Progress, loaded_model
+from cardan.questions.torsion.steady.torsion_response import Progress, loaded_model, zone_order
 from cardan.texts import _
 
 # The design whose torques swing least over a band of speeds: peaks between the speeds looked at are met on the way.
@@ -201,7 +201,10 @@ class Lines:
         return bool(np.any(self.trains[0].model.backlash > 0.0))
 
     def at(self, speed: Array) -> TorsionalModel:
-        """Return the models at speeds (D, S) [rad/s], all play closed, drive by drive in one axis (D·S,)."""
+        """Return the models at speeds (D, S) [rad/s], all play closed, drive by drive in one axis (D·S,).
+
+        Structural damping counts as in `cardan.questions.torsion.steady.torsion_response.loaded_model`.
+        """
         count, width = speed.shape
         train, duty = self.trains[0], self.drives[0].duty
         if duty.engine is not None and duty.engine.piston_mass:  # its torques change with the speed
@@ -218,7 +221,13 @@ class Lines:
             model = replace(model, stiffness=stiffness)
         if not model.free:
             model = replace(model, input_speed=speed.reshape(-1))
-        return in_time(_closed(model), main_order(model) * np.abs(speed.reshape(-1)))
+        turning = np.abs(speed)
+        disturbed = None
+        if np.any(model.loss_factor):
+            disturbed = np.concatenate(
+                [zone_order(train.model, own) * own for train, own in zip(self.trains, turning, strict=True)]
+            )
+        return in_time(_closed(model), main_order(model) * turning.reshape(-1), disturbed)
 
     def swings(self, speed: Array, progress: Progress | None = None) -> TorqueSwings:
         """Return how far torques swing at speeds (D, S) [rad/s]; axes (D·S,)."""
