@@ -18,9 +18,9 @@ from cardan.drive.fields.paths import place, with_values
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torsion import TorsionModes
-from cardan.questions.torsion.stability.floquet_map import floquet_map
+from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
-from cardan.questions.torsion.stability.torsion_stability import proved_in_use
+from cardan.questions.torsion.stability.torsion_stability import judged, no_smooth_motion, proved_in_use
 from cardan.questions.torsion.steady.torsion_response import loaded_model, parted
 from cardan.texts import _, mark
 
@@ -103,9 +103,10 @@ def _growing(drive: Drive, found: TorsionModes, proof: ProvedSpeeds) -> Iterator
         return
     sense = -1.0 if (drive.duty.speed or 1.0) < 0.0 else 1.0
     speeds = [min(max(proof.worst[k], low), high) for k, (low, high) in pairs]
-    model = loaded_model(drive, drive.duty, sense * np.asarray(speeds))[1]
-    told = floquet_map(parted(model)[0], speed=sense * np.asarray(speeds)).floquet
-    for (k, _between), rate in zip(pairs, np.maximum(told.growth_rate, 0.0).tolist(), strict=True):
+    for (k, _between), speed in zip(pairs, speeds, strict=True):
+        where = np.asarray([sense * speed])
+        told = judged(parted(loaded_model(drive, drive.duty, where)[1])[0], where)
+        rate = max(float(told.growth_rate[0]), 0.0)
         pair = [max(int(one) - 1, 0) for one in proof.zone.modes[k]]
         mean, own = float(np.mean(found.omega[pair])), float(np.mean(found.damping_ratio[pair]))
         yield pair[0], float(proof.zone.speed[k]), 2.0 * own + max(2.0 * rate / mean, LEAST * own)
@@ -131,16 +132,16 @@ def _judge(design: Design) -> Iterator[Verdict]:
             *design.joint_angle_design_variables,
             *design.speed_design_variables,
         ),
-        note=as_drawn(design, _note(own, used(design.drive), rubs=rubbing(design.drive))),
+        note=as_drawn(design, _note(own, design.drive)),
     )
 
 
-def _note(own: Damping, between: Sequence[tuple[float, float]], *, rubs: bool) -> Text:
+def _note(own: Damping, drive: Drive) -> Text:
     """Return where the motion grows or where its zone is, and how far the speeds in use are from it."""
     zone = {"mode": own.mode, "zone": turning(own.zone)}
     if own.proof is not None:
-        return _proved(own.proof, between, zone, rubs=rubs)
-    if rubs:
+        return _proved(own.proof, drive, zone)
+    if rubbing(drive):
         return say(_without_friction(), **zone)
     text = _("the zone of mode {mode} lies about {zone}, {away} from the speeds in use; loss factors 2ζ")
     away = abs(own.speed / own.zone - 1.0)
@@ -156,10 +157,9 @@ def _without_friction() -> str:
     )
 
 
-def _proved(
-    proof: ProvedSpeeds, between: Sequence[tuple[float, float]], zone: Mapping[str, object], *, rubs: bool
-) -> Text:
+def _proved(proof: ProvedSpeeds, drive: Drive, zone: Mapping[str, object]) -> Text:
     """Return what is proved of the speeds in use and a tenth beyond."""
+    between = used(drive)
     inside = [k for one in between for k in proof.overlapping(*one).tolist()]
     near = sorted(proof.overlapping(*proof.looked).tolist(), key=lambda k: _away(proof, k, between))
     shown = not any(_unproved(proof, one) for one in between)
@@ -172,13 +172,13 @@ def _proved(
         low, high = (Quantity(float(one), "angular_speed", 5) for one in (proof.lowest[k], proof.highest[k]))
         away = Quantity(_away(proof, k, between), "share", 3)
         return say(text, low=low, high=high, zone=proof.zone.name((k,)), away=away)
-    if rubs and not shown:
+    if rubbing(drive) and not shown:
         return say(_without_friction(), **zone)
     if shown or not len(proof.unsettled):
-        text = _("not proved throughout: backlash opens or the motion jumps; the zone of mode {mode} lies about {zone}")
         if shown:
-            text = _("proved stable; the zone of mode {mode} lies about {zone}; loss factors 2ζ")
-        return say(text, **zone)
+            return say(_("proved stable; the zone of mode {mode} lies about {zone}; loss factors 2ζ"), **zone)
+        text = _("not proved throughout: {why}; the zone of mode {mode} lies about {zone}")
+        return say(text, why=no_smooth_motion(torsional_train(drive, loaded=False)), **zone)
     low, high = (Quantity(float(one), "angular_speed", 5) for one in (proof.unsettled[0, 0], proof.unsettled[-1, 1]))
     text = _("not settled from {low:bare} to {high}: it takes too long; the zone of mode {mode} lies about {zone}")
     return say(text, low=low, high=high, **zone)

@@ -11,7 +11,10 @@ from cardan import Drive, example, stability
 from cardan.answers.data import as_csv, data
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
+from cardan.drive.station import ToNext
+from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.stability import answer as home
+from cardan.questions.torsion.stability.torsion_stability import no_smooth_motion
 
 OTHER = Reader(units={"angular_speed": "rad_s", "angle": "rad"}, decimal=",")
 
@@ -78,3 +81,18 @@ def test_axes_are_told_in_the_units_of_the_reader() -> None:
     assert data(said, OTHER)["verdict"][0][0] in ("stable", "unstable")
     over = stability(drive, over={"duty.speed_rpm": np.linspace(1300.0, 1400.0, 5)})
     assert "rad/s" in told(home.answer(drive, over).sentence, OTHER)
+
+
+def test_what_may_stop_a_proof_is_named_by_what_the_drive_has() -> None:
+    """A spring by a table bends, and only backlash that is there opens."""
+    bent = ((-0.07, -0.05, 0.0, 0.05, 0.07), (-900.0, -300.0, 0.0, 300.0, 900.0))
+    for backlash, table, want in (
+        (0.0, None, "the motion jumps"),
+        (0.01, None, "backlash opens or the motion jumps"),
+        (0.0, bent, "a spring bends or the motion jumps"),
+        (0.01, bent, "backlash opens, a spring bends or the motion jumps"),
+    ):
+        train = torsional_train(example("unstable-drive"))
+        model = replace(train.model, backlash=np.full_like(train.model.backlash, backlash))
+        springs = () if table is None else ((0, ToNext(twists=table[0], torques=table[1])),)
+        assert no_smooth_motion(replace(train, model=model, springs=springs)) == want

@@ -16,6 +16,9 @@ from cardan.answers.reader import USUAL
 from cardan.maths.periodic.harmonics import Status
 from cardan.questions.torsion.model.inputs import Constant, Swinging
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
+from cardan.questions.torsion.stability.answer import answer as stability_answer
+from cardan.questions.torsion.stability.floquet_map import floquet_map
+from cardan.questions.torsion.stability.torsion_stability import TOLD, judged, stability
 from cardan.questions.torsion.steady.answer import answer
 from cardan.questions.torsion.steady.dynamic_torque import dynamic_torque
 from cardan.questions.torsion.steady.run_stability import Kind, Verdict, floquet
@@ -133,6 +136,33 @@ def test_play_has_all_motions_to_which_it_settles_and_tells_the_widest_that_a_sl
     assert len(found) == len(truth) == count
     np.testing.assert_allclose(sorted(found), sorted(truth), atol=1e-4)  # what the start, steps across contacts leave
     np.testing.assert_allclose(found[0], ends[-1], atol=1e-4)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("speed", [63.0, 69.0])
+def test_stability_at_a_speed_judges_the_motion_that_response_tells(speed: float) -> None:
+    """The first motion found keeps its play closed and dies out faster, as b/2J; the wider one counts."""
+    model, where = line(load=4.0, swing=2.0, damping=1.5, backlash=0.02), np.asarray([speed])
+    assert floquet_map(model, speed=where).floquet.growth_rate[0] == pytest.approx(-0.5 * 1.5 / INERTIA, rel=1e-6)
+    orbit, _status, _beside = stable_motions(*steady_orbits(model, speed=where))
+    found = judged(model, where)
+    assert found.growth_rate[0] == pytest.approx(floquet(orbit).growth_rate[0], rel=1e-6)
+    assert found.growth_rate[0] > -0.4 * 1.5 / INERTIA
+
+
+@pytest.mark.slow
+def test_stability_of_a_drive_with_play_is_that_of_response_and_a_map_says_where_it_may_not_be() -> None:
+    made = example("pto-flywheel")
+    made = replace(made, duty=replace(made.duty, torque=100.0, speed=614.0 * rpm))
+    found, told = stability(made), torsion_response(made)
+    assert int(found.verdict) == int(told.floquet.verdict)
+    assert float(found.growth_rate) == pytest.approx(float(told.floquet.growth_rate), rel=1e-6)
+    word = "that which torsion response tells"
+    for count in (TOLD, TOLD + 1):
+        speeds = np.linspace(610.0, 618.0, count)
+        over = stability(made, over={"duty.speed_rpm": speeds})
+        said = " ".join(told_text(one.text, USUAL) for one in stability_answer(made, over).remarks)
+        assert (word in said) == (count > TOLD)
 
 
 @pytest.mark.slow

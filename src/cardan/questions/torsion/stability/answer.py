@@ -26,7 +26,7 @@ from cardan.units import deg, rpm
 
 from .figure import SPEED, MapAxis, map_axes, plays, stability_figures
 from .proved_speeds import ProvedSpeeds
-from .torsion_stability import JOINT_ANGLE, Stability, stability
+from .torsion_stability import JOINT_ANGLE, TOLD, Stability, no_smooth_motion, stability
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 
@@ -198,10 +198,9 @@ def _unproved(found: Stability, over: MapAxis) -> Iterator[Remark]:
         return
     rest = _within(proof.unproved, proof.unsettled, inside=False)
     late = _("Not settled at {where}: the motion changes so often with the speed there that it takes too long.")
-    jumps = _("Not proved at {where}: backlash opens, friction slips or a spring bends there, or the motion jumps.")
     kinds = [
         (_within(proof.unproved, proof.unsettled), late),
-        (_within(rest, proof.open), jumps),
+        (_within(rest, proof.open), _("Not proved at {where}: {why}.")),
         (_within(rest, proof.open, inside=False), _("Not proved at {where}: the margin is too small there.")),
     ]
     if rubs:
@@ -210,7 +209,8 @@ def _unproved(found: Stability, over: MapAxis) -> Iterator[Remark]:
         if len(kind):
             where = [say(_("{low:bare} to {high}"), low=_edge(a, over), high=_edge(b, over)) for a, b in kind[:NAMED]]
             others = _(" and others") if len(kind) > NAMED else ""
-            yield Remark(text=say(text, where=Joined([Joined(where), others], between="")), tone="warning")
+            named = Joined([Joined(where), others], between="")
+            yield Remark(text=say(text, where=named, why=no_smooth_motion(found.train)), tone="warning")
 
 
 def _as_drawn(proof: ProvedSpeeds, over: MapAxis) -> Remark:
@@ -317,6 +317,12 @@ def _remarks(drive: Drive, found: Stability, axes: tuple[MapAxis, ...], *, signs
         yield Remark(text=_("Rigid-body rotation is left out: a free drive may shift in time."))
     yield from assumptions(found.train, sprung=True)
     yield from friction_left_out(drive)
+    if axes and found.verdict.size > TOLD and (plays(found) or found.train.springs):
+        text = _(
+            "Where several motions are possible the first one found is judged; asked at a single speed, that which "
+            "torsion response tells."
+        )
+        yield Remark(text=text)
     if len(axes) == 2 and not signs and plays(found):
         text = _("The map is coarse, as motions whose backlash opens take long; in full: {command}")
         yield Remark(text=text.format(command=_finer(axes)), depth="full")

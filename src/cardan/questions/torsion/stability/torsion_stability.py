@@ -19,8 +19,8 @@ from cardan.questions.torsion.model.joint_bends import bends
 from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained, sprung, torsional_train
-from cardan.questions.torsion.steady.run_stability import Floquet, Verdict, Zone
-from cardan.questions.torsion.steady.several import settled_judgement
+from cardan.questions.torsion.steady.run_stability import Floquet, Verdict, Zone, floquet
+from cardan.questions.torsion.steady.several import settled_judgement, several_looked_for, told_motions
 from cardan.questions.torsion.steady.torsion_response import (
     Progress,
     damped,
@@ -51,6 +51,9 @@ PROVING, LITTLE = 0.5, 1.5e7
 
 AROUND, SLOWEST = 0.1, 0.05
 """Share by which speeds are looked at beyond those in use, and of the highest below which none is."""
+
+TOLD = 4
+"""Points of drives with several motions, up to which that is judged which `torsion_response` tells: seconds each."""
 
 PACE = 0.001
 """Seconds that a point of a map takes, about."""
@@ -194,7 +197,8 @@ def stability(
             continue
         share = PROVING if variants.speeding is not None else 1.0
         told = within(progress, share * first / count, share * (int(rows[-1]) + 1) / count)
-        part, stopped = _judged(*variants.at(np.unravel_index(rows, shape) if shape else (), len(rows)), told)
+        model, speeds = variants.at(np.unravel_index(rows, shape) if shape else (), len(rows))
+        part, stopped = _judged(model, speeds, told, alone=count <= TOLD)
         parts.append(part)
         if progress is not None and not stopped:
             stopped = progress(share * (int(rows[-1]) + 1) / count) == "stop" and int(rows[-1]) + 1 < count
@@ -202,7 +206,8 @@ def stability(
     found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     found = {name: values.reshape((*shape, *values.shape[1:])) for name, values in found.items()}
     zone = Zone(**{name.removeprefix("zone_"): found.pop(name) for name in list(found) if name.startswith("zone_")})
-    least = float("nan") if axes or int(found["verdict"]) == Verdict.UNKNOWN else _least_loss(variants)
+    known = not axes and int(found["verdict"]) != Verdict.UNKNOWN
+    least = _least_loss(variants, int(found["verdict"]) <= Verdict.NEUTRAL) if known else float("nan")
     return Stability(
         least_loss=least,
         over=axes,
@@ -235,8 +240,10 @@ def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     held = np.asarray(held_speeds(drive.duty))
     if not held.size:
         return proof
-    model = loaded_model(drive, drive.duty, sense * held, pieces=pieces)[1]
-    return proof.judged_at(_settled(floquet_map(parted(model)[0], speed=sense * held)), held)
+    for one in held:
+        model = loaded_model(drive, drive.duty, sense * one[None], pieces=pieces)[1]
+        proof = proof.judged_at(judged(parted(model)[0], sense * one[None]), one[None])
+    return proof
 
 
 def proved_in_band(drive: Drive, low: float, high: float) -> ProvedSpeeds | None:
@@ -263,8 +270,32 @@ def _proved(
     return proved_speeds(build, *between, breaks=order_jumps(train.model), work=work, progress=progress)
 
 
-def _least_loss(variants: _Variants) -> float:
+def no_smooth_motion(train: TorsionalTrain) -> str:
+    """Return why a drive may have no smooth steady motion, or more than one, over a range of speeds."""
+    loose, bends = bool(np.any(train.model.backlash > 0.0)), any(one.twists for _element, one in train.springs)
+    if loose and bends:
+        return _("backlash opens, a spring bends or the motion jumps")
+    if loose:
+        return _("backlash opens or the motion jumps")
+    return _("a spring bends or the motion jumps") if bends else _("the motion jumps")
+
+
+def _least_loss(variants: _Variants, kept: bool) -> float:
     """Return the loss factor of all shafts from which the drive is stable at its own point; nan where none is enough.
+
+    kept: whether it is with its own. Of drives with several motions the first one found is judged, as one is searched
+    for each loss factor; nan where that of their own contradicts it.
+    """
+    least, own = _least_of_all(variants), variants.train.model.loss_factor
+    if kept and not np.any(own):
+        return 0.0
+    if several_looked_for(variants.model) and (least > np.max(own) if kept else least <= np.min(own)):
+        return float("nan")
+    return least
+
+
+def _least_of_all(variants: _Variants) -> float:
+    """Return the same of the first motion found.
 
     Its place is narrowed down between two loss factors of which the smaller is not stable, ten at a time.
     """
@@ -289,13 +320,28 @@ def _least_loss(variants: _Variants) -> float:
     return float(trial[int(np.argmax(stable(trial)))])
 
 
-def _judged(model: TorsionalModel, speed: Array, progress: Progress | None) -> tuple[dict[str, Array], bool]:
-    """Return what is known of some points, and whether the work was stopped."""
-    found = floquet_map(model, speed=speed, progress=progress)
-    verdict = _settled(found)
+def judged(model: TorsionalModel, speed: Array) -> Floquet:
+    """Return how stable the motions are that `torsion_response` tells at a few speeds (s,) [rad/s]."""
+    if several_looked_for(model):
+        return floquet(told_motions(model, speed)[0])
+    return _settled(floquet_map(model, speed=speed))
+
+
+def _judged(
+    model: TorsionalModel, speed: Array, progress: Progress | None, *, alone: bool
+) -> tuple[dict[str, Array], bool]:
+    """Return what is known of some points, and whether the work was stopped.
+
+    alone: judge the motions that `torsion_response` tells, where it searches several; else the first ones found.
+    """
+    if alone and several_looked_for(model):
+        verdict, cancelled = judged(model, speed), False
+    else:
+        found = floquet_map(model, speed=speed, progress=progress)
+        verdict, cancelled = _settled(found), found.cancelled
     zone = {f"zone_{one.name}": getattr(verdict.zone, one.name) for one in fields(Zone)}
     names = ("verdict", "kind", "growth_rate", "spectral_radius", "order", "multipliers")
-    return {name: getattr(verdict, name) for name in names} | zone | {"speed": speed}, found.cancelled
+    return {name: getattr(verdict, name) for name in names} | zone | {"speed": speed}, cancelled
 
 
 def _settled(found: FloquetMap) -> Floquet:
@@ -381,7 +427,7 @@ class _Variants:
             for spot in spots
         )
         self.here = tuple((path, float(value)) for path, value in own.items() if isinstance(value, float | int))
-        self.train, _model = loaded_model(drive, drive.duty, self.speeds[:1], pieces=pieces)
+        self.train, self.model = loaded_model(drive, drive.duty, self.speeds[:1], pieces=pieces)
 
     def proof(self, progress: Progress | None) -> ProvedSpeeds | None:
         """Return the unstable ranges between the lowest and the highest of the speeds, of the drive as it is."""

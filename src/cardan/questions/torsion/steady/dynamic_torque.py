@@ -21,8 +21,7 @@ from cardan.questions.torsion.model.torsional_model import Torque, TorsionalMode
 from cardan.questions.torsion.model.torsional_modes import straight_waves
 
 from .orbit import Orbit
-from .several import stable_motions, widened
-from .steady import steady_orbits
+from .several import told_motions, widened
 from .steady_result import read_off
 from .torsion_response import loaded_model, parted
 from .two_frequencies import grouped, side_bands
@@ -102,7 +101,7 @@ class _Vibrating:
 def _torques(asked: _Vibrating) -> DynamicTorque:
     """Return the torques of a model."""
     model, speeds, shafts = asked.model, asked.speeds, asked.shafts
-    orbit, status, others = stable_motions(*steady_orbits(model, speed=speeds))
+    orbit, status, others = told_motions(model, speeds)
     found = (status == Status.CONVERGED) | (status == Status.COARSE)
     nothing = np.zeros((len(speeds), len(model.elements)))
     part = DynamicTorque(orbit=orbit, found=found, low=nothing, high=nothing, beside=nothing)
