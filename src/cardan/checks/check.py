@@ -171,8 +171,8 @@ def part_of(drive: Drive, subject: str) -> str:
 
 def _struck() -> str:
     return _(
-        "met by small oscillations of a pendulum that swings wide or hits its stops: the torque may be larger than "
-        "counted, see torsion simulate with --settled"
+        "met by small oscillations of a pendulum that oscillates widely or hits its stops: the torque may be larger "
+        "than counted, see torsion simulate with --settled"
     )
 
 

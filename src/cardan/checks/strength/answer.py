@@ -113,7 +113,9 @@ def _torque(value: float) -> Quantity:
 def _sentence(drive: Drive, result: Strength) -> Say | str:
     first = result.governing
     if first is None and strikes_in_use(drive):
-        return _("not judged: a pendulum swings wide or hits its stops, and the torque may be larger than counted.")
+        return _(
+            "not judged: a pendulum oscillates widely or hits its stops, and the torque may be larger than counted."
+        )
     if first is None and result.judged:
         return _("rules of thumb alone could be judged; the drive file lacks what the other checks need.")
     if first is None:

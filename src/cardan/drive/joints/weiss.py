@@ -65,7 +65,7 @@ def groove_stuck(joint_angle: float, first: float | None, second: float | None, 
         return _("a ball would stand on the axis of its shaft")
     turned = float(np.ptp(np.unwrap(theta + ahead)))
     if turned < 2.0 * math.pi - LEAP:
-        text = _("its balls pass between both shafts, so that the driven one swings to and fro by {angle:.4g}°")
+        text = _("its balls pass between both shafts, so that the driven one turns to and fro by {angle:.4g}°")
         return text.format(angle=turned / deg)
     return ""
 
