@@ -14,6 +14,8 @@ ALIKE = (
 )
 BANDS = "orders that do not repeat are answered with the joints, side bands and all, and no longer by the straight line"
 
+TOGETHER = "growth at a speed is that of the motion with the orders that do not repeat"
+
 LACKS = "a joint without a cross no longer silences the other joints: what is refused is what the file lacks"
 
 MORE = "the best settings on spline teeth over all poses stand beside those without teeth"
@@ -133,6 +135,11 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         r"torsion response examples/truck-power-unit\.toml",
         r"(max_Nm|min_Nm|nonsynchronous\.torque_Nm).*",
         BANDS,
+    ),
+    (
+        r"torsion (response|stability) examples/truck-power-unit\.toml",
+        r"(growth_rate_per_s|spectral_radius|order|multipliers.*)",
+        TOGETHER,
     ),
     (
         r"strength examples/truck-power-unit\.toml",

@@ -17,6 +17,7 @@ from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.paths import place, with_values
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
+from cardan.questions.torsion.model.answer import nonsynchronous
 from cardan.questions.torsion.model.torsion import TorsionModes
 from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
@@ -103,10 +104,14 @@ def _growing(drive: Drive, found: TorsionModes, proof: ProvedSpeeds) -> Iterator
         return
     sense = -1.0 if (drive.duty.speed or 1.0) < 0.0 else 1.0
     speeds = [min(max(proof.worst[k], low), high) for k, (low, high) in pairs]
+    alone = proof.lowest == proof.highest  # speeds that are held, judged by themselves
     for (k, _between), speed in zip(pairs, speeds, strict=True):
-        where = np.asarray([sense * speed])
-        told = judged(parted(loaded_model(drive, drive.duty, where)[1])[0], where)
-        rate = max(float(told.growth_rate[0]), 0.0)
+        rate = float(proof.growth_rate[k])
+        if not alone[k]:
+            where = np.asarray([sense * speed])
+            told = judged(parted(loaded_model(drive, drive.duty, where)[1])[0], where)
+            rate = float(told.growth_rate[0])
+        rate = max(rate, 0.0)
         pair = [max(int(one) - 1, 0) for one in proof.zone.modes[k]]
         mean, own = float(np.mean(found.omega[pair])), float(np.mean(found.damping_ratio[pair]))
         yield pair[0], float(proof.zone.speed[k]), 2.0 * own + max(2.0 * rate / mean, LEAST * own)
@@ -132,7 +137,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
             *design.joint_angle_design_variables,
             *design.speed_design_variables,
         ),
-        note=as_drawn(design, _note(own, design.drive)),
+        note=as_drawn(design, _counted(design.drive, _note(own, design.drive))),
     )
 
 
@@ -148,6 +153,15 @@ def _note(own: Damping, drive: Drive) -> Text:
     if own.needed > 0.0:
         text = _("the zone of mode {mode} about {zone} lies within the speeds in use; loss factors 2ζ")
     return say(text, away=Quantity(away, "share", 3), **zone)
+
+
+def _counted(drive: Drive, note: Text) -> Text:
+    """Return a note with what it leaves out."""
+    orders = nonsynchronous(drive)
+    if orders is None:
+        return note
+    text = _("{note}; orders that do not repeat within two turns ({orders}) count only at speeds that are held")
+    return say(text, note=note, orders=orders)
 
 
 def _without_friction() -> str:

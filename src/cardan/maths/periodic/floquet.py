@@ -47,11 +47,14 @@ def collocation(stages: int, *, stiff: bool = False) -> tuple[Array, Array]:
     return points, (ends[:, None] ** powers / powers) @ np.linalg.inv(points[:, None] ** (powers - 1))
 
 
-def monodromy(coefficients: Coefficients, duration: ArrayLike, *, steps: int | None = None) -> Array:
+def monodromy(
+    coefficients: Coefficients, duration: ArrayLike, *, steps: int | None = None, reach: float = REACH
+) -> Array:
     """Return the monodromy matrices of linear oscillators whose coefficients repeat.
 
     coefficients: `Coefficients`; duration (B,) [s]: T.
-    steps: steps of a period; by default as many as the fastest oscillation asks for.
+    steps: steps of a period; by default as many as the fastest oscillation asks for, none longer than this phase of it:
+    reach.
     Returns (B, m, m): for the disturbance (x, ẋ) in the order of the coordinates, the speeds of those without mass left
     out.
     Collocation: within a step the accelerations (without mass, the speeds) are polynomials that fulfil the equations
@@ -63,7 +66,7 @@ def monodromy(coefficients: Coefficients, duration: ArrayLike, *, steps: int | N
     heavy = np.any(sample[0] != 0.0, axis=(0, 1))
     if not heavy.size:
         return np.zeros((len(period), 0, 0))
-    count = steps or _steps(sample, heavy, period)
+    count = steps or _steps(sample, heavy, period, reach)
     points, _table = collocation(STAGES, stiff=not heavy.all())
     rank = len(heavy)
     states = rank + int(heavy.sum())
@@ -80,14 +83,14 @@ def monodromy(coefficients: Coefficients, duration: ArrayLike, *, steps: int | N
     return whole
 
 
-def _steps(sample: tuple[Array, Array, Array], heavy: Array, period: Array) -> int:
+def _steps(sample: tuple[Array, Array, Array], heavy: Array, period: Array, reach: float) -> int:
     """Return how many steps the fastest oscillation asks for: bounds of the eigenvalues by the sums of rows."""
     mass, damping, stiffness = (one[:, :, heavy] for one in sample)
     if not heavy.any():
         return FEWEST
     spring = np.sqrt(np.max(np.sum(np.abs(stiffness), axis=-1) / mass, axis=(1, 2)))
     damper = np.max(np.sum(np.abs(damping), axis=-1) / mass, axis=(1, 2))
-    fastest = np.max(period * np.maximum(spring, 0.5 * damper)) / REACH
+    fastest = np.max(period * np.maximum(spring, 0.5 * damper)) / reach
     return int(min(max(math.ceil(fastest), FEWEST), MOST))
 
 
@@ -148,9 +151,20 @@ def without_direction(matrix: Array, direction: Array) -> Array:
     matrix (B, m, m); direction (B, m): eigenvectors, of any length.
     Turned by a reflection that makes the direction the first axis, the matrix is block triangular.
     """
+    return across_directions(matrix, direction, direction)
+
+
+def across_directions(matrix: Array, before: Array, after: Array) -> Array:
+    """Return matrices (B, m, m) that map directions before to those after, without these, array (B, m-1, m-1)."""
+    found: Array = (_turned(after) @ matrix @ _turned(before))[:, 1:, 1:]
+    return found
+
+
+def _turned(direction: Array) -> Array:
+    """Return reflections that make directions (B, m) the first axis."""
     unit = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
     normal = unit.copy()
     normal[:, 0] += np.where(unit[:, 0] < 0.0, -1.0, 1.0)
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-    turn = np.eye(matrix.shape[-1]) - 2.0 * normal[:, :, None] * normal[:, None, :]
-    return (turn @ matrix @ turn)[:, 1:, 1:]
+    found: Array = np.eye(direction.shape[-1]) - 2.0 * normal[:, :, None] * normal[:, None, :]
+    return found

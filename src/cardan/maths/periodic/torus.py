@@ -44,6 +44,19 @@ class Torus:
         """Return x and its derivatives as z goes on, and θ with it, at samples of both, arrays (B, S T, R)."""
         return _sampled(self.coefficient, self.order, samples)
 
+    def along(self, z: Array, theta: Array) -> tuple[Array, Array, Array]:
+        """Return the same where θ is θ0 at z = 0 and goes on with z: z (p,), θ0 (s,); arrays (B, s, p, R)."""
+        m, n = (np.fft.fftfreq(count, 1.0 / count) for count in self.coefficient.shape[-2:])
+        waves, on = np.exp(1j * np.multiply.outer(z, m)), np.exp(1j * self.ratio * np.multiply.outer(z, n))
+        begin = np.multiply.outer(n, theta)
+        begin = np.concatenate([np.cos(begin), -np.sin(begin)])
+        found = []
+        for factor in (np.ones_like(self.order, dtype=complex), 1j * self.order, -(self.order**2)):
+            parts = np.matmul(waves, self.coefficient * factor) * on  # (B, R, p, N)
+            values = np.concatenate([parts.real, parts.imag], axis=-1) @ begin
+            found.append(np.moveaxis(values, 1, -1).swapaxes(1, 2))
+        return found[0], found[1], found[2]
+
 
 def torus_phases(samples: tuple[int, int]) -> tuple[Array, Array]:
     """Return pairs of both phases at so many samples of each, arrays (S T,)."""

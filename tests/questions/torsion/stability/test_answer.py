@@ -7,14 +7,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cardan import Drive, example, stability
+from cardan import Drive, check, example, stability, torsion_response
 from cardan.answers.data import as_csv, data
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
-from cardan.drive.station import ToNext
+from cardan.drive.duty import Duty
+from cardan.drive.machine import HarmonicTorque
+from cardan.drive.shaft import Shaft
+from cardan.drive.station import Station, ToNext
 from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.stability import answer as home
 from cardan.questions.torsion.stability.torsion_stability import no_smooth_motion
+from cardan.questions.torsion.steady.answer import answer as running_answer
+from cardan.units import deg
 
 OTHER = Reader(units={"angular_speed": "rad_s", "angle": "rad"}, decimal=",")
 
@@ -96,3 +101,41 @@ def test_what_may_stop_a_proof_is_named_by_what_the_drive_has() -> None:
         model = replace(train.model, backlash=np.full_like(train.model.backlash, backlash))
         springs = () if table is None else ((0, ToNext(twists=table[0], torques=table[1])),)
         assert no_smooth_motion(replace(train, model=model, springs=springs)) == want
+
+
+def engined(amplitude: float) -> Drive:
+    """Return a drive at 29.8 rad/s, where a torque of order 3.315 meets its mode twice."""
+    return replace(
+        Drive.from_angles([25 * deg]),
+        shafts=(Shaft(number=1, stiffness=1000.0, damping=3.0),),
+        stations=(Station(shaft=2, inertia=0.4, name="load"),),
+        duty=Duty(speed=29.8, torques=(HarmonicTorque(amplitude=amplitude, order=3.315, station="load"),)),
+    )
+
+
+@pytest.mark.slow
+def test_at_a_point_orders_that_do_not_repeat_count_and_every_answer_says_so() -> None:
+    """Whether the drive is unstable by that order alone is one answer in stability, response and check."""
+    held = "Stability is that of the motion with the orders that do not repeat within two turns (3.315)."
+    for amplitude, grows in ((120.0, True), (10.0, False)):
+        drive = engined(amplitude)
+        found, running = stability(drive), torsion_response(drive)
+        assert bool(found.together)
+        assert bool(running.together)
+        assert float(found.growth_rate) == pytest.approx(float(running.floquet.growth_rate), rel=1e-6)
+        assert (float(found.growth_rate) > 0.0) == grows
+        assert check(drive, only=["parametric_stability"])[0].passed != grows
+        for said in (home.answer(drive, found), running_answer(drive, running)):
+            assert held in [told(one.text, USUAL) for one in said.remarks]
+            assert ("torques of an order that does not repeat" in told(said.sentence, USUAL)) == grows
+
+
+@pytest.mark.slow
+def test_over_speeds_they_do_not_count_and_the_answers_say_so() -> None:
+    drive, speeds = engined(120.0), np.linspace(25.0, 35.0, 9)
+    over, swept = stability(drive, over={"duty.speed_rad_s": speeds}), torsion_response(drive, speed=speeds)
+    without = "Stability is judged without the orders that do not repeat within two turns (3.315)"
+    for said in (home.answer(drive, over), running_answer(drive, swept)):
+        assert any(told(one.text, USUAL).startswith(without) for one in said.remarks)
+    assert not over.together.any()
+    assert not swept.together.any()

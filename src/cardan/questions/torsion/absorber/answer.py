@@ -360,8 +360,8 @@ def cautions(found: Any) -> Iterator[Remark]:
     loose = nonsynchronous(found.drive)
     if loose is not None:
         text = _(
-            "Orders that do not repeat within two turns ({orders}) count to first order here, with their side bands; "
-            "cardan torsion response has them exactly."
+            "Orders that do not repeat within two turns ({orders}) count to first order here, with their side bands, "
+            "and stability is judged without them; cardan torsion response has them exactly."
         )
         yield Remark(text=say(text, orders=loose))
     behind = [one.to_next for one in found.drive.stations if one.to_next is not None]

@@ -355,6 +355,8 @@ def _remarks(drive: Drive, found: TorsionModes, exact: Exact | None) -> Iterator
     yield from left_out(drive)
     yield from yokes_estimated(drive)
     yield from _enough(drive, found, exact)
+    if exact is not None:
+        yield from counted(nonsynchronous(drive), np.zeros(1))
     text = _("Checked: the torques of every mode balance {closely}.")
     yield Remark(text=text.format(closely=closely(found.residual)), depth="full", aside=True)
     yield Remark(
@@ -595,6 +597,28 @@ def nonsynchronous(drive: Drive) -> Joined | None:
     """Return the orders of a drive that no two turns hold a whole number of times, None where there are none."""
     found = [_order(order) for order, _cause in orders(drive, drive.duty) if base_period((order,)) is None]
     return Joined(found) if found else None
+
+
+def counted(orders: Joined | None, together: ArrayLike) -> Iterator[Remark]:
+    """Yield whether stability counts the orders that no two turns hold a whole number of times.
+
+    together (...): where it does.
+    """
+    if orders is None:
+        return
+    known = np.asarray(together)
+    text = _(
+        "Stability is judged without the orders that do not repeat within two turns ({orders}); at a single speed they "
+        "count."
+    )
+    if np.all(known):
+        text = _("Stability is that of the motion with the orders that do not repeat within two turns ({orders}).")
+    elif known.ndim == 0:
+        text = _(
+            "Stability is judged without the orders that do not repeat within two turns ({orders}): how disturbances "
+            "of the motion with them grow is not known here."
+        )
+    yield Remark(text=say(text, orders=orders))
 
 
 def ranges(values: ArrayLike, mask: ArrayLike, dimension: str = "", unit: str = "") -> Joined:

@@ -147,7 +147,8 @@ def period_of(model: TorsionalModel) -> float:
 def repeating(model: TorsionalModel) -> tuple[TorsionalModel, tuple[int, ...]]:
     """Return a model without the torques whose orders no two turns hold a whole number of times, and which these are.
 
-    Of stability what is left tells the truth to first order: such a torque changes no coefficient in step with another.
+    Of stability what is left tells the truth to first order but where such an order meets a mode twice, or two modes,
+    as a sum of them.
     """
     orders = [torque.law.order for torque in model.torques]
     loose = tuple(k for k, order in enumerate(orders) if order is not None and base_period((order,)) is None)

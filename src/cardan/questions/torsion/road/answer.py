@@ -276,8 +276,8 @@ def _remarks(drive: Drive, found: RoadTorsion) -> Iterator[Remark]:
     loose = nonsynchronous(drive)
     if loose is not None:
         text = _(
-            "Orders that do not repeat within two turns ({orders}) count to first order here, with their side bands; "
-            "cardan torsion response has them exactly."
+            "Orders that do not repeat within two turns ({orders}) count to first order here, with their side bands, "
+            "and stability is judged without them; cardan torsion response has them exactly."
         )
         yield Remark(text=say(text, orders=loose))
     yield from assumptions(found.train, sprung=True)

@@ -17,7 +17,13 @@ from cardan.drive.models.kinematics_model import given_chain
 from cardan.errors import refuse
 from cardan.formulas.damping import LOSS
 from cardan.questions.assumed import yokes_estimated
-from cardan.questions.torsion.model.answer import assumptions, friction_left_out, nonsynchronous, ranges
+from cardan.questions.torsion.model.answer import (
+    assumptions,
+    counted,
+    friction_left_out,
+    nonsynchronous,
+    ranges,
+)
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.steady.run_stability import Kind, Verdict, verdict_words
@@ -95,7 +101,7 @@ def answer(drive: Drive, result: Stability, *, signs: bool = False) -> Answer:
         figures=lambda: stability_figures(result) if drawn else (),
         tables=(_picture(result, axes),) if signs and len(axes) == 2 else (),
         remarks=(*_remarks(drive, result, axes, signs=signs), *yokes_estimated(drive)),
-        facts=_facts(result),
+        facts=_facts(drive, result),
         full=lambda: _everything(result, axes),
         code=1 if not axes and tone == "failed" else 0,
     )
@@ -299,20 +305,21 @@ def _remarks(drive: Drive, found: Stability, axes: tuple[MapAxis, ...], *, signs
                 "Stable from a loss factor of the shafts of {least} on, beside its dampers; steel shaft lines have "
                 "{usual} and more."
             )
+        if found.together:
+            text = _(
+                "Without the orders that do not repeat it would be stable from a loss factor of the shafts of {least} "
+                "on; steel shaft lines have {usual} and more."
+            )
         least, usual = (Quantity(one, "share", 2) for one in (found.least_loss, LOSS["shaft"]))
         yield Remark(text=say(text, least=least, usual=usual))
     if not axes and int(found.verdict) == Verdict.UNSTABLE:
         text = _(
             "What helps: another speed, smaller joint angles, a joint nearer to the node of the mode, more damping."
         )
+        if found.zone.by_torques:
+            text = _("What helps: another speed, smaller torques of that order, more damping.")
         yield Remark(text=text)
-    loose = nonsynchronous(drive)
-    if loose is not None:
-        text = _(
-            "Judged without the orders that do not repeat within two turns ({orders}): to first order they do not "
-            "change how a small disturbance grows."
-        )
-        yield Remark(text=say(text, orders=loose))
+    yield from counted(nonsynchronous(drive), found.together)
     if found.train.model.free:
         yield Remark(text=_("Rigid-body rotation is left out: a free drive may shift in time."))
     yield from assumptions(found.train, sprung=True)
@@ -360,13 +367,14 @@ def _everything(found: Stability, axes: tuple[MapAxis, ...]) -> Table:
     )
 
 
-def _facts(found: Stability) -> dict[str, Any]:
+def _facts(drive: Drive, found: Stability) -> dict[str, Any]:
     names = np.asarray([one.name.lower() for one in Verdict])
     return {
         "over": dict(found.over),
         "speed": Quantity(np.abs(found.speed), "angular_speed"),
         "verdict": names[found.verdict],
         "stable": found.stable,
+        "counts_nonsynchronous": found.together if nonsynchronous(drive) is not None else None,
         "spectral_radius": found.spectral_radius,
         "growth_rate": Quantity(found.growth_rate, "rate"),
         "order": found.order,

@@ -17,10 +17,16 @@ from cardan.errors import InputError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.questions.torsion.model.joint_bends import bends
 from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
-from cardan.questions.torsion.model.torsional_model import TorsionalModel
+from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained, sprung, torsional_train
 from cardan.questions.torsion.steady.run_stability import Floquet, Verdict, Zone, floquet
-from cardan.questions.torsion.steady.several import settled_judgement, several_looked_for, told_motions
+from cardan.questions.torsion.steady.several import (
+    middle_ones,
+    settled_judgement,
+    several_looked_for,
+    stable_motions,
+    told_motions,
+)
 from cardan.questions.torsion.steady.torsion_response import (
     Progress,
     damped,
@@ -28,6 +34,7 @@ from cardan.questions.torsion.steady.torsion_response import (
     order_jumps,
     parted,
 )
+from cardan.questions.torsion.steady.two_frequency_stability import with_torques
 from cardan.texts import _
 from cardan.units import deg
 
@@ -97,6 +104,9 @@ class Stability:
     proof : ProvedSpeeds, optional
         Over speeds: the unstable ranges between the lowest and the highest to their edges, and a proof that there are
         no others; on a map over something else too, of the drive as it is.
+    together : array of bool (...)
+        Whether torques of orders that do not repeat within two turns count, by the motion with them: at a point, where
+        that motion is known. All else is judged without them, the proof and the least loss factor too.
     """
 
     over: tuple[tuple[str, Array], ...]
@@ -109,6 +119,7 @@ class Stability:
     order: Array
     zone: Zone
     multipliers: Array
+    together: Array
     here: tuple[tuple[str, float], ...] = ()
     cancelled: bool = False
     units: tuple[tuple[str, str], ...] = ()
@@ -197,8 +208,8 @@ def stability(
             continue
         share = PROVING if variants.speeding is not None else 1.0
         told = within(progress, share * first / count, share * (int(rows[-1]) + 1) / count)
-        model, speeds = variants.at(np.unravel_index(rows, shape) if shape else (), len(rows))
-        part, stopped = _judged(model, speeds, told, alone=count <= TOLD)
+        at = variants.at(np.unravel_index(rows, shape) if shape else (), len(rows))
+        part, stopped = _judged(*at, told, () if axes else variants.loose, alone=count <= TOLD)
         parts.append(part)
         if progress is not None and not stopped:
             stopped = progress(share * (int(rows[-1]) + 1) / count) == "stop" and int(rows[-1]) + 1 < count
@@ -225,7 +236,8 @@ def stability(
 def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     """Return the unstable ranges at the speeds in use and a tenth beyond, None where the drive names no speed.
 
-    Speeds that are held are judged by themselves too: where a line is too stiff for a proof, and of several motions.
+    Speeds that are held are judged by themselves too: where a line is too stiff for a proof, of several motions, and
+    with torques of orders that do not repeat within two turns.
     Raises InputError: what the torsional model misses, each with the key to add.
     """
     used = used_speeds(drive.duty)
@@ -241,8 +253,8 @@ def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     if not held.size:
         return proof
     for one in held:
-        model = loaded_model(drive, drive.duty, sense * one[None], pieces=pieces)[1]
-        proof = proof.judged_at(judged(parted(model)[0], sense * one[None]), one[None])
+        model, loose = parted(loaded_model(drive, drive.duty, sense * one[None], pieces=pieces)[1])
+        proof = proof.judged_at(judged(model, sense * one[None], loose), one[None])
     return proof
 
 
@@ -320,28 +332,44 @@ def _least_of_all(variants: _Variants) -> float:
     return float(trial[int(np.argmax(stable(trial)))])
 
 
-def judged(model: TorsionalModel, speed: Array) -> Floquet:
-    """Return how stable the motions are that `torsion_response` tells at a few speeds (s,) [rad/s]."""
+def judged(model: TorsionalModel, speed: Array, loose: tuple[Torque, ...] = ()) -> Floquet:
+    """Return how stable the motions are that `torsion_response` tells at a few speeds (s,) [rad/s].
+
+    loose: torques that do not repeat within two turns.
+    """
     if several_looked_for(model):
         return floquet(told_motions(model, speed)[0])
-    return _settled(floquet_map(model, speed=speed))
+    found = floquet_map(model, speed=speed)
+    return _with_torques(found, _settled(found), loose)[0]
 
 
 def _judged(
-    model: TorsionalModel, speed: Array, progress: Progress | None, *, alone: bool
+    model: TorsionalModel, speed: Array, progress: Progress | None, loose: tuple[Torque, ...] = (), *, alone: bool
 ) -> tuple[dict[str, Array], bool]:
     """Return what is known of some points, and whether the work was stopped.
 
+    loose: torques that do not repeat within two turns.
     alone: judge the motions that `torsion_response` tells, where it searches several; else the first ones found.
     """
     if alone and several_looked_for(model):
         verdict, cancelled = judged(model, speed), False
+        together = np.zeros(np.shape(verdict.verdict), dtype=bool)
     else:
         found = floquet_map(model, speed=speed, progress=progress)
-        verdict, cancelled = _settled(found), found.cancelled
+        (verdict, together), cancelled = _with_torques(found, _settled(found), loose), found.cancelled
     zone = {f"zone_{one.name}": getattr(verdict.zone, one.name) for one in fields(Zone)}
     names = ("verdict", "kind", "growth_rate", "spectral_radius", "order", "multipliers")
-    return {name: getattr(verdict, name) for name in names} | zone | {"speed": speed}, cancelled
+    own = {"speed": speed, "together": together}
+    return {name: getattr(verdict, name) for name in names} | zone | own, cancelled
+
+
+def _with_torques(found: FloquetMap, alone: Floquet, loose: tuple[Torque, ...]) -> tuple[Floquet, Array]:
+    """Return stability with torques that do not repeat, and where it counts them; alone: what it is without them."""
+    if not loose:
+        return alone, np.zeros(np.shape(alone.verdict), dtype=bool)
+    several = bool(np.any(middle_ones(found.orbit, found.floquet)))
+    orbit = stable_motions(found.orbit, found.status)[0] if several else found.orbit
+    return with_torques(orbit, alone, loose)
 
 
 def _settled(found: FloquetMap) -> Floquet:
@@ -428,6 +456,7 @@ class _Variants:
         )
         self.here = tuple((path, float(value)) for path, value in own.items() if isinstance(value, float | int))
         self.train, self.model = loaded_model(drive, drive.duty, self.speeds[:1], pieces=pieces)
+        self.loose = parted(self.model)[1]
 
     def proof(self, progress: Progress | None) -> ProvedSpeeds | None:
         """Return the unstable ranges between the lowest and the highest of the speeds, of the drive as it is."""

@@ -19,7 +19,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.assumed import yokes_estimated
 from cardan.questions.motion.turning import each_shaft
-from cardan.questions.torsion.model.answer import assumptions, left_out, ranges
+from cardan.questions.torsion.model.answer import assumptions, counted, left_out, ranges
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.excitation import engine_torque
 from cardan.questions.torsion.model.torsional_modes import main_order
@@ -138,6 +138,11 @@ def _state(found: TorsionResponse) -> tuple[Tone, Text]:
     if np.any(changing & (np.abs(found.steady.torque.mean) > 1e-6 * np.max(np.abs(found.torque_highest)))):
         return "warning", _("stable, but the torque changes its sign: joints and splines with backlash rattle.")
     return "good", _("stable.")
+
+
+def _loose(found: TorsionResponse) -> Joined | None:
+    """Return the orders that do not repeat within two turns, None where there are none."""
+    return Joined([_order(one.order) for one in found.apart]) if found.apart else None
 
 
 def _swept(found: TorsionResponse) -> tuple[Tone, Text]:
@@ -300,6 +305,8 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
         pair = _("{order} (±{torque})")
         bands = [say(pair, order=_order(order), torque=_torque(size)) for order, size in beside]
         yield Remark(text=say(text, bands=Joined(bands)))
+    if np.any(steady.found):
+        yield from counted(_loose(found), found.together)
     if any(one.periods == 1 for one in found.beside):
         yield _beside(found)
     if any(one.periods != 1 for one in found.beside):
@@ -518,6 +525,7 @@ def _facts(found: TorsionResponse) -> dict[str, Any]:
         "status": steady.status,
         "verdict": [Verdict(int(one)).name.lower() for one in found.floquet.verdict.reshape(-1)],
         "growth_rate": Quantity(found.floquet.growth_rate, "rate"),
+        "stability_counts_nonsynchronous": found.together if found.apart else None,
         "spectral_radius": found.floquet.spectral_radius,
         "nonsynchronous": [
             {"order": one.order, "torque": Quantity(np.abs(one.torque), "torque"), "exact": one.exact}

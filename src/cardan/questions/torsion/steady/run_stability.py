@@ -64,11 +64,20 @@ class Zone:
     # (..., 2) of int: numbers of the two modes from 1, alike for a zone of one mode; 0 where there is none
     modes: Array
     sign: Array  # (...) of int: 1 for the sum of their frequencies, -1 for the difference
-    multiple: Array  # (...) of int: m: number of the zone, the principal one is 1
+    # (...) of int: m: number of the zone, the principal one is 1; 0 where torques whose order does not repeat make what
+    # no zone of the joints does: the speed is then that of the drive
+    multiple: Array
     speed: Array  # (...) [rad/s]: (ω_i ± ω_j)/(2m), or (ω_i ± ω_j)/m where joints swing once a turn
+
+    @property
+    def by_torques(self) -> Array:
+        """Whether torques whose order does not repeat make a disturbance grow that would not without them (...)."""
+        return (self.multiple == 0) & np.isfinite(self.speed)
 
     def name(self, index: tuple[int, ...] = ()) -> str:
         """Return the name of one of the zones."""
+        if self.by_torques[index]:
+            return _("torques of an order that does not repeat")
         i, j = (int(one) for one in self.modes[index])
         m = int(self.multiple[index])
         if i == 0:
@@ -195,7 +204,7 @@ def judged(
     speed: Array,
     period: float,
     there: Array,
-    neutral: float = NEUTRAL,
+    neutral: float | Array = NEUTRAL,
     base: float = 2.0,
 ) -> Floquet:
     """Return what multipliers (b, m) of drives say, known to ``neutral``, where a motion is there; see `Floquet`.
@@ -296,7 +305,7 @@ def multipliers_of(orbit: Orbit, rows: Array) -> tuple[Array, Array, Array]:
     """
     coefficients, duration = linear_motion(orbit, rows), orbit.time.reshape(-1)[rows]
     matrix = monodromy(coefficients, duration)
-    residual = _liouville(coefficients, duration, matrix)
+    residual = liouville(coefficients, duration, matrix)
     mass, damping, _stiffness = coefficients(np.linspace(0.0, 1.0, 5))
     heavy = np.any(mass != 0.0, axis=(0, 1))
     values, removed = _values(orbit, rows, matrix, heavy)
@@ -538,7 +547,7 @@ def _faster(part: Turning, share: float) -> Turning:
     return Turning(part.model, part.angle_error, share * part.speed, part.period)
 
 
-def _liouville(coefficients: Coefficients, duration: Array, matrix: Array) -> Array:
+def liouville(coefficients: Coefficients, duration: Array, matrix: Array) -> Array:
     """Return ln det of the monodromy matrix plus the integral of tr C/M; nan where that says nothing.
 
     So where a coordinate has no mass, and where what is left of a disturbance is smaller than rounding.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -26,6 +26,7 @@ from .several import Beside, stable_motions, widened
 from .steady import described, steady_orbits
 from .steady_result import SteadyResponse
 from .two_frequencies import SideBands, grouped, side_bands
+from .two_frequency_stability import with_torques
 
 Progress: TypeAlias = Callable[[float], object]
 """Told the share done; may answer "stop"."""
@@ -62,7 +63,7 @@ class TorsionResponse:
     steady : SteadyResponse (...)
         Torques and speeds by their orders, true extremes.
     floquet : Floquet (...)
-        Whether the motion is stable.
+        Whether the motion is stable; with torques whose orders do not repeat within two turns where they count.
     apart : tuple of NonsynchronousOrder
         Torques of orders that do not repeat within two turns.
     bands : tuple of SideBands
@@ -73,6 +74,9 @@ class TorsionResponse:
         where these run, they count in the extremes; orders and stability are those of the motion of one period.
     assumed : tuple of str
         Paths of what the drive does not say and the answer assumes.
+    together : array of bool (...)
+        Whether the stability counts torques of orders that do not repeat within two turns, by the motion with them; it
+        does at a few speeds, where that motion is known.
     """
 
     train: TorsionalTrain
@@ -82,6 +86,7 @@ class TorsionResponse:
     assumed: tuple[str, ...]
     bands: tuple[SideBands, ...] = ()
     beside: tuple[Beside, ...] = ()
+    together: Array = field(default_factory=lambda: np.asarray(False))
 
     @property
     def speed(self) -> Array:
@@ -172,7 +177,7 @@ def torsion_response(
     -----
     Exact equations of motion with their periodic solution. Structural damping counts as viscous, b = ηc/(2Ω), equal at
     order 2; for the stability it is equal at the order at which disturbances vibrate, 1 in principal zones. See
-    `steady.periodic_response` and `run_stability.floquet`.
+    `steady.periodic_response`, `run_stability.floquet` and `two_frequency_stability.with_torques`.
 
     Examples
     --------
@@ -192,7 +197,7 @@ def torsion_response(
     found = steady_orbits(model, speed=speeds, method=method, progress=_scaled(progress, 0.0, SHARE))
     orbit, status, beside = stable_motions(*found)
     steady = described(orbit, status)
-    verdict = floquet(steady)
+    verdict, together = with_torques(steady.orbit, floquet(steady), loose)
     bands = {base: (side_bands(steady.orbit, base, group), group) for base, group in grouped(loose)}
     if progress is not None:
         progress(1.0)
@@ -203,6 +208,7 @@ def torsion_response(
         apart=tuple(_apart(model, tuple(bands.values()), speeds)),
         bands=tuple(band for band, _group in bands.values()),
         beside=beside,
+        together=together,
         assumed=train.assumed,
     )
 

@@ -91,8 +91,7 @@ def side_bands(orbit: Orbit, base: float, loose: tuple[Torque, ...]) -> SideBand
     orbit (...): the motions without these torques; base: order of which theirs are multiples.
     Returns: speeds counted through the leading axes.
     """
-    own = max(round(abs(_order(one)) / base) for one in loose)  # the highest multiple among them is to be held too
-    least, most = (max(count, own + more) + (KINKED if orbit.model.special else 0) for more, count in enumerate(OTHERS))
+    least, most = others_of(orbit, base, loose)
     parts = [_solved(orbit, rows, base, loose, least, most) for rows in _chunks(orbit.count)]
     order = np.unique(np.concatenate([part.order for part in parts]).round(9))
     amplitude = np.zeros((orbit.count, len(orbit.model.elements), len(order)), dtype=complex)
@@ -107,6 +106,13 @@ def side_bands(orbit: Orbit, base: float, loose: tuple[Torque, ...]) -> SideBand
         amplitude=amplitude,
         **{name: np.concatenate([getattr(one, name) for one in parts]) for name in ("lowest", "highest", "found")},
     )
+
+
+def others_of(orbit: Orbit, base: float, loose: tuple[Torque, ...]) -> tuple[int, int]:
+    """Return how many harmonics of the torques motions take, at least and at most."""
+    own = max(round(abs(_order(one)) / base) for one in loose)  # the highest multiple among them is to be held too
+    least, most = (max(count, own + more) + (KINKED if orbit.model.special else 0) for more, count in enumerate(OTHERS))
+    return least, most
 
 
 def of_drives(
@@ -176,7 +182,50 @@ class _Driven:
 
 
 def _solved(orbit: Orbit, rows: Array, base: float, loose: tuple[Torque, ...], others: int, most: int) -> SideBands:
+    found = moving(orbit, rows, base, loose, others)
+    own = np.max(np.abs(found.torus.coefficient), axis=(1, 2))[:, 1 : others + 1]
+    if others < most and np.any(own[:, -1] > SMALL * np.max(own, axis=-1)):
+        return _solved(orbit, rows, base, loose, most, most)
+    return found.bands
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Moving:
+    """Motions of some drives under both."""
+
+    turning: Turning  # (b,): without play, resting on the side to which mean torques push
+    torus: Torus
+    base: float
+    loose: tuple[Torque, ...]  # of these drives, ready for moments in a second axis
+    bands: SideBands
+
+    @property
+    def ratio(self) -> float:
+        """Rate of the phase of the torques over that of the shaft."""
+        return self.torus.ratio
+
+    def drives(self, rows: Array, phase: Array, theta: Array) -> TorsionalModel:
+        """Return drives (n,) with all torques, at phases of the shaft and the torques, arrays that spread to (n, p)."""
+        return _Driven(self.turning, self.base, self.loose, theta).drives(rows, phase)
+
+
+def moving(
+    orbit: Orbit,
+    rows: Array,
+    base: float,
+    loose: tuple[Torque, ...],
+    others: int,
+    *,
+    finer: int = 0,
+    share: float = 1.0,
+) -> Moving:
+    """Return the motions of some of the drives under both.
+
+    others: harmonics of the torques; finer: how many more of every phase; share: of their speeds.
+    """
     whole = orbit.turning.part(rows)
+    if share != 1.0:
+        whole = Turning(whole.model, whole.angle_error, share * whole.speed, whole.period)
     turning = closed(whole)
     if turning.model.creep is not None:
         wide = replace(turning.model, creep=SOFTER * turning.model.creep)
@@ -187,22 +236,20 @@ def _solved(orbit: Orbit, rows: Array, base: float, loose: tuple[Torque, ...], o
     there &= stays_closed(whole, start)
     begin = np.where(there[:, None, None], start, 0.0)
     half_turns = round(turning.period / np.pi)
-    harmonics = (_needed(begin, half_turns), others)
-    ratio = base * turning.period / (2.0 * np.pi)
+    harmonics = (_needed(begin, half_turns) + finer * half_turns, others + finer)
     theta = torus_phases(samples_of(harmonics))[1]
+    own = of_drives(orbit.model, orbit.angle_error, rows, loose)
     torus = torus_balance(
-        _Driven(turning, base, of_drives(orbit.model, orbit.angle_error, rows, loose), theta),
+        _Driven(turning, base, own, theta),
         turning.frequency,
         turning.coordinates,
-        ratio=ratio,
+        ratio=base * turning.period / (2.0 * np.pi),
         harmonics=harmonics,
         free=turning.model.free,
         start=begin,
     )
-    own = np.max(np.abs(torus.coefficient), axis=(1, 2))[:, 1 : others + 1]
-    if others < most and np.any(own[:, -1] > SMALL * np.max(own, axis=-1)):
-        return _solved(orbit, rows, base, loose, most, most)
-    return _read(torus, turning, whole, base, harmonics, there & torus.found)
+    bands = _read(torus, turning, whole, base, harmonics, there & torus.found)
+    return Moving(turning=turning, torus=torus, base=base, loose=own, bands=bands)
 
 
 def _needed(start: Array, half_turns: int) -> int:
