@@ -234,7 +234,7 @@ def test_a_joint_that_does_not_turn_is_named_with_its_file_and_key(cardan, tmp_p
     done = cardan(command, path)
     assert done.code == 2
     assert done.err.startswith(f"error: {path}: joints[0].joint_angle_deg: ")
-    assert "swings to and fro by 132.2°" in done.err
+    assert "turns to and fro by 132.2°" in done.err
 
 
 def test_a_fault_of_ours_is_no_traceback(cardan, monkeypatch):

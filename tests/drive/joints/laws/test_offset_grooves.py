@@ -125,7 +125,7 @@ def test_grooves_that_turn_the_shaft_another_way_round_make_no_joint():
     assert np.all(np.isnan(joint.deviation(theta, np.asarray(72.0 * deg))[0]))
     assert np.all(np.isfinite(joint.deviation(theta, np.asarray(20.0 * deg))[0]))
     with speaking("en"):
-        assert joint.stuck(72.0 * deg).endswith(f"swings to and fro by {np.ptp(turned) / deg:.4g}°")
+        assert joint.stuck(72.0 * deg).endswith(f"turns to and fro by {np.ptp(turned) / deg:.4g}°")
 
 
 def test_grooves_that_do_not_meet_are_told_with_place_and_gap():
