@@ -69,7 +69,7 @@ def by_scipy(speed: float) -> np.ndarray:
 
 def _proved(stand: Drive) -> object:
     def build(speeds: np.ndarray) -> TorsionalModel:
-        return parted(loaded_model(stand, stand.duty, speeds, disturbed=True)[1])[0]
+        return parted(loaded_model(stand, stand.duty, speeds)[1])[0]
 
     return proved_speeds(build, 500.0 * rpm, 3000.0 * rpm, method=Compiled(threads=1))
 
