@@ -245,6 +245,30 @@ def shaped(found: Floquet, outer: tuple[int, ...]) -> Floquet:
     return Floquet(zone=zone, period=found.period, **{name: whole(values) for name, values in rest.items()})
 
 
+def replaced(known: Floquet, rows: Array, others: Floquet, own: Array) -> Floquet:
+    """Return the same with what is said of some other motions (n,) in place of that of some rows.
+
+    rows (k,) of int: counted through the leading axes; own (k,) of int: which of the others.
+    """
+
+    def put(values: Array, new: Array) -> Array:
+        flat = np.array(values).reshape(known.verdict.size, *values.shape[known.verdict.ndim :])
+        if flat.dtype.kind == "c":  # multipliers, of which one may have more than the other
+            wide = max(flat.shape[-1], new.shape[-1])
+            flat, new = (
+                np.pad(one, ((0, 0), (0, wide - one.shape[-1])), constant_values=np.nan) for one in (flat, new)
+            )
+        flat[rows] = new[own]
+        return flat
+
+    zone = Zone(
+        **{one.name: put(getattr(known.zone, one.name), getattr(others.zone, one.name)) for one in fields(Zone)}
+    )
+    names = [one.name for one in fields(Floquet) if one.name not in ("zone", "period")]
+    flat = {name: put(getattr(known, name), getattr(others, name)) for name in names}
+    return shaped(replace(known, zone=zone, **flat), known.verdict.shape)
+
+
 def nearest_zone(frequencies: Array, speed: Array, kind: Array, base: float = 2.0) -> Zone:
     """Return the zone of parametric resonance nearest to each speed.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
@@ -17,7 +17,7 @@ from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_modes import straight_modes
 
 from .orbit import Orbit, at_rest, pieces_near
-from .run_stability import Floquet, Kind, Verdict, Zone, floquet
+from .run_stability import Floquet, Kind, Verdict, floquet, replaced
 from .settling import ALIKE, Run, near, padded, ramped, settled
 from .steady import CHUNK, HARMONICS, LOWER, MOST, fourier_of, steady_orbits, sums_of
 from .steady_result import read_off
@@ -364,22 +364,7 @@ def settled_judgement(orbit: Orbit, status: Array, judged: Floquet) -> Floquet:
     )
     again = floquet(stable_motions(some, np.ravel(status)[rows])[0])
     good = np.flatnonzero(again.verdict == Verdict.STABLE)
-    if not good.size:
-        return judged
-
-    def put(values: Array, others: Array) -> Array:
-        flat = np.array(values).reshape(judged.verdict.size, *values.shape[judged.verdict.ndim :])
-        if flat.ndim > 1 and flat.shape[-1] > others.shape[-1] and flat.dtype.kind == "c":
-            others = np.pad(others, ((0, 0), (0, flat.shape[-1] - others.shape[-1])), constant_values=np.nan)
-        flat[rows[good]] = others[good]
-        whole: Array = flat.reshape(values.shape)
-        return whole
-
-    zone = Zone(
-        **{one.name: put(getattr(judged.zone, one.name), getattr(again.zone, one.name)) for one in fields(Zone)}
-    )
-    names = [one.name for one in fields(Floquet) if one.name not in ("zone", "period")]
-    return replace(judged, zone=zone, **{name: put(getattr(judged, name), getattr(again, name)) for name in names})
+    return replaced(judged, rows[good], again, good) if good.size else judged
 
 
 def _alone(orbit: Orbit, row: int) -> Orbit:

@@ -8,7 +8,7 @@ of its station at ν Ω = ω_i ± ω_j, and with the side bands |ν ± 2r|.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from .run_stability import (
     drifting,
     judged,
     liouville,
-    shaped,
+    replaced,
     unmoved,
 )
 from .two_frequencies import Moving, grouped, moving, others_of
@@ -266,18 +266,4 @@ def _put(known: Floquet, orbit: Orbit, row: int, growth: _Growth) -> Floquet:
         one = np.ones(1, dtype=int)
         by = Zone(modes=modes, sign=one, multiple=0 * one, speed=np.abs(orbit.speed.reshape(-1)[[row]]))
         own = replace(own, zone=by)
-
-    def put(values: Array, others: Array) -> Array:
-        flat = np.array(values).reshape(known.verdict.size, *values.shape[known.verdict.ndim :])
-        if flat.dtype.kind == "c":  # multipliers
-            width = max(flat.shape[-1], others.shape[-1])
-            flat, others = (
-                np.pad(one, ((0, 0), (0, width - one.shape[-1])), constant_values=np.nan) for one in (flat, others)
-            )
-        flat[row] = others[0]
-        return flat
-
-    zone = Zone(**{one.name: put(getattr(known.zone, one.name), getattr(own.zone, one.name)) for one in fields(Zone)})
-    names = [one.name for one in fields(Floquet) if one.name not in ("zone", "period")]
-    flat = replace(known, zone=zone, **{name: put(getattr(known, name), getattr(own, name)) for name in names})
-    return shaped(flat, known.verdict.shape)
+    return replaced(known, np.asarray([row]), own, np.zeros(1, dtype=int))
