@@ -416,7 +416,7 @@ class Inside:
                 if faded(leads):
                     break
                 count *= 2
-                theta = np.arange(count) * (2.0 * np.pi / count) + self.start
+                theta = even(count) + self.start
                 poses = self._followed(np.repeat(poses, 2, axis=0), theta, joint_angle)
                 leads = self._leads(poses, joint_angle)
             if self.start:  # angles count from another mark than that drawn: the same curve from there

@@ -109,8 +109,8 @@ class Rzeppa(Joint):
 
     def stuck(self, joint_angle: float) -> str:
         """Return where its grooves do not meet."""
-        why = groove_stuck(joint_angle, self.driving_offset, self.driven_offset, self.groove_radius)
-        return f"{Joint.stuck(self, joint_angle)}: {why}" if why else Joint.stuck(self, joint_angle)
+        said = Joint.stuck(self, joint_angle)
+        return groove_stuck(said, joint_angle, self.driving_offset, self.driven_offset, self.groove_radius)
 
     @property
     def alike(self) -> int:

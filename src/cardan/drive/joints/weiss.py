@@ -44,7 +44,13 @@ def groove_course(
     return course(angle, angle_error)
 
 
-def groove_stuck(joint_angle: float, first: float | None, second: float | None, radius: float | None) -> str:
+def groove_stuck(said: str, joint_angle: float, first: float | None, second: float | None, radius: float | None) -> str:
+    """Return what is said of a joint that does not turn, with where its grooves do not meet."""
+    why = _unmet(joint_angle, first, second, radius)
+    return f"{said}: {why}" if why else said
+
+
+def _unmet(joint_angle: float, first: float | None, second: float | None, radius: float | None) -> str:
     """Return in a sentence where offset grooves do not meet, or turn the shaft back; "" where a ball goes round."""
     if first is None or second is None or radius is None:
         return ""
@@ -198,8 +204,8 @@ class Weiss(Joint):
 
     def stuck(self, joint_angle: float) -> str:
         """Return where its grooves do not meet."""
-        why = groove_stuck(joint_angle, self.driving_offset, self.driven_offset, self.groove_radius)
-        return f"{Joint.stuck(self, joint_angle)}: {why}" if why else Joint.stuck(self, joint_angle)
+        said = Joint.stuck(self, joint_angle)
+        return groove_stuck(said, joint_angle, self.driving_offset, self.driven_offset, self.groove_radius)
 
     @property
     def alike(self) -> int:

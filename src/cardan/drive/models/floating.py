@@ -39,9 +39,7 @@ def swivels_at_next(drive: Drive, i: int) -> bool:
 
 def gives_way(drive: Drive, i: int) -> Way:
     """Return what gives way along the shafts where the shaft behind joint i, from 0, swivels in its next joint."""
-    joint, after = drive.joints[i], drive.joints[i + 1]
-    between = drive.shafts[i + 1].spline is not None
-    if between or any(one.slides or one.loose for one in (joint, after)):
+    if drive.shafts[i + 1].spline is not None or _plunges(drive, i) or _plunges(drive, i + 1):
         return Way.BETWEEN
     if not drive.supports or len(known_lengths(drive)) < len(drive.joints) - 1:
         return Way.OPEN
