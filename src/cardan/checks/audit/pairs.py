@@ -42,6 +42,7 @@ from cardan.questions.motion.turning import each_shaft
 from cardan.questions.torsion.model.excitation import turns_freely
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
 from cardan.questions.torsion.steady.run_stability import Verdict as Stability
+from cardan.questions.torsion.steady.torsion_response import TorsionResponse
 from cardan.questions.torsion.transient.torsion_transient import Transient
 from cardan.texts import mark
 
@@ -404,6 +405,11 @@ def _torque_of_response(asked: Asked) -> Values:
     found, case = asked.response, asked.case
     if found is None or case is None or not bool(np.all(found.steady.found)):
         return {}
+    return _of_response(found)
+
+
+def _of_response(found: TorsionResponse) -> Values:
+    """Return the largest torque of every shaft in steady motion."""
     return _by_shaft(found.train, np.maximum(np.abs(found.torque_lowest), np.abs(found.torque_highest)))
 
 
@@ -422,7 +428,7 @@ def _torque_steady(asked: Asked) -> Values:
     found, followed_too = asked.response, asked.simulated
     if found is None or followed_too is None or not followed_too.complete:
         return {}
-    return _by_shaft(found.train, np.maximum(np.abs(found.torque_lowest), np.abs(found.torque_highest)))
+    return _of_response(found)
 
 
 def _torque_in_time(asked: Asked) -> Values:

@@ -17,7 +17,7 @@ from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.assumed import yokes_estimated
-from cardan.questions.torsion.model.answer import friction_left_out, lacking, nonsynchronous
+from cardan.questions.torsion.model.answer import counted_to_first_order, friction_left_out, lacking
 from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
 from cardan.texts import _
 from cardan.units import deg
@@ -357,13 +357,7 @@ def cautions(found: Any) -> Iterator[Remark]:
     if found.play:
         text = _("Backlash counts as closed here; cardan torsion response tells whether the torque changes its sign.")
         yield Remark(text=text, tone="warning")
-    loose = nonsynchronous(found.drive)
-    if loose is not None:
-        text = _(
-            "Orders that do not repeat within two turns ({orders}) count to first order here, with their side bands, "
-            "and stability is judged without them; cardan torsion response has them exactly."
-        )
-        yield Remark(text=say(text, orders=loose))
+    yield from counted_to_first_order(found.drive)
     behind = [one.to_next for one in found.drive.stations if one.to_next is not None]
     if any(one.twists or one.friction for one in behind):
         text = _(

@@ -621,6 +621,17 @@ def counted(orders: Joined | None, together: ArrayLike) -> Iterator[Remark]:
     yield Remark(text=say(text, orders=orders))
 
 
+def counted_to_first_order(drive: Drive) -> Iterator[Remark]:
+    """Yield that the orders that no two turns hold a whole number of times count to first order, if there are any."""
+    orders = nonsynchronous(drive)
+    if orders is not None:
+        text = _(
+            "Orders that do not repeat within two turns ({orders}) count to first order here, with their side bands, "
+            "and stability is judged without them; cardan torsion response has them exactly."
+        )
+        yield Remark(text=say(text, orders=orders))
+
+
 def ranges(values: ArrayLike, mask: ArrayLike, dimension: str = "", unit: str = "") -> Joined:
     """Return the ranges of values in which something holds; told as nothing where there is none.
 

@@ -18,7 +18,7 @@ from cardan.drive.movement import Random
 from cardan.errors import refuse
 from cardan.later import later
 from cardan.questions.assumed import yokes_estimated
-from cardan.questions.torsion.model.answer import assumptions, left_out, nonsynchronous
+from cardan.questions.torsion.model.answer import assumptions, counted_to_first_order, left_out
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.texts import _, mark
 from cardan.units import hour
@@ -273,13 +273,7 @@ def _remarks(drive: Drive, found: RoadTorsion) -> Iterator[Remark]:
             text = _("The random movements are followed along their sample path.")
         yield Remark(text=text)
     yield _as_drawn(found)
-    loose = nonsynchronous(drive)
-    if loose is not None:
-        text = _(
-            "Orders that do not repeat within two turns ({orders}) count to first order here, with their side bands, "
-            "and stability is judged without them; cardan torsion response has them exactly."
-        )
-        yield Remark(text=say(text, orders=loose))
+    yield from counted_to_first_order(drive)
     yield from assumptions(found.train, sprung=True)
     yield from left_out(replace(drive, movements=()))
     yield from yokes_estimated(drive)

@@ -14,14 +14,13 @@ from cardan.drive.models.geometry import geometry
 from cardan.maths.arrays import Array
 from cardan.maths.curves.extremes import peak
 from cardan.maths.periodic.harmonics import Status
-from cardan.maths.periodic.switching_orbit import Shooting
 from cardan.questions.motion.standing import given_at
 from cardan.questions.torsion.model.joint_bends import Bends, bends
 from cardan.questions.torsion.model.side_bands import side_waves
 from cardan.questions.torsion.model.torsional_balance import element_torques
 from cardan.questions.torsion.model.torsional_layouts import period_of
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
-from cardan.questions.torsion.stability.floquet_map import LONG, floquet_map
+from cardan.questions.torsion.stability.floquet_map import LONG, NO_SEARCH, floquet_map
 from cardan.questions.torsion.steady.alternating_torque import BANDS
 from cardan.questions.torsion.steady.orbit import Orbit
 from cardan.questions.torsion.steady.run_stability import Verdict
@@ -39,9 +38,6 @@ CHUNK = 256
 
 STRIDE, LOST = 32, 12
 """Places on a ray that are asked at once, and those behind each other without a motion from which on it is left."""
-
-NO_SEARCH = Shooting(work=0)
-"""No search by shooting."""
 
 Progress: TypeAlias = Callable[[float], object]
 """Told the share done; may answer "stop"."""

@@ -66,6 +66,9 @@ ROUGH = 5e-7
 LONG = Shooting(reach=0.8, work=30_000)
 """How motions with open play are found: at the ends of such steps, where multipliers come from, right to 1e-10."""
 
+NO_SEARCH = Shooting(work=0)
+"""Where there is no smooth motion, none is searched for."""
+
 SMALL = 1e-4
 """Largest of the upper harmonics, over the largest of all, of a motion that is not called coarse."""
 

@@ -15,7 +15,6 @@ from cardan.maths.compiled.method import chosen as chosen_method
 from cardan.maths.periodic.floquet import monodromy
 from cardan.maths.periodic.harmonics import HarmonicBalance, Status
 from cardan.maths.periodic.inside_circle import DEGREE, MATRICES, Proof, inside_circle
-from cardan.maths.periodic.switching_orbit import Shooting
 from cardan.questions.torsion.model.torsional_layouts import Turning, leading, period_of
 from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
@@ -35,7 +34,7 @@ from cardan.questions.torsion.steady.several import settled_judgement
 from cardan.questions.torsion.steady.steady import closed, stays_closed, steady_orbits
 from cardan.texts import _
 
-from .floquet_map import floquet_map
+from .floquet_map import NO_SEARCH, floquet_map
 from .stability_kernel import SURE, Mapped, fits, harmonics_for, heavy_of, mapped
 
 Build: TypeAlias = Callable[[Array], TorsionalModel]
@@ -58,9 +57,6 @@ the second power within a period does not count."""
 WORK, PLAIN, LEAST, BALANCE = 1e8, 20.0, 500.0, 6e-3
 """Steps of all samples times the cube of their unknowns that are taken on: a minute, about; by what factor each takes
 longer without the kernel, what each takes at least, and what its harmonic balance takes over the cube of its sums."""
-
-NO_SEARCH = Shooting(work=0)
-"""Where there is no smooth motion, none is searched for: no polynomial in the speed could hold it."""
 
 SLACK = 1e-4
 """Growth within a period that counts as none where nothing damps: in zone m that of one of the width 2 Ω/(πm) times it.

@@ -298,9 +298,10 @@ def _least_loss(variants: _Variants, kept: bool) -> float:
     kept: whether it is with its own. Of drives with several motions the first one found is judged, as one is searched
     for each loss factor; nan where that of their own contradicts it.
     """
-    least, own = _least_of_all(variants), variants.train.model.loss_factor
+    own = variants.train.model.loss_factor
     if kept and not np.any(own):
         return 0.0
+    least = _least_of_all(variants)
     if several_looked_for(variants.model) and (least > np.max(own) if kept else least <= np.min(own)):
         return float("nan")
     return least
