@@ -1,7 +1,8 @@
-"""Torsional vibration in the app: absorber, calm running, run-up and load step tell what is told elsewhere."""
+"""Torsional vibration in the app: absorber, calm running, run-up, load step and a sweep tell what is told elsewhere."""
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -16,6 +17,7 @@ from cardan.io import example_text
 from cardan.io.drive_file import loads
 from cardan.register import QUESTIONS, groups
 from tests.app.test_page import mark, ready
+from tests.app.test_sweep import written
 
 Open = Callable[..., Any]
 
@@ -33,6 +35,9 @@ duration_s = 0.05
 """
 )
 """Power take-off shaft whose load steps up."""
+
+
+ALTERNATING = re.compile("largest alternating torque of torsional vibration at the speed of the duty", re.IGNORECASE)
 
 
 @pytest.fixture(scope="module")
@@ -70,3 +75,19 @@ def test_measures_against_vibration_a_run_up_and_a_load_step_are_told_in_the_app
     run_up.locator(".cardan-chart .main-svg").first.wait_for()
     strength = sheet_of(page, "strength")
     strength.get_by_text("the knives meet hay").first.wait_for()
+
+
+def test_the_alternating_torque_is_swept_over_the_speed(page_of: Open, url: str) -> None:
+    page = page_of(f"{url}/?file=stepped.toml", reduced_motion="reduce", viewport={"width": 1440, "height": 900})
+    ready(page)
+    mark(page, "tab-sweep").click()
+    mark(page, "sweep-ask").click()
+    page.locator(".q-menu .q-item").filter(has_text=ALTERNATING).click()
+    page.keyboard.press("Escape")
+    written(page.get_by_label("key that varies"), "duty.speed_rpm")
+    for title, value in (("from 1", "450"), ("to 1", "600"), ("values 1", "2")):
+        page.get_by_label(title, exact=True).fill(value)
+    mark(page, "sweep-run").click()
+    sweep = mark(page, "sheet-sweep")
+    sweep.locator('[data-mark="answer"]').filter(has_text="2 points are answered").wait_for()
+    sweep.locator(".cardan-chart .main-svg").nth(1).wait_for()
