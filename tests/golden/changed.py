@@ -169,7 +169,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         "side bands of the engine's order are among them",
     ),
     (
-        r"torsion stability examples/(pto-flywheel|truck-power-unit)\.toml",
+        r"torsion stability examples/(pto-flywheel(-absorber)?|truck-power-unit)\.toml",
         r"(growth_rate_per_s|spectral_radius|order|multipliers.*)",
         ALIKE,
     ),
