@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import pickle
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -15,6 +14,7 @@ from cardan.errors import InputError
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.extremes import peak
 from cardan.maths.periodic.harmonics import Status
+from cardan.maths.remembered import remembered
 from cardan.questions.torsion.model.inputs import Law, Swinging
 from cardan.questions.torsion.model.torsional_balance import element_torques, joint_torques
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
@@ -72,35 +72,17 @@ def dynamic_torque(drive: Drive, duty: Duty | None = None, *, speed: ArrayLike, 
     train, whole = loaded_model(drive, chosen, speeds)
     model, loose = parted(replace(whole, backlash=0.0 * whole.backlash) if closed else whole)
     line = tuple(host is None for host in train.hangs)
-    return _torques(_Vibrating(model, loose, speeds, line, len(drive.joints) + 1))
+    return _torques(model, loose, speeds, line, len(drive.joints) + 1)
 
 
-@dataclass(frozen=True, eq=False)
-class _Vibrating:
-    """A torsional model at some speeds; one of the same content is equal, whatever drive it belongs to."""
+@remembered(64)  # drives of many joint sizes share few torsional models, and a model takes a second
+def _torques(
+    model: TorsionalModel, loose: tuple[Torque, ...], speeds: Array, line: tuple[bool, ...], shafts: int
+) -> DynamicTorque:
+    """Return the torques of a model at speeds (s,) [rad/s].
 
-    model: TorsionalModel
-    loose: tuple[Torque, ...]  # torques that do not repeat within two turns
-    speeds: Array  # (s,) [rad/s]
-    line: tuple[bool, ...]  # whether each station belongs to the line itself
-    shafts: int
-    content: bytes = field(init=False)
-
-    def __post_init__(self) -> None:
-        told = pickle.dumps((self.model, self.loose, self.speeds, self.line, self.shafts))
-        object.__setattr__(self, "content", told)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Vibrating) and self.content == other.content
-
-    def __hash__(self) -> int:
-        return hash(self.content)
-
-
-@lru_cache(maxsize=64)  # drives of many joint sizes share few torsional models, and a model takes a second
-def _torques(asked: _Vibrating) -> DynamicTorque:
-    """Return the torques of a model."""
-    model, speeds, shafts = asked.model, asked.speeds, asked.shafts
+    loose: torques that do not repeat within two turns. line: whether each station belongs to the line itself.
+    """
     orbit, status, others = told_motions(model, speeds)
     found = (status == Status.CONVERGED) | (status == Status.COARSE)
     nothing = np.zeros((len(speeds), len(model.elements)))
@@ -109,14 +91,14 @@ def _torques(asked: _Vibrating) -> DynamicTorque:
     drives = orbit.drives(np.arange(orbit.count))
     torque = np.moveaxis(element_torques(drives, q, rate), -1, -2)
     alone = _kinked(orbit) if model.special else (-peak(-torque), peak(torque))
-    lowest, highest = widened(*_with_bands(orbit, asked.loose, *alone), others)
+    lowest, highest = widened(*_with_bands(orbit, loose, *alone), others)
     falls, rises = (_at_joints(model, one, shafts) for one in (alone[0] - lowest, highest - alone[1]))
     at_ends: Array = np.max([*falls, *rises], axis=0)
     through = part.at_joints(part.angle)
     ends = [(-peak(-one) - less, peak(one) + more) for one, less, more in zip(through, falls, rises, strict=True)]
     low, high = np.full((len(speeds), shafts), np.inf), np.full((len(speeds), shafts), -np.inf)
     for k in range(shafts):
-        own = [e for e, (a, b) in enumerate(model.elements) if model.shaft[a] == k and asked.line[b]]
+        own = [e for e, (a, b) in enumerate(model.elements) if model.shaft[a] == k and line[b]]
         lows, highs = [lowest[:, e] for e in own], [highest[:, e] for e in own]
         if k < shafts - 1:
             lows, highs = [*lows, ends[0][0][:, k]], [*highs, ends[0][1][:, k]]

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import pickle
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cardan.maths.arrays import Array
 from cardan.maths.periodic.harmonics import HarmonicBalance, Status, odd_growth
 from cardan.maths.periodic.switching_orbit import Pieces
+from cardan.maths.remembered import remembered
 from cardan.questions.torsion.model.torsional_layouts import Turning, single
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_modes import straight_modes
@@ -19,7 +18,7 @@ from cardan.questions.torsion.model.torsional_modes import straight_modes
 from .orbit import Orbit, at_rest, pieces_near
 from .run_stability import Floquet, Kind, Verdict, floquet, replaced
 from .settling import ALIKE, Run, near, padded, ramped, settled
-from .steady import CHUNK, HARMONICS, LOWER, MOST, fourier_of, steady_orbits, sums_of
+from .steady import CHUNK, HARMONICS, LOWER, MOST, Progress, fourier_of, steady_orbits, sums_of
 from .steady_result import read_off
 
 SIZES = (1.0, 1.5, 3.0)
@@ -104,32 +103,20 @@ def several_looked_for(model: TorsionalModel) -> bool:
     return bool(np.any(model.backlash > 0.0)) or model.special
 
 
-def told_motions(model: TorsionalModel, speeds: Array) -> tuple[Orbit, Array, tuple[Beside, ...]]:
-    """Return the motions that are told at speeds (s,) [rad/s], as `stable_motions`; kept for whoever asks next."""
-    return _told(_Running(model, speeds))
+def _whole(found: tuple[Orbit, Array, tuple[Beside, ...]]) -> bool:
+    """Tell whether motions were not cancelled."""
+    return not np.any(found[1] == Status.CANCELLED)
 
 
-@dataclass(frozen=True, eq=False)
-class _Running:
-    """A torsional model at some speeds; one of the same content is equal, whatever drive it belongs to."""
+@remembered(64, whole=_whole)  # drives of many joint sizes share few torsional models, and a model takes a second
+def told_motions(
+    model: TorsionalModel, speeds: Array, *, progress: Progress | None = None
+) -> tuple[Orbit, Array, tuple[Beside, ...]]:
+    """Return the motions that are told at speeds (s,) or one [rad/s], as `stable_motions`; kept for whoever asks next.
 
-    model: TorsionalModel
-    speeds: Array  # (s,) [rad/s]
-    content: bytes = field(init=False)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "content", pickle.dumps((self.model, self.speeds)))
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Running) and self.content == other.content
-
-    def __hash__(self) -> int:
-        return hash(self.content)
-
-
-@lru_cache(maxsize=64)  # drives of many joint sizes share few torsional models, and a model takes a second
-def _told(asked: _Running) -> tuple[Orbit, Array, tuple[Beside, ...]]:
-    return stable_motions(*steady_orbits(asked.model, speed=asked.speeds))
+    progress: told the share done; when it answers "stop", the speeds not yet done are left out as cancelled.
+    """
+    return stable_motions(*steady_orbits(model, speed=speeds, progress=progress))
 
 
 def _counted(

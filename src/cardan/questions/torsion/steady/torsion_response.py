@@ -22,7 +22,7 @@ from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_ti
 from cardan.texts import _
 
 from .run_stability import SECOND, Floquet, floquet, nearest_zone
-from .several import Beside, stable_motions, widened
+from .several import Beside, stable_motions, told_motions, widened
 from .steady import described, steady_orbits
 from .steady_result import SteadyResponse
 from .two_frequencies import SideBands, grouped, side_bands
@@ -194,8 +194,11 @@ def torsion_response(
     speeds = np.asarray(_speeds(chosen, speed), dtype=float)
     train, model = loaded_model(drive, chosen, speeds, pieces=pieces)
     model, loose = parted(model)
-    found = steady_orbits(model, speed=speeds, method=method, progress=_scaled(progress, 0.0, SHARE))
-    orbit, status, beside = stable_motions(*found)
+    part = _scaled(progress, 0.0, SHARE)
+    if method is None:
+        orbit, status, beside = told_motions(model, speeds, progress=part)
+    else:
+        orbit, status, beside = stable_motions(*steady_orbits(model, speed=speeds, method=method, progress=part))
     steady = described(orbit, status)
     verdict, together = with_torques(steady.orbit, floquet(steady), loose)
     bands = {base: (side_bands(steady.orbit, base, group), group) for base, group in grouped(loose)}
