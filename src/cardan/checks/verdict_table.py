@@ -36,7 +36,7 @@ BY = "by"
 """Name of the column of a table of verdicts that says where limits come from."""
 
 NOTHING = 1e-9
-"""A value below this, in its unit, is told as nothing."""
+"""A value up to this, in its unit, is told as nothing."""
 
 
 def tone_of(one: Verdict) -> Tone:
@@ -61,7 +61,7 @@ def word_of(one: Verdict) -> str:
 def amount(one: Verdict, value: Any, *, given: bool = False) -> Quantity:
     """Return a figure of a verdict; a limit as it was given, without zeros at its end."""
     least = NOTHING * (factor(one.dimension, one.unit) if one.dimension else 1.0)
-    return Quantity(0.0 if abs(float(value)) < least else float(value), one.dimension, unit=one.unit, trim=given)
+    return Quantity(0.0 if abs(float(value)) <= least else float(value), one.dimension, unit=one.unit, trim=given)
 
 
 def share(used: float) -> Quantity:

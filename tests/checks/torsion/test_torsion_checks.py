@@ -12,6 +12,7 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.checks import check
 from cardan.checks.strength.strength import strength
+from cardan.checks.verdict_table import amount
 from cardan.choices.remedy import apply_remedy, remedies
 from cardan.choices.sizing import size
 from cardan.cli.main import main
@@ -80,6 +81,15 @@ def test_the_alternating_torque_that_a_shaft_bears():
     just = replace(drive, shafts=tuple(replace(its, **exact) if its.number == 2 else its for its in drive.shafts))
     (limit,) = [its for its in of(just, "torsional_resonance") if its.dimension == "torque"]
     assert limit.utilisation == pytest.approx(1.0, rel=1e-6)
+
+
+def test_a_shaft_whose_mean_torque_is_too_much_bears_nothing_beside_it():
+    drive = resonant()
+    duty = replace(drive.duty, torque=30.0 * drive.duty.torque)
+    (borne,) = [its for its in of(replace(drive, duty=duty), "torsional_resonance") if its.dimension == "torque"]
+    assert borne.state == "failed"
+    assert amount(borne, borne.limit).value == 0.0
+    assert told(borne.note, USUAL).startswith("its mean torque, with the secondary couples, alone takes more")
 
 
 def test_the_limit_of_the_alternating_torque_counts_the_couples_that_it_makes():

@@ -94,6 +94,7 @@ def _borne(design: Design, k: int) -> Iterator[Verdict]:
     limits = [np.min([_bears(design, k, one, case) for one in found], axis=0) for case in shaking]
     used = [swing / np.maximum(limit, LEAST) for swing, limit in zip(swings, limits, strict=True)]
     swing, limit = worst(used, swings, limits)
+    none = not np.any(limit)
     yield Verdict(
         title=title.format(number=k + 1),
         subject=f"shafts[{k}]",
@@ -103,6 +104,7 @@ def _borne(design: Design, k: int) -> Iterator[Verdict]:
         unit="Nm",
         source=_("Goodman with Marin's factors beside mean torque and secondary couples, over the safety asked for"),
         design_variables=fatigue_variables(design, k),
+        note=_("its mean torque, with the secondary couples, alone takes more than the safety allows") if none else "",
     )
 
 
