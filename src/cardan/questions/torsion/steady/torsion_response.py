@@ -21,6 +21,7 @@ from cardan.questions.torsion.model.torsional_modes import base_order, main_orde
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_time, sprung, torsional_train
 from cardan.texts import _
 
+from .orbit import Orbit
 from .run_stability import SECOND, Floquet, floquet, nearest_zone
 from .several import Beside, stable_motions, told_motions, widened
 from .steady import described, steady_orbits
@@ -196,7 +197,7 @@ def torsion_response(
     model, loose = parted(model)
     part = _scaled(progress, 0.0, SHARE)
     if method is None:
-        orbit, status, beside = told_motions(model, speeds, progress=part)
+        orbit, status, beside = _told(drive, chosen, model, speeds, pieces, part)
     else:
         orbit, status, beside = stable_motions(*steady_orbits(model, speed=speeds, method=method, progress=part))
     steady = described(orbit, status)
@@ -214,6 +215,18 @@ def torsion_response(
         together=together,
         assumed=train.assumed,
     )
+
+
+def _told(
+    drive: Drive, duty: Duty, model: TorsionalModel, speeds: Array, pieces: int, progress: Progress | None
+) -> tuple[Orbit, Array, tuple[Beside, ...]]:
+    """Return the motions told at speeds; at one speed those of a list of one, which other questions ask for."""
+    if speeds.ndim:
+        return told_motions(model, speeds, progress=progress)
+    listed = parted(loaded_model(drive, duty, speeds[None], pieces=pieces)[1])[0]
+    orbit, status, beside = told_motions(listed, speeds[None], progress=progress)
+    alone = replace(orbit, model=model, speed=speeds, coefficient=orbit.coefficient[0], force=orbit.force[0])
+    return alone, status[0], beside
 
 
 def peak_refined(drive: Drive, found: TorsionResponse, *, progress: Progress | None = None) -> TorsionResponse:
