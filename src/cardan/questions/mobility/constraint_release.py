@@ -352,17 +352,23 @@ def _search(options: Sequence[_Option], redundant: int, most: int) -> list[tuple
             kept = partial[1] if left == partial[0] else []
             partial = left, [*kept, (cost, chosen)][:most]
         after = options[chosen[-1]].joint if chosen else -1
-        work = [options[k].work for k in chosen]
-        for k, option in enumerate(options):
-            size = option.change.freedoms
-            if option.joint <= after or size > left:
-                continue
-            if chosen and _rank(np.concatenate((*work, option.work))) < redundant - left + size:
-                continue
-            spent = cost + option.cost
-            rest = left - size
+        fit = [k for k, one in enumerate(options) if one.joint > after and one.change.freedoms <= left]
+        for k in fit if not chosen else _sound(options, chosen, fit):
+            spent, rest = cost + options[k].cost, left - options[k].change.freedoms
             heapq.heappush(heap, (spent + rest * rate, next(ticket), spent, (*chosen, k), rest))
     return whole or _greedy(options, redundant, partial)
+
+
+def _sound(options: Sequence[_Option], chosen: tuple[int, ...], others: Sequence[int]) -> list[int]:
+    """Return those of other options whose freedoms do work apart from each other and from those chosen, in order."""
+    own = np.concatenate([options[k].work for k in chosen])
+    found: list[int] = []
+    for size in {options[k].change.freedoms for k in others}:
+        alike = [k for k in others if options[k].change.freedoms == size]
+        work = np.stack([np.concatenate((own, options[k].work)) for k in alike])
+        rank = np.sum(np.linalg.svd(work, compute_uv=False) > TAKES_PART, axis=-1)
+        found += [k for k, one in zip(alike, rank.tolist(), strict=True) if one == len(own) + size]
+    return sorted(found)
 
 
 def _greedy(

@@ -30,7 +30,7 @@ from cardan.questions.torsion.steady.run_stability import (
     straight_damping,
     vibrating,
 )
-from cardan.questions.torsion.steady.several import settled_judgement
+from cardan.questions.torsion.steady.several import middle_ones, settled_judgement
 from cardan.questions.torsion.steady.steady import closed, stays_closed, steady_orbits
 from cardan.texts import _
 
@@ -222,9 +222,7 @@ def _described(drive: _Drive, proof: Proof, looked: tuple[float, float], sense: 
             )
             inner, found = _inside(drive, proof.outside, sense)
     low, high = proof.outside.T
-    growth = (
-        np.zeros(inner.shape) if found is None else np.nan_to_num(found.growth_rate, nan=-np.inf).reshape(inner.shape)
-    )
+    growth = np.zeros(inner.shape) if found is None else _growth(found, inner)
     best = np.argmax(growth, axis=-1)[:, None]
     kind = np.zeros(inner.shape, dtype=int) if found is None else found.kind.reshape(inner.shape)
     worst = np.take_along_axis(inner, best, axis=-1)[:, 0]
@@ -247,14 +245,31 @@ def _described(drive: _Drive, proof: Proof, looked: tuple[float, float], sense: 
 
 
 def _inside(drive: _Drive, ranges: Array, sense: float) -> tuple[Array, Floquet | None]:
-    """Return places within ranges of speed (k, 2) and how stable running is there, None where there is no range."""
+    """Return places within ranges of speed (k, 2) and how stable running is there, None where there is no range.
+
+    Where a motion that grows may be the middle one of three, a stable one is sought beside it: at the place of a range
+    that grows fastest, and at the next one as long as one is found.
+    """
     low, high = ranges.T
     inner = low[:, None] + (high - low)[:, None] * (np.arange(INNER) + 0.5) / INNER
     flat = sense * inner.reshape(-1)
     if not len(flat):
         return inner, None
-    found = floquet_map(drive.model(flat), speed=flat, opened=NO_SEARCH)
-    return inner, settled_judgement(found.orbit, found.status, found.floquet)
+    mapped = floquet_map(drive.model(flat), speed=flat, opened=NO_SEARCH)
+    found, middle = mapped.floquet, middle_ones(mapped.orbit, mapped.floquet)
+    while True:
+        rows = np.arange(len(inner)) * INNER + np.argmax(_growth(found, inner), axis=-1)
+        asked = rows[middle[rows]]
+        if not asked.size:
+            return inner, found
+        middle[asked] = False
+        found = settled_judgement(mapped.orbit, mapped.status, found, asked)
+
+
+def _growth(found: Floquet, inner: Array) -> Array:
+    """Return how fast vibration grows at places within ranges, array (k, m) [1/s]; least where nothing is known."""
+    growth: Array = np.nan_to_num(found.growth_rate, nan=-np.inf).reshape(inner.shape)
+    return growth
 
 
 def _joined(stretches: Array, others: Array) -> Array:

@@ -56,10 +56,10 @@ class Beside:
         return found
 
 
-def stable_motions(orbit: Orbit, status: Array) -> tuple[Orbit, Array, tuple[Beside, ...]]:
+def stable_motions(orbit: Orbit, status: Array, *, grow: bool = False) -> tuple[Orbit, Array, tuple[Beside, ...]]:
     """Return motions with a stable one wherever one is found, their status, and further stable ones.
 
-    orbit (...), status (...): as `steady_orbits` gives them.
+    orbit (...), status (...): as `steady_orbits` gives them. grow: whether all are known to grow.
     Others are sought where play may open, by following the drive in time from swings of the mode next to a low multiple
     of the speed until they repeat, and where the motion found is the middle one of three, by harmonic balance from the
     same swings: a search from so many starts, no proof that there are no others. With play motions may repeat after
@@ -74,13 +74,13 @@ def stable_motions(orbit: Orbit, status: Array) -> tuple[Orbit, Array, tuple[Bes
     settle, the drive is too stiff to be followed that long, or fixed steps do not follow it
     (`TorsionalModel.steppable`), the largest of one period counts.
     """
-    rows = np.flatnonzero(_several(orbit, status))
+    rows = np.flatnonzero(_several(orbit, status, grow=grow))
     coefficient = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])
     states, pieces, force = np.array(status).reshape(-1), dict(orbit.pieces), np.array(orbit.force).reshape(-1)
     beside: list[Beside] = []
     for row, runs in _followed(orbit, rows) if orbit.model.free else _searched(orbit, rows):
         own = _alone(orbit, row)
-        known = [own] if floquet(own).verdict[0] == Verdict.STABLE else []
+        known = [own] if not grow and floquet(own).verdict[0] == Verdict.STABLE else []
         motions = _distinct([*known, *_others(orbit, row, [one.mean for one in runs if one.periods])])
         first, others = _counted(orbit, row, runs, motions)
         beside += others
@@ -148,13 +148,13 @@ def _size(one: Beside) -> float:
     return float(np.max(one.swing))
 
 
-def _several(orbit: Orbit, status: Array) -> Array:
+def _several(orbit: Orbit, status: Array, *, grow: bool) -> Array:
     """Tell which drives may have several stable motions, or have one that was not found, array of bool (b,)."""
     turning, state = orbit.turning, np.ravel(status)
     if not turning.coordinates:
         return np.zeros(orbit.count, dtype=bool)
     if turning.model.free:
-        return middle_ones(orbit)
+        return np.ones(orbit.count, dtype=bool) if grow else middle_ones(orbit)
     loose = np.broadcast_to(orbit.model.backlash, (*orbit.angle_error, len(orbit.model.elements))) > 0.0
     found: Array = (np.any(loose, axis=-1).reshape(-1) | orbit.model.special) & (state != Status.CANCELLED)
     smooth = np.flatnonzero(~found & (state != Status.CANCELLED) & (state != Status.NO_CONVERGENCE))
@@ -336,22 +336,32 @@ def _others(orbit: Orbit, row: int, sums: Sequence[Array]) -> Iterator[Orbit]:
             yield alone
 
 
-def settled_judgement(orbit: Orbit, status: Array, judged: Floquet) -> Floquet:
+def settled_judgement(orbit: Orbit, status: Array, judged: Floquet, rows: Array | None = None) -> Floquet:
     """Return how stable motions (b,) are, those that are the middle one of three replaced by a stable one beside it.
 
     status, judged (b,): of the motions; many at a time are left as they are, see `LOOKED`.
+    rows (k,) of int: which of the middle ones to look at; all by default.
     """
-    rows = np.flatnonzero(middle_ones(orbit, judged))
-    if not rows.size or rows.size > LOOKED:
+    asked = np.flatnonzero(middle_ones(orbit, judged)) if rows is None else rows
+    if not asked.size or asked.size > LOOKED:
         return judged
+    own = _some(orbit, asked)
+    others = stable_motions(own, np.ravel(status)[asked], grow=True)[0]
+    moved = np.flatnonzero(np.any(others.coefficient != padded(own.coefficient, others.coefficient.shape[-1]), (1, 2)))
+    if not moved.size:
+        return judged
+    again = floquet(_some(others, moved))
+    good = np.flatnonzero(again.verdict == Verdict.STABLE)
+    return replaced(judged, asked[moved[good]], again, good) if good.size else judged
+
+
+def _some(orbit: Orbit, rows: Array) -> Orbit:
+    """Return smooth motions of some of the drives."""
     part = orbit.turning.part(rows)
     own = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])[rows]
-    some = Orbit(
+    return Orbit(
         model=part.model, speed=part.speed, period=part.period, coefficient=own, force=np.ravel(orbit.force)[rows]
     )
-    again = floquet(stable_motions(some, np.ravel(status)[rows])[0])
-    good = np.flatnonzero(again.verdict == Verdict.STABLE)
-    return replaced(judged, rows[good], again, good) if good.size else judged
 
 
 def _alone(orbit: Orbit, row: int) -> Orbit:
