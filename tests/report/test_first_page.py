@@ -11,6 +11,7 @@ from cardan.answers.reader import USUAL
 from cardan.io import example
 from cardan.report.block import Points, Table, Words, key_figures, row, untold
 from cardan.report.content import content
+from tests.builders.reports import content_of
 from tests.report.first_page import key_rows
 
 
@@ -80,7 +81,7 @@ def sentences(block):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["truck-duty-cycle", "pickup-two-piece", "pto-drive", "mill-spindle"])
 def test_no_sentence_stands_twice_in_the_report(name):
-    found = content(example(name))
+    found = content_of(name)
     first = [*found.warnings, found.lights, found.remedies, found.figures, found.changes]
     said = [text for block in first for text in sentences(block)]
     said += [text for page in found.pages for block in page.blocks for text in sentences(block)]

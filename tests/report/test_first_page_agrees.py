@@ -9,14 +9,14 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.io.examples import example_names
 from cardan.report.block import key_figures
-from cardan.report.content import content
+from tests.builders.reports import content_of
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", example_names())
 def test_the_first_page_tells_what_its_chapters_tell(name):
     drive = example(name)
-    pages = content(drive).pages
+    pages = content_of(name).pages
     every = defaultdict(list)
     for page in pages:
         for key in page.keys:
@@ -41,9 +41,7 @@ def test_the_first_page_tells_what_its_chapters_tell(name):
 def test_the_angle_error_of_a_perfect_drive_is_not_that_of_its_joints_as_made():
     """Both stand on the first page: how the output runs by design, and what errors and tolerances add."""
     titles = {
-        told(key.called, USUAL): key.value.value
-        for page in content(example("instrument-joint")).pages
-        for key in page.keys
+        told(key.called, USUAL): key.value.value for page in content_of("instrument-joint").pages for key in page.keys
     }
     design = titles["angle error of the output, ±"]
     made = titles["angle error of the output by the joints as made, root of squares"]

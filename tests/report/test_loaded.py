@@ -27,8 +27,9 @@ from cardan.report.answers import answered, subject
 from cardan.report.content import content
 from cardan.report.report import page
 from cardan.units import arcmin
+from tests.builders.reports import page_of
 
-from .test_report import of_example, parsed
+from .test_report import parsed
 
 WITH = {
     "truck-supports": {"mobility", "forces", "losses", "bending", "line", "balance"},
@@ -83,13 +84,13 @@ def words(drive):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", example_names())
 def test_each_part_stands_only_where_the_file_asks_for_it(name):
-    assert PARTS & set(parsed(of_example(name)).ids) == WITH.get(name, set())
+    assert PARTS & set(parsed(page_of(name)).ids) == WITH.get(name, set())
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", WITH)
 def test_every_check_passes(name):
-    text = of_example(name)
+    text = page_of(name)
     tables = re.findall(r"<h3>Self-checks</h3>(.*?)</table>", text, flags=re.DOTALL)
     said = re.findall(r">([^<>]*[Cc]hecked: [^<>]*)<", text)
     unsolved = {"balance", "assembly"} if "no misalignment can load it" in text else {"balance"}

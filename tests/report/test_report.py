@@ -3,7 +3,6 @@
 import dataclasses
 import re
 import sys
-from functools import cache
 from html.parser import HTMLParser
 
 import pytest
@@ -21,6 +20,7 @@ from cardan.report.content import content, moved, phased
 from cardan.report.report import page, report
 from cardan.report.subject import Subject
 from cardan.units import deg
+from tests.builders.reports import content_of, page_of
 from tests.report.first_page import key_rows
 
 VOID = {"meta", "br", "link", "img", "hr", "input"}
@@ -72,16 +72,10 @@ def proof(on: Subject) -> str:
     return " ".join(map(shown, yokes.proof(on.drive, on.phasing)))
 
 
-@cache
-def of_example(name: str) -> str:
-    """Return the report of an example, made once for all tests."""
-    return page(example(name), source_text=example_text(name), full=True)
-
-
 @pytest.mark.parametrize("name", example_names())
 def test_the_report_of_every_example_is_whole(name):
     drive, source = example(name), example_text(name)
-    seen = parsed(of_example(name))
+    seen = parsed(page_of(name))
     words = "".join(seen.words)
     assert len(seen.ids) == len(set(seen.ids))
     assert {link.removeprefix("#") for link in seen.links} <= set(seen.ids)
@@ -95,7 +89,7 @@ def test_the_report_of_every_example_is_whole(name):
 
 @pytest.mark.parametrize("name", ["pto-hitch", "six-joints"])
 def test_nothing_is_fetched(name):
-    text = of_example(name)
+    text = page_of(name)
     addresses = set(re.findall(r"https?://[^\s\"'<>]+", text))
     assert addresses <= {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"}
     assert not re.search(r"(?:src|href)=\"(?!#)", text)
@@ -104,7 +98,7 @@ def test_nothing_is_fetched(name):
 
 
 def test_the_truck_says_what_is_wrong_and_what_helps():
-    words = "".join(parsed(of_example("truck-printed-angles")).words)
+    words = "".join(parsed(page_of("truck-printed-angles")).words)
     assert "12.51" in words
     assert "20.049" in words
     assert "with its yokes re-phased it is exactly uniform" in words
@@ -323,14 +317,14 @@ def test_what_few_ask_for_stands_in_the_appendix_and_only_where_asked():
     ]
     told = "".join(parsed(page(drive, source_text=text)).words)
     assert not re.search("Appendix|classical|Poincaré|Möbius map|format = 1", told)
-    words = "".join(parsed(of_example("two-piece-rear-drive")).words)
+    words = "".join(parsed(page_of("two-piece-rear-drive")).words)
     assert words.index("Poincaré") < words.index("Appendix") < words.index("format = 1")
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["two-piece-rear-drive", "truck-duty-cycle", "pto-hitch", "single-20deg"])
 def test_no_number_of_the_limits_is_told_again_by_the_key_figures(name):
-    said = content(example(name))
+    said = content_of(name)
     assert isinstance(said.lights, Table)
     limits = {(row[1].full, row[2].text) for row in said.lights.rows}
     assert limits

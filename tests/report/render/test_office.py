@@ -7,9 +7,8 @@ import subprocess
 import openpyxl
 import pytest
 
-from cardan.io import example
-from cardan.report.content import content
 from cardan.report.render.workbook import written
+from tests.builders.reports import content_of
 
 OFFICE = shutil.which("soffice") or shutil.which("libreoffice")
 
@@ -36,7 +35,7 @@ def numbers(sheet) -> dict[str, float]:
 
 @pytest.mark.parametrize("name", ["pickup-two-piece", "pto-drive", "mill-spindle"])
 def test_libreoffice_reads_every_sheet_number_and_chart(name, tmp_path):
-    book = written(content(example(name)))
+    book = written(content_of(name))
     ours, theirs = (openpyxl.load_workbook(io.BytesIO(one)) for one in (book, saved_again(book, tmp_path)))
     assert theirs.sheetnames == ours.sheetnames
     for own, read in zip(ours.worksheets, theirs.worksheets, strict=True):
@@ -46,6 +45,6 @@ def test_libreoffice_reads_every_sheet_number_and_chart(name, tmp_path):
 
 
 def test_a_broken_workbook_is_not_read(tmp_path):
-    book = written(content(example("single-20deg")))
+    book = written(content_of("single-20deg"))
     with pytest.raises(FileNotFoundError):
         saved_again(book[: len(book) // 2], tmp_path)

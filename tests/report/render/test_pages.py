@@ -13,6 +13,7 @@ from cardan.report.block import Picture, Table
 from cardan.report.content import content
 from cardan.report.render import typeset
 from cardan.texts import speaking
+from tests.builders.reports import content_of
 
 TWO_PIECE = ("car-propshaft", "truck-supports", "truck-duty-cycle", "pickup-two-piece")
 
@@ -25,16 +26,10 @@ CODES = ("en", "ru")
 
 
 @cache
-def said(name, code="en"):
-    with speaking(code):
-        return content(example(name))
-
-
-@cache
 def sheets(name, code):
     """Return pictures of the pages of a report."""
     with speaking(code):
-        made = typeset.compiler(typeset.as_data(said(name, code)))
+        made = typeset.compiler(typeset.as_data(content_of(name, language=code)))
     return made.compile(format="png", ppi=PPI)
 
 
@@ -70,7 +65,7 @@ def test_no_page_is_a_third_empty(name, code):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", TWO_PIECE)
 def test_no_column_of_a_table_holds_nothing(name):
-    tables = [one for page in said(name).pages for one in page.blocks if isinstance(one, Table) and one.rows]
+    tables = [one for page in content_of(name).pages for one in page.blocks if isinstance(one, Table) and one.rows]
     empty = [
         (one.title, column.heading)
         for one in tables
@@ -85,7 +80,7 @@ def test_what_a_report_leaves_out_stands_behind_full():
     on = subject(example("truck-supports"))
     pages = {page.name: page for page in content(on.drive, full=True).pages}
     for name in ("motion", "phasing", "forces", "losses", "bending", "line", "balance", "strength", "check"):
-        short = next(page for page in said("truck-supports").pages if page.name == name)
+        short = next(page for page in content_of("truck-supports").pages if page.name == name)
         figures, every, whole = (
             [one.figure.name for one in page.blocks if isinstance(one, Picture)]
             for page in (short, pages[name], answered(name, on))

@@ -12,12 +12,13 @@ import pytest
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, MissingExtraError
 from cardan.figures.figure import Figure
-from cardan.io import example, example_text
+from cardan.io import example
 from cardan.report.block import Cell, Column, Listing, Page, Picture, Points, Table, Words
 from cardan.report.content import Content, content
 from cardan.report.render import html, renderer, typeset
 from cardan.report.report import report
 from cardan.texts import speaking
+from tests.builders.reports import content_of
 
 NAMES = ("pto-hitch", "tracta-steered-axle")
 
@@ -78,7 +79,7 @@ def without_pictures(said: Content) -> Content:
 
 @cache
 def of_example(name: str) -> Content:
-    return without_pictures(content(example(name), source_text=example_text(name), full=True))
+    return without_pictures(content_of(name, full=True))
 
 
 @cache

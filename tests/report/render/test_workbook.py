@@ -31,6 +31,7 @@ from cardan.report.render import sheet as paper
 from cardan.report.render.sheet import headed
 from cardan.report.render.workbook import written
 from cardan.units import deg
+from tests.builders.reports import content_of
 
 NAMES = ["car-propshaft", "pto-hitch", "tracta-steered-axle"]
 """Many pages with bars and curves; movements; joints with laws of their own."""
@@ -62,9 +63,8 @@ def small_pictures() -> Iterator[None]:
         yield
 
 
-@cache
 def said(name: str) -> Content:
-    return content(example(name), source_text=example_text(name), full=True)
+    return content_of(name, full=True)
 
 
 @cache
