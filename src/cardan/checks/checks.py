@@ -28,7 +28,7 @@ from .angles import (
 from .audit import answers_agree
 from .check import Check
 from .design import Design, design
-from .moving import happening, stood, stopped, worst_of_poses
+from .moving import happening, instant, stood, stopped, worst_of_poses
 from .practice import layout, length, lubrication, part_accuracy, plunge, pto_type, runout, spline_overlap
 from .speeds import (
     balance,
@@ -175,19 +175,33 @@ def check(
     unknown = [name for name in only if name not in CHECKS]
     refuse_all(Problem("only", _unknown(name)) for name in unknown)
     subject = design(drive, duty, vary=vary, known=known)
-    (_said, drawn), *poses = _everywhere(subject, only)
-    return worst_of_poses(drawn, poses)
+    drawn, *others = _everywhere(subject, only)
+    return worst_of_poses(drawn[1], [(said, verdicts) for said, verdicts, _time in others])
 
 
-def passes(drive: Drive, name: str, title: str, *, known: Catalogue | None = None) -> bool:
+def passes(
+    drive: Drive, name: str, title: str, *, known: Catalogue | None = None, last: dict[str, float] | None = None
+) -> bool:
     """Return whether the verdict of a check that has a title is reached and passes, as `check` tells it.
 
+    last [s]: title of a verdict -> instant of the movements at which it failed last. It is looked at first, before the
+    worst one is sought, and kept for the drive that is tried next.
     Poses and movements are looked at only where it passes as drawn; so this is quicker where many drives are tried.
     """
     subject = design(drive, known=known)
+    failed_at = {} if last is None else last
+
+    def fails(verdicts: Sequence[Verdict]) -> bool:
+        return any(one.title == title and one.run and one.utilisation > FAR for one in verdicts)
+
+    before = instant(subject, failed_at[title]) if title in failed_at and _moved([name]) else ()
+    if any(fails(_judged(one, [name])) for one in before):
+        return False
     found: list[tuple[Text, Sequence[Verdict]]] = []
-    for said, verdicts in _everywhere(subject, [name]):
-        if any(one.title == title and one.run and one.utilisation > FAR for one in verdicts):
+    for said, verdicts, time in _everywhere(subject, [name]):
+        if fails(verdicts):
+            if time is not None:
+                failed_at[title] = time
             return False
         found.append((said, verdicts))
     (_said, drawn), *poses = found
@@ -195,17 +209,22 @@ def passes(drive: Drive, name: str, title: str, *, known: Catalogue | None = Non
     return worst is not None and bool(worst.passed)
 
 
-def _everywhere(subject: Design, only: Sequence[str]) -> Iterator[tuple[Text, Sequence[Verdict]]]:
-    """Yield the verdicts as drawn, in every pose and event and at the worst instants of movements, and which it is."""
-    yield "", _judged(subject, only)
+def _moved(only: Sequence[str]) -> list[str]:
+    """Return the checks that are looked at at the worst instants of movements."""
+    return [name for name in only or CHECKS if CHECKS[name].gathers == "worst" and CHECKS[name].instants]
+
+
+def _everywhere(subject: Design, only: Sequence[str]) -> Iterator[tuple[Text, Sequence[Verdict], float | None]]:
+    """Yield verdicts as drawn, in poses, events and at the worst instants of movements, which it is and when [s]."""
+    yield "", _judged(subject, only), None
     each = [name for name in only or CHECKS if CHECKS[name].gathers == "worst"]
-    moved = [name for name in each if CHECKS[name].instants]
+    moved = _moved(only)
     lines = [name for name in moved if CHECKS[name].slides]
     loads = [name for name in moved if name not in lines]
     if each:
-        yield from ((said, _judged(one, each)) for said, one in stood(subject))
+        yield from ((said, _judged(one, each), None) for said, one in stood(subject))
     if sudden := [name for name in each if CHECKS[name].events]:
-        yield from ((said, _judged(one, sudden)) for said, one in happening(subject))
+        yield from ((said, _judged(one, sudden), None) for said, one in happening(subject))
     if loads:
         yield from stopped(subject, lambda one: _judged(one, loads))
     if lines:

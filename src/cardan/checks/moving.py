@@ -90,37 +90,52 @@ def happening(design: Design) -> list[tuple[Text, Design]]:
 
 def stopped(
     design: Design, judge: Callable[[Design], Sequence[Verdict]], *, slides: bool = False
-) -> Iterator[tuple[Text, Sequence[Verdict]]]:
-    """Yield the verdicts on a design, as drawn and in every pose, where its movements make them worst.
+) -> Iterator[tuple[Text, Sequence[Verdict], float | None]]:
+    """Yield the verdicts on a design, as drawn and in every pose, where its movements make them worst, and when [s].
 
     judge: by what the joint angles, planes and lengths of an instant decide.
     slides: at the instants, too, at which a shaft is longest or shortest, where the modes of a line may change places.
     Of one drive at the instants at which a verdict uses most of its limit, found over the whole movement; of many that
-    of each of them.
+    of each of them, without when.
     """
     for pose, one in (("", design), *stood(design)):
         if one.varied and one.drive.movements:
-            yield Joined([pose, _("while the drive moves")]), _worst_of_instants(one, judge)
+            yield Joined([pose, _("while the drive moves")]), _worst_of_instants(one, judge), None
         else:
-            yield from ((Joined([pose, said]), judge(still)) for said, still in _stops(one, judge, slides=slides))
+            for time, here in _stops(one, judge, slides=slides):
+                yield Joined([pose, _at(time)]), judge(here), time
 
 
 def stops(design: Design, judge: Callable[[Design], Sequence[Verdict]]) -> Iterator[tuple[Text, Design]]:
     """Yield the instants at which `stopped` looks at one drive, and the design that stands still there."""
     for pose, one in (("", design), *stood(design)):
-        yield from ((Joined([pose, said]), here) for said, here in _stops(one, judge, slides=False))
+        yield from ((Joined([pose, _at(time)]), here) for time, here in _stops(one, judge, slides=False))
+
+
+def instant(design: Design, time: float) -> list[Design]:
+    """Return one drive as drawn and in every pose as it stands at an instant of its movements [s]."""
+    return [_still(one, time) for one in (design, *(one for _said, one in stood(design))) if one.drive.movements]
+
+
+def _at(time: float) -> Text:
+    """Return when a moving drive is looked at."""
+    return say(_("while the drive moves, at {time}"), time=Quantity(time, "time", 3, trim=True))
+
+
+def _still(design: Design, time: float) -> Design:
+    """Return a design that stands as it does at an instant [s]."""
+    here = still(design.drive, time)
+    return replace(design, drive=here, duty=here.duty, drawn=design.drawn or design)
 
 
 def _stops(
     design: Design, judge: Callable[[Design], Sequence[Verdict]], *, slides: bool
-) -> Iterator[tuple[Text, Design]]:
-    """Yield the instants of the movements of one drive at which verdicts use most of their limits, as `stops` does."""
+) -> Iterator[tuple[float, Design]]:
+    """Yield the instants [s] of the movements of one drive at which verdicts use most of their limits, as `stops`."""
     if not design.drive.movements:
         return
     for time in worst_instants(design.drive, _course(design, judge, slides=slides), rounds=1):
-        here = still(design.drive, time)
-        at = say(_("while the drive moves, at {time}"), time=Quantity(time, "time", 3, trim=True))
-        yield at, replace(design, drive=here, duty=here.duty, drawn=design.drawn or design)
+        yield time, _still(design, time)
 
 
 def _course(design: Design, judge: Callable[[Design], Sequence[Verdict]], *, slides: bool) -> Callable[[Array], Array]:

@@ -307,20 +307,25 @@ SIZE_STEP = 0.25
 
 def of_check(drive: Drive, name: str, failed: Sequence[Verdict], known: Catalogue) -> Iterator[Remedy]:
     """Yield the remedies of the failed verdicts of one check: for each design variable that with the smaller change."""
+    last: dict[str, float] = {}
     design_variables = list(
         design_variables_of(drive, dict.fromkeys(path for one in failed for path in one.design_variables), known)
     )
     for verdict, design_variable, values in _found(drive, name, failed, design_variables, known):
         remedy = min(
-            (one for value in values if (one := _rounded(drive, verdict, design_variable, value, known)) is not None),
+            (
+                one
+                for value in values
+                if (one := _rounded(drive, verdict, design_variable, value, known, last)) is not None
+            ),
             key=lambda one: one.change,
             default=None,
         )
         if remedy is not None:
             yield remedy
     for verdict in failed:
-        yield from _by_size(drive, verdict, known)
-        yield from _by_grade(drive, verdict, known)
+        yield from _by_size(drive, verdict, known, last)
+        yield from _by_grade(drive, verdict, known, last)
 
 
 def _found(
@@ -398,14 +403,19 @@ def _trial(
 
 
 def _rounded(
-    drive: Drive, verdict: Verdict, design_variable: DesignVariable, value: float, known: Catalogue
+    drive: Drive,
+    verdict: Verdict,
+    design_variable: DesignVariable,
+    value: float,
+    known: Catalogue,
+    last: dict[str, float],
 ) -> Remedy | None:
-    """Return the remedy by the first round figure with which the check really passes."""
+    """Return the remedy by the first round figure with which the check really passes; last: as of `passes`."""
 
     def helps(shown: float) -> bool:
         try:
             other = with_values(drive, {design_variable.path: shown})
-            return passes(other, verdict.check, verdict.title, known=known)
+            return passes(other, verdict.check, verdict.title, known=known, last=last)
         except InputError:
             return False
 
@@ -442,7 +452,7 @@ def _strong(strength: float, known: Catalogue) -> str:
     return min(strong, key=lambda row: row.yield_strength or 0.0).id if strong else ""
 
 
-def _by_grade(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Remedy]:
+def _by_grade(drive: Drive, verdict: Verdict, known: Catalogue, last: dict[str, float]) -> Iterator[Remedy]:
     """Yield the weakest grade with which a verdict passes, of those for such parts if there is one."""
     for bare in verdict.design_variables:
         path, _dot, name = bare.rpartition(".")
@@ -457,15 +467,19 @@ def _by_grade(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Reme
         strongest = max(
             others, key=lambda row: (row.yield_strength or 0.0) + (row.ultimate_strength or 0.0), default=None
         )
-        if strongest is not None and _helps(verdict, made, strongest, known):
-            yield from _replaced(verdict, f"{path}.grade", here, others, made, known)
+        if strongest is not None and _helps(verdict, made, strongest, known, last):
+            yield from _replaced(verdict, f"{path}.grade", here, others, made, known, last)
 
 
 def _graded(drive: Drive, path: str, known: Catalogue, row: Grade) -> Drive:
     return made_of(drive, path, row.id, known)
 
 
-def _by_size(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Remedy]:
+def _sized(drive: Drive, i: int, known: Catalogue, row: JointSize) -> Drive:
+    return sized(drive, i, row.id, known)
+
+
+def _by_size(drive: Drive, verdict: Verdict, known: Catalogue, last: dict[str, float]) -> Iterator[Remedy]:
     """Yield the next larger size of a joint with which a verdict on it passes."""
     match = re.fullmatch(r"joints\[(\d+)\]", verdict.subject)
     if match is None:
@@ -478,7 +492,8 @@ def _by_size(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Remed
         return
     larger = [row for row in known.offered(here.id) if row.type == here.type and _bulk(row) > _bulk(here)]
     better = sorted(larger, key=_bulk)
-    yield from _replaced(verdict, f"joints[{i}].size", here, better, lambda row: sized(drive, i, row.id, known), known)
+    made = partial(_sized, drive, i, known)
+    yield from _replaced(verdict, f"joints[{i}].size", here, better, made, known, last)
 
 
 def _replaced(
@@ -488,10 +503,11 @@ def _replaced(
     rows: Sequence[Any],
     changed: Callable[[Any], Drive],
     known: Catalogue,
+    last: dict[str, float],
 ) -> Iterator[Remedy]:
     """Yield the first of better rows of the catalogue in place of the one here with which a verdict passes."""
     for steps, row in enumerate(rows, start=1):
-        if _helps(verdict, changed, row, known):
+        if _helps(verdict, changed, row, known, last):
             yield Remedy(
                 check=verdict.check,
                 subject=verdict.subject,
@@ -505,10 +521,12 @@ def _replaced(
             return
 
 
-def _helps(verdict: Verdict, changed: Callable[[Any], Drive], row: Grade | JointSize, known: Catalogue) -> bool:
-    """Return whether a verdict passes with a row of the catalogue."""
+def _helps(
+    verdict: Verdict, changed: Callable[[Any], Drive], row: Grade | JointSize, known: Catalogue, last: dict[str, float]
+) -> bool:
+    """Return whether a verdict passes with a row of the catalogue; last: as of `passes`."""
     try:
-        return passes(changed(row), verdict.check, verdict.title, known=known)
+        return passes(changed(row), verdict.check, verdict.title, known=known, last=last)
     except InputError:
         return False
 

@@ -84,7 +84,8 @@ class Asked:
         found = tuple(check.verdicts(self.here))
         if moving:
             moves = replace(self.design, drive=replace(self.design.drive, poses=()))
-            found = worst_of_poses(found, list(stopped(moves, lambda one: tuple(check.verdicts(one)))))
+            there = stopped(moves, lambda one: tuple(check.verdicts(one)))
+            found = worst_of_poses(found, [(said, verdicts) for said, verdicts, _time in there])
         return [one for one in found if one.run]
 
     @property
