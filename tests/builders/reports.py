@@ -11,9 +11,14 @@ from cardan.report.render.html import text
 from cardan.texts import speaking
 
 
-@cache
 def content_of(name: str, *, full: bool = False, language: str = "en") -> Content:
     """Return what the report of an example says, with its file where it is full."""
+    return _content(name, full, language)
+
+
+@cache
+def _content(name: str, full: bool, language: str) -> Content:
+    """Return the same, kept by what was asked however it was asked."""
     with speaking(language):
         return content(example(name), source_text=example_text(name) if full else None, full=full)
 

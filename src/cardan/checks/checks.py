@@ -184,9 +184,9 @@ def passes(
 ) -> bool:
     """Return whether the verdict of a check that has a title is reached and passes, as `check` tells it.
 
-    last [s]: title of a verdict -> instant of the movements at which it failed last. It is looked at first, before the
-    worst one is sought, and kept for the drive that is tried next.
-    Poses and movements are looked at only where it passes as drawn; so this is quicker where many drives are tried.
+    last [s]: title of a verdict -> instant of the movements at which it failed last. It is looked at first of all, and
+    kept for the drive that is tried next.
+    Poses and movements are followed only where it passes there and as drawn: quicker where many drives are tried.
     """
     subject = design(drive, known=known)
     failed_at = {} if last is None else last

@@ -30,7 +30,7 @@ from cardan.questions.torsion.steady.run_stability import (
     straight_damping,
     vibrating,
 )
-from cardan.questions.torsion.steady.several import middle_ones, settled_judgement
+from cardan.questions.torsion.steady.several import LOOKED, middle_ones, settled_judgement
 from cardan.questions.torsion.steady.steady import closed, stays_closed, steady_orbits
 from cardan.texts import _
 
@@ -248,7 +248,7 @@ def _inside(drive: _Drive, ranges: Array, sense: float) -> tuple[Array, Floquet 
     """Return places within ranges of speed (k, 2) and how stable running is there, None where there is no range.
 
     Where a motion that grows may be the middle one of three, a stable one is sought beside it: at the place of a range
-    that grows fastest, and at the next one as long as one is found.
+    that grows fastest, and at the next one as long as one is found, `LOOKED` in all.
     """
     low, high = ranges.T
     inner = low[:, None] + (high - low)[:, None] * (np.arange(INNER) + 0.5) / INNER
@@ -257,10 +257,12 @@ def _inside(drive: _Drive, ranges: Array, sense: float) -> tuple[Array, Floquet 
         return inner, None
     mapped = floquet_map(drive.model(flat), speed=flat, opened=NO_SEARCH)
     found, middle = mapped.floquet, middle_ones(mapped.orbit, mapped.floquet)
+    looked = 0
     while True:
         rows = np.arange(len(inner)) * INNER + np.argmax(_growth(found, inner), axis=-1)
         asked = rows[middle[rows]]
-        if not asked.size:
+        looked += asked.size
+        if not asked.size or looked > LOOKED:
             return inner, found
         middle[asked] = False
         found = settled_judgement(mapped.orbit, mapped.status, found, asked)

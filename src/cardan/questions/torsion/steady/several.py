@@ -30,6 +30,9 @@ PHASES = 8
 LOOKED = 100
 """Motions that may be middle ones are looked at by themselves, up to so many."""
 
+FEW = 16
+"""Motions of so many speeds are kept: one with open play takes 60 kB."""
+
 ASIDE, WAY = 0.02, 25
 """Share of the speed from which motions of free drives are followed, and in how many steps."""
 
@@ -103,18 +106,19 @@ def several_looked_for(model: TorsionalModel) -> bool:
     return bool(np.any(model.backlash > 0.0)) or model.special
 
 
-def _whole(found: tuple[Orbit, Array, tuple[Beside, ...]]) -> bool:
-    """Tell whether motions were not cancelled."""
-    return not np.any(found[1] == Status.CANCELLED)
+def _kept(found: tuple[Orbit, Array, tuple[Beside, ...]]) -> bool:
+    """Tell whether motions are few and were not cancelled."""
+    return np.size(found[1]) <= FEW and not np.any(found[1] == Status.CANCELLED)
 
 
-@remembered(64, whole=_whole)  # drives of many joint sizes share few torsional models, and a model takes a second
+@remembered(64, whole=_kept)  # drives of many joint sizes share few torsional models, and a model takes a second
 def told_motions(
     model: TorsionalModel, speeds: Array, *, progress: Progress | None = None
 ) -> tuple[Orbit, Array, tuple[Beside, ...]]:
-    """Return the motions that are told at speeds (s,) or one [rad/s], as `stable_motions`; kept for whoever asks next.
+    """Return the motions that are told at speeds (s,) [rad/s], as `stable_motions`; few are kept for whoever asks next.
 
-    progress: told the share done; when it answers "stop", the speeds not yet done are left out as cancelled.
+    progress: told the share done of what was not kept; when it answers "stop", the speeds not yet done are left out as
+    cancelled.
     """
     return stable_motions(*steady_orbits(model, speed=speeds, progress=progress))
 
