@@ -42,7 +42,7 @@ def test_the_last_answers_are_kept() -> None:
 def test_what_was_cut_short_is_asked_again() -> None:
     asked = []
 
-    @remembered(2, whole=lambda found: found >= 0.0)
+    @remembered(2, keep=lambda found: found >= 0.0)
     def told(value: float, stop: bool = False) -> float:
         asked.append(stop)
         return -1.0 if stop else value

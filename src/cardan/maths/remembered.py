@@ -32,11 +32,11 @@ def content(value: Any) -> Hashable:
 
 
 def remembered(
-    most: int, *, whole: Callable[[Any], bool] = lambda found: True
+    most: int, *, keep: Callable[[Any], bool] = lambda found: True
 ) -> Callable[[Callable[Asked, Found]], Callable[Asked, Found]]:
     """Return a decorator that keeps the last answers of a function, for equal positional arguments.
 
-    most: answers that are kept. whole: whether an answer may be kept. Keyword arguments do not count: no answer may
+    most: answers that are kept. keep: whether an answer may be kept. Keyword arguments do not count: no answer may
     depend on them.
 
     >>> @remembered(2)
@@ -60,7 +60,7 @@ def remembered(
                     kept.move_to_end(key)
                     return kept[key]
             found = function(*what, **how)
-            if whole(found):
+            if keep(found):
                 with lock:
                     kept[key] = found
                     while len(kept) > most:

@@ -327,8 +327,10 @@ def _added(pair: Pair, gain: Gain, system: Constraints) -> Array:
     return tilts if gain in ("align", "link") else np.concatenate((tilts, slide))
 
 
-def _rank(work: Array) -> int:
-    return int(np.sum(np.linalg.svd(work, compute_uv=False) > TAKES_PART)) if work.size else 0
+def _rank(work: Array) -> Array:
+    """Return how many freedoms do work apart from each other, of tables (..., freedoms, q), array (...) of int."""
+    found: Array = np.sum(np.linalg.svd(work, compute_uv=False) > TAKES_PART, axis=-1)
+    return found
 
 
 def _search(options: Sequence[_Option], redundant: int, most: int) -> list[tuple[float, tuple[int, ...]]]:
@@ -366,8 +368,7 @@ def _sound(options: Sequence[_Option], chosen: tuple[int, ...], others: Sequence
     for size in {options[k].change.freedoms for k in others}:
         alike = [k for k in others if options[k].change.freedoms == size]
         work = np.stack([np.concatenate((own, options[k].work)) for k in alike])
-        rank = np.sum(np.linalg.svd(work, compute_uv=False) > TAKES_PART, axis=-1)
-        found += [k for k, one in zip(alike, rank.tolist(), strict=True) if one == len(own) + size]
+        found += [k for k, rank in zip(alike, _rank(work), strict=True) if rank == len(own) + size]
     return sorted(found)
 
 

@@ -111,7 +111,7 @@ def _kept(found: tuple[Orbit, Array, tuple[Beside, ...]]) -> bool:
     return np.size(found[1]) <= FEW and not np.any(found[1] == Status.CANCELLED)
 
 
-@remembered(64, whole=_kept)  # drives of many joint sizes share few torsional models, and a model takes a second
+@remembered(64, keep=_kept)  # drives of many joint sizes share few torsional models, and a model takes a second
 def told_motions(
     model: TorsionalModel, speeds: Array, *, progress: Progress | None = None
 ) -> tuple[Orbit, Array, tuple[Beside, ...]]:
