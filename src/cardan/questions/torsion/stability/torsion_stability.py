@@ -201,20 +201,23 @@ def stability(
     parts: list[dict[str, Array]] = []
     stopped = False
     size = CHUNK if len(variants.others) < 2 else FEW
+    order = variants.order(shape)
     for first in range(0, count, size):
-        rows = np.arange(first, min(first + size, count))
+        rows = order[first : first + size]
+        last = first + len(rows)
         if stopped:
             parts.append(_unknown(parts[0], len(rows)))
             continue
         share = PROVING if variants.speeding is not None else 1.0
-        told = within(progress, share * first / count, share * (int(rows[-1]) + 1) / count)
+        told = within(progress, share * first / count, share * last / count)
         at = variants.at(np.unravel_index(rows, shape) if shape else (), len(rows))
         part, stopped = _judged(*at, told, () if axes else variants.loose, alone=count <= TOLD)
         parts.append(part)
         if progress is not None and not stopped:
-            stopped = progress(share * (int(rows[-1]) + 1) / count) == "stop" and int(rows[-1]) + 1 < count
+            stopped = progress(share * last / count) == "stop" and last < count
     proof = variants.proof(within(progress, PROVING, 1.0)) if not stopped else None
-    found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    back = np.argsort(order)
+    found = {name: np.concatenate([part[name] for part in parts])[back] for name in parts[0]}
     found = {name: values.reshape((*shape, *values.shape[1:])) for name, values in found.items()}
     zone = Zone(**{name.removeprefix("zone_"): found.pop(name) for name in list(found) if name.startswith("zone_")})
     known = not axes and int(found["verdict"]) != Verdict.UNKNOWN
@@ -466,6 +469,11 @@ class _Variants:
             return None
         work = LITTLE if self.others else WORK
         return _proved(self.drive, (low, high), self.train, self.pieces, work, progress)
+
+    def order(self, shape: tuple[int, ...]) -> Array:
+        """Return the points of a map in the order they are asked in: every drive at all its speeds, then the next."""
+        every = np.arange(int(np.prod(shape, dtype=int))).reshape(shape)
+        return every.reshape(-1) if self.speeding is None else np.moveaxis(every, self.speeding, -1).reshape(-1)
 
     def at(self, index: Sequence[Array], count: int) -> tuple[TorsionalModel, Array]:
         """Return the models (b,) and speeds (b,) of points by their places on the axes."""

@@ -50,6 +50,9 @@ FRUITLESS = 5_000
 """What each search by shooting may take at least after others found nothing, each of which halves what the next may;
 those that find something take some hundreds."""
 
+ROUNDING = 1e-15
+"""Angle [rad] below which one is rounding."""
+
 LOWER = 25
 """Harmonics kept of motions in pieces, beside the pieces themselves."""
 
@@ -334,7 +337,10 @@ def started(coefficient: Array, period: float) -> Array:
     for _round in range(50):
         wave = coefficient[:, 0] * np.exp(1j * scale * shift[:, None] * order)
         value, slope = np.sum(wave.real, axis=-1), -scale * np.sum(order * wave.imag, axis=-1)
-        shift = shift - (shift + value) / np.maximum(1.0 + slope, 0.2)
+        step = (shift + value) / np.maximum(1.0 + slope, 0.2)
+        shift = shift - step
+        if np.all(np.abs(step) <= ROUNDING):
+            break
     moved = coefficient * np.exp(1j * scale * shift[:, None, None] * order)
     moved[:, :, 0] += shift[:, None]
     return moved
