@@ -201,6 +201,7 @@ def test_the_report_tells_it(kind, where):
         assert "clever {thing}" in page
 
 
+@pytest.mark.slow
 @with_every_toy
 def test_it_stands_in_space(kind, where, cardan, drive_file):  # noqa: F811
     shown = scene(loads(file_of(kind, where)), frames=12)

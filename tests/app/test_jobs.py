@@ -129,6 +129,7 @@ def test_how_far_it_is_and_how_long_it_takes_yet(jobs):
     assert job.left is None
 
 
+@pytest.mark.slow
 def test_a_job_stops_when_it_is_asked_to(jobs):
     job = jobs.ask(question("slow"), "x")
     until(lambda: job.state == "running" and job.share > 0.0)
@@ -180,6 +181,7 @@ def test_a_worker_killed_while_it_waits_is_replaced(one):
     assert job.result[2] != pid
 
 
+@pytest.mark.slow
 def test_what_goes_wrong_is_told_and_the_worker_lives(one):
     before = ended(one.ask(question("echo", n="alive"), "x")).result[2]
     assert ended(one.ask(question("refused"), "x")).message == "joints[0]: is none"
@@ -223,6 +225,7 @@ def test_a_question_in_other_words_goes_where_the_answer_is_known_unless_that_on
     ended(busy)
 
 
+@pytest.mark.slow
 def test_another_unit_calculates_nothing_again(monkeypatch):
     made = []
     real = answers.gather

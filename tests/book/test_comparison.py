@@ -33,6 +33,7 @@ TRUCK = Drive.from_angles(
 )
 
 
+@pytest.mark.slow
 @given(plans())
 def test_blokh_is_exact_once_its_poles_are_gone(plan):
     exact, closed = motion(plan.drive, PHI), blokh(plan.drive, PHI)

@@ -47,6 +47,7 @@ def test_every_layout_that_is_told_is_held_just_enough_all_round(found):
         assert (set(around.mobility), set(around.redundant)) == ({1}, {0})
 
 
+@pytest.mark.slow
 def test_statics_agrees_that_the_forces_are_determinate(found):
     """Another formulation: unknown forces less equations of balance."""
     assert [assembly(one.drive).degree for one in found.best] == [0] * len(found.best)

@@ -109,6 +109,7 @@ def test_what_a_cure_solves_and_breaks_is_what_happens():
         assert set(remedy.breaks) == broken, remedy
 
 
+@pytest.mark.slow
 def test_a_joint_of_a_series_becomes_the_next_size_that_does():
     _drive, _verdicts, found = solved(car)
     sizes = [remedy for remedy in found if remedy.path == "joints[0].size"]
@@ -162,6 +163,7 @@ def test_what_fails_only_in_a_pose_while_moving_is_cured_where_one_key_can():
         assert after.state in ("passed", "close", "unconfirmed"), remedy
 
 
+@pytest.mark.slow
 def test_a_search_of_cures_tells_how_far_it_is_and_can_be_stopped():
     drive, verdicts, found = solved(plain)
     told = []

@@ -30,6 +30,7 @@ def plain(text):
     return " ".join(text.split())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", LOADED, ids=lambda path: path.stem)
 def test_every_loaded_example_is_answered_within_80_columns(cardan, path):
     done = cardan("forces", path)

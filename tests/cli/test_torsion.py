@@ -58,6 +58,7 @@ def rig(drive_file):
     return drive_file(RIG)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 def test_the_answer_stands_within_80_columns(cardan, rig, command):
     done = cardan("torsion", command[0], rig, *command[1:])
@@ -66,6 +67,7 @@ def test_the_answer_stands_within_80_columns(cardan, rig, command):
     assert "test rig" in done.out.splitlines()[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 def test_a_figure_is_drawn_and_every_table_is_csv(cardan, rig, tmp_path, command):
     done = cardan("torsion", command[0], rig, *command[1:], "--plot", "it.svg", "--csv")

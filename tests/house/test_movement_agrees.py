@@ -80,6 +80,7 @@ def _points(drive):
     return [drive.input.point, *(joint.centre for joint in drive.joints), drive.output.point]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DRIVES)
 def test_motion_articulation_checks_and_first_page_tell_the_same(name):
     drive = DRIVES[name]

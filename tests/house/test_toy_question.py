@@ -59,6 +59,7 @@ def test_it_stands_in_the_report():
     assert "length of the toy" in page
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("place", "stands"),
     [

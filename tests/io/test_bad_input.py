@@ -233,6 +233,7 @@ SCRAPS = [
 ]
 
 
+@pytest.mark.slow
 @given(st.sampled_from(example_names()), st.integers(0, 2**32), st.integers(1, 4))
 @settings(max_examples=150, deadline=None)
 def test_damaged_files_load_or_are_refused(name: str, seed: int, cuts: int) -> None:

@@ -121,6 +121,7 @@ def test_the_life_is_that_of_the_whole_movement(truth):
     assert lock < moving < 0.3 * drawn
 
 
+@pytest.mark.slow
 def test_the_joints_take_more_heat_over_the_movement_than_as_drawn(truth):
     drawn, _lock, moving = (watts(one[1]) for one in truth)
     found = losses(hitch())
@@ -144,6 +145,7 @@ def test_a_pose_at_the_lock_counts_by_its_share(truth):
     assert losses(drive).efficiency < 1.0 - 0.9 * watts(heat) / (TORQUE * SPEED)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["life", "losses"])
 def test_what_is_told_is_of_the_movement_and_says_so(name):
     drive, question = hitch(), QUESTIONS[name]

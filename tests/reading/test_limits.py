@@ -76,6 +76,7 @@ def test_json_that_is_too_deep_is_never_parsed() -> None:
     assert refused('{"a":' * 33, "json")["file"].startswith("33 levels")
 
 
+@pytest.mark.slow
 def test_tokens_are_read_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """The work for a text is one pass over it: as many tokens as it has marks, strings and comments, no more."""
     seen = []

@@ -151,6 +151,7 @@ def test_shared_forces_are_called_so():
     assert "share the forces" not in words(example("truck-supports"))
 
 
+@pytest.mark.slow
 def test_the_structure_tells_redundant_constraints_and_a_remedy():
     said = words(example("overconstrained-pump"))
     assert "Mobility 1, 3 redundant constraints (overconstrained)" in said
@@ -180,6 +181,7 @@ def test_parts_that_fit_strain_nothing():
     assert "How misalignment loads" not in text
 
 
+@pytest.mark.slow
 def test_stiffness_left_out_is_asked_for_by_name():
     drive = example("overconstrained-pump")
     rigid = tuple(replace(one, stiffness=None, axial_stiffness=None) for one in drive.supports)
@@ -266,6 +268,7 @@ def test_the_first_page_has_the_key_figures_of_forces_and_losses():
     assert "largest load of a journal, joint 2" in text
 
 
+@pytest.mark.slow
 def test_the_first_page_has_the_key_figures_of_accuracy_and_assembly():
     instrument = example("instrument-joint")
     most = tolerance(instrument).output.largest / arcmin
@@ -290,6 +293,7 @@ def test_what_does_not_turn_is_no_good_drive_on_the_first_page():
     assert 'class="judgement good"' in page(slow)
 
 
+@pytest.mark.slow
 def test_what_could_not_be_calculated_is_told_on_the_first_page():
     drive = example("truck-supports")
     assert "Forces not calculated" not in front(drive)

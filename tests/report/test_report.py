@@ -72,6 +72,7 @@ def proof(on: Subject) -> str:
     return " ".join(map(shown, yokes.proof(on.drive, on.phasing)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", example_names())
 def test_the_report_of_every_example_is_whole(name):
     drive, source = example(name), example_text(name)

@@ -82,6 +82,7 @@ def drawn(case, count=60):
     return drive, list(ranges), points
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES)
 def test_all_points_at_once_are_what_each_drive_made_anew_tells(case):
     drive, paths, points = drawn(case)
@@ -242,6 +243,7 @@ def test_every_question_that_has_a_number_has_a_column():
     assert without == {"classical", "absorber", "optimise", "layouts", "selection"}, others
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DRIVES)
 def test_questions_about_the_whole_drive_are_answered(name):
     drive = example(DRIVES[name])

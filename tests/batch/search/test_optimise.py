@@ -19,6 +19,7 @@ DIPS = Formula.of(
 HALF = Formula.of(["x"], {"z": lambda x: np.where(x > 0.5, (x - 0.6) ** 2, np.nan)})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", [Local(), Local(start=(1.0, -1.0)), Global()])
 @pytest.mark.parametrize("largest", [False, True])
 def test_the_end_of_a_diagonal_on_a_circle(method, largest):

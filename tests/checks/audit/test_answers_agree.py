@@ -135,6 +135,7 @@ def test_strength_that_leaves_the_torques_of_starts_out_contradicts_what_they_co
     assert {name.partition(":")[0] for name, *_rest in found} == {"largest torque of every shaft in starts and events"}
 
 
+@pytest.mark.slow
 def test_a_shaft_that_lasts_but_for_its_load_steps_is_no_contradiction():
     """What it bears as it runs is without end; the steps of its load tire it beside that."""
     drive = example("pto-flywheel")

@@ -71,6 +71,7 @@ def test_tubes_stand_where_they_weigh():
     assert (here.x[0], here.y[0]) == (found.now[2], 100 * found.now[3])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", ["tube:2", "joint"])
 def test_a_sized_part_is_drawn(part):
     found = size(DRIVE, None, part)

@@ -281,6 +281,7 @@ def test_events_load_a_drive_as_drawn_beside_its_poses() -> None:
     assert not [one for _name, stand in stood(design(drive)) for one in happening(stand)]
 
 
+@pytest.mark.slow
 def test_without_torque_events_and_vibration_load_a_drive_alone() -> None:
     """A clutch closes on a flywheel that nothing resists: its torque, its damage, and no times of none at all."""
     drive = tube(events=(replace(CLUTCH, torque=900.0),))
@@ -292,6 +293,7 @@ def test_without_torque_events_and_vibration_load_a_drive_alone() -> None:
     assert "times that without it" not in counted
 
 
+@pytest.mark.slow
 def test_starts_are_those_of_the_drive_as_drawn_and_running_that_of_all_poses() -> None:
     drive = tube(run_up=RunUp(end=540 * rpm, duration=2.0), starts=1000.0)
     pose = Pose(name="raised", set=(("joints[0].joint_angle_deg", 18.0),), share=0.3)

@@ -272,6 +272,7 @@ def test_a_torque_that_a_movement_turns_about_is_judged_along_it():
     assert 0.95 < verdict.value / (150.0 - min(lowest)) < 1.001
 
 
+@pytest.mark.slow
 def test_with_dry_friction_the_check_says_what_is_judged() -> None:
     """A speed held is judged by its motion, as `torsion stability` does; over a range nothing is proved."""
     part = ToNext(stiffness=2000.0, damping=0.5, friction=25.0)

@@ -54,6 +54,7 @@ def test_a_cross_as_a_mechanism_turns_as_hookes_joint(joint_angle):
         assert np.abs(one - other).max() < 1e-10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("joint_angle", "most"), [(80.0, 1e-11), (84.0, 1e-11), (88.0, 1e-10)])
 def test_a_cross_as_a_mechanism_turns_as_hookes_joint_near_where_it_locks(joint_angle, most):
     """Its law is sharp there: at 88° harmonics fade by 3 % from one even order to the next."""

@@ -28,6 +28,7 @@ def drive() -> Drive:
     return replace(bare, supports=held, duty=Duty(torque=150.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["shaft_torque", "bending_couple", "radial", "axial"])
 def test_extremes_and_means_are_those_of_dense_samples(name: str) -> None:
     coarse = over_turn(TURN, getattr(forces(drive(), angle=TURN), name))

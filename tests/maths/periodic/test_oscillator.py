@@ -33,6 +33,7 @@ def test_a_rising_frequency_agrees_with_direct_integration(omega, zeta, rate):
         np.testing.assert_allclose(other, wanted[1], atol=3e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("time", [3.0, 100.0, 1990.0, 2000.0, 2010.0, 2600.0])
 def test_slow_runs_neither_overflow_nor_lose_digits(time):
     """The printed form multiplies e^800 by a difference of error functions; erfc in 60 digits keeps it."""

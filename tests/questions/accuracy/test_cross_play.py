@@ -36,6 +36,7 @@ def errors(rng, scale=1.0):
     return [one() for _ in range(3)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("located", [(), (2,)])
 def test_loops_driven_to_closure_agree(located):
     rng = np.random.default_rng(3)

@@ -186,6 +186,7 @@ def test_tolerances_of_a_pair_and_of_another_joint_add():
     assert sum(row.share for row in rows) == pytest.approx(1.0, rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", [WorstCase(), Linear()])
 def test_what_is_allotted_leaves_room_for_pairs(way):
     """Their tolerances count as kept: with them the target is reached, at a place between those looked at here."""

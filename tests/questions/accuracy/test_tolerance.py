@@ -58,6 +58,7 @@ def test_the_worst_case_is_the_worst_of_all_corners(drive):
     assert band.peak_to_peak == pytest.approx(np.max(np.max(coarse, axis=-1) - np.min(coarse, axis=-1)), rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("law", "sigma"), [("normal", 1 / 3), ("uniform", 3**-0.5), ("triangular", 6**-0.5)])
 @pytest.mark.parametrize("points", ["sobol", "random"])
 def test_samples_of_small_errors_spread_as_the_linear_rule_says(law, sigma, points):

@@ -140,6 +140,7 @@ def test_the_speed_of_a_pose_counts_in_that_pose_only():
     assert any(one.alarm and "pose up" in told(one.text, USUAL) for one in told_all.remarks)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("share", [0.4, 0.55, 0.65, 0.75, 0.85, 1.0, 1.1, 1.5])
 @pytest.mark.parametrize("wear", [0.72, 0.9, 1.0])
 @pytest.mark.parametrize("own", [None, 1.3])

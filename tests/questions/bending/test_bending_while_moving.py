@@ -87,6 +87,7 @@ def test_the_question_and_the_check_tell_one_speed_and_one_instant():
     assert not [one for one in said.remarks if one.code == "outermost"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("share", [0.0, 0.4, 0.8])
 def test_a_speed_met_half_way_by_half_the_critical_speed_fails(share):
     """Half of it passes the speed held between drawn and longest, and both ends may keep clear of it."""

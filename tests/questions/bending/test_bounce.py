@@ -112,6 +112,7 @@ def test_the_bounce_is_that_of_elements_written_apart():
     assert found.part[0].kind == "support"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("share", "near", "half"),
     [(0.997, True, False), (0.79, False, False), (0.81, True, False), (1.19, True, False), (1.21, False, False),

@@ -71,6 +71,7 @@ def plain(joint_angle, phase, speed, spring, damper):
     return rate
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("joint_angle", "phase"), [(0.4, 0.6), (1.0, math.pi / 2)])
 def test_point_masses_and_another_integrator_give_the_same_motion(joint_angle, phase):
     end = 0.04

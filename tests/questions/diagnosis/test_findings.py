@@ -44,6 +44,7 @@ def test_drives_in_order_are_called_healthy(looked):
     assert first.count("healthy") >= len(first) - 1
 
 
+@pytest.mark.slow
 def test_scores_are_shares_and_never_certain(looked):
     for _cause, findings in looked:
         score = [one.score for one in findings]

@@ -37,6 +37,7 @@ def test_a_single_joint_needs_what_the_largest_acceleration_takes() -> None:
     assert found.load_needed == pytest.approx(float(wanted), rel=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [2, 4])
 def test_least_couples_and_openings_are_those_of_dense_samples(n: int) -> None:
     drive = one(trains(np.random.default_rng(n), n, (1,)), 0)

@@ -122,6 +122,7 @@ def test_couples_are_those_of_the_inner_mechanism(kind, torque):
     assert np.max(found.power_left) < 1e-12
 
 
+@pytest.mark.slow
 @each
 @pytest.mark.parametrize("torque", [300.0, -300.0])
 def test_forces_and_losses_count_the_same_friction(kind, torque):
@@ -132,6 +133,7 @@ def test_forces_and_losses_count_the_same_friction(kind, torque):
     assert np.max(lost.joint_power) > 0.0
 
 
+@pytest.mark.slow
 @each
 def test_all_balances_of_a_drive_close(kind):
     found = forces(loads(held(kind)))
@@ -197,6 +199,7 @@ def test_power_closes_while_the_drive_moves(kind):
     assert np.mean(found.loss[0]) == pytest.approx(np.mean(still.loss[0]), rel=0.1)  # it moves little, and slowly
 
 
+@pytest.mark.slow
 def test_heat_is_a_mean_over_the_whole_turn():
     """Within a joint of one's own nothing repeats after half a turn."""
     drive = example("thompson-drive")

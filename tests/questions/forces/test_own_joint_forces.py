@@ -85,6 +85,7 @@ PINS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("pins", "slides", "supports"), PINS)
 def test_a_cross_whose_pins_slide_carries_what_a_hooke_joint_does(pins, slides, supports):
     """It holds its shafts along its normal alone, or across one of its pins: no force along those that slide."""
@@ -152,6 +153,7 @@ def test_a_drive_carries_what_the_mechanism_of_it_carries(which):
         assert max(np.max(one) for one in (found.power_left, found.force_left, found.moment_left)) < 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("count", "ways", "slides"), [(1, 3, False), (2, 2, True), (4, 1, True)])
 def test_what_chains_hold_of_their_shafts(count, ways, slides):
     """One the turn, two one way across beside it, four both: all of them slide along the middle of their shafts."""

@@ -139,6 +139,7 @@ def test_its_friction_is_that_of_the_losses(at):
     assert given - taken == pytest.approx(found.loss[0], rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", ["first", "second"])
 @pytest.mark.parametrize("side", ["near", "far"])
 @pytest.mark.parametrize("angle", [0.3, 2.1])
@@ -318,6 +319,7 @@ def pair(floats: str, side: str = "near") -> Drive:
     return loads(PAIR.format(**{"joint": "", "spline": "", "side": side, **HELD, **FLOATS[floats]}))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("side", ["near", "far"])
 @pytest.mark.parametrize("floats", [*FLOATS][:5])
 def test_what_floats_decides_how_the_drive_turns(floats, side):
@@ -354,6 +356,7 @@ def test_where_the_next_joint_plunges_both_joints_stay():
 HEAVY = {"mass": 4.0, "centre_of_mass": 0.05, "inertia": 0.02, "transverse_inertia": 0.05}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("floats", [*FLOATS][:3])
 def test_heavy_shafts_that_float_carry_what_the_mechanism_carries(floats):
     """Weights at a place of the turn against the mechanism there; with inertia forces power balances over the turn."""

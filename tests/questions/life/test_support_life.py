@@ -107,6 +107,7 @@ def test_poses_without_shares_leave_the_worst():
     assert found.of_supports == pytest.approx(closed(30 * deg), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_slow_movement_adds_the_damage_of_its_instants():
     base = Drive.from_points([(-0.5, 0.0, 0.0), (0.0, 0.0, 0.0), (0.5, 0.0, 0.1)])
     rise = Swing(moves=("output",), amplitude=(0.0, 0.0, 0.05), frequency=0.1)

@@ -110,6 +110,7 @@ def sprung() -> Drive:
     )
 
 
+@pytest.mark.slow
 def test_of_springs_by_a_table_one_motion_is_judged_by_all() -> None:
     """Its swing shifts the stiffness, so of another motion the multipliers are others, and near an edge the verdict."""
     drive = sprung()

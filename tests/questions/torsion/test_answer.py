@@ -141,6 +141,7 @@ def test_torques_that_are_only_rounding_are_zero() -> None:
     assert ring[1].text == "0"
 
 
+@pytest.mark.slow
 def test_readers_are_told_in_their_units_and_language() -> None:
     drive = example("truck-power-unit")
     said = of(drive)

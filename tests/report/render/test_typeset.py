@@ -131,6 +131,7 @@ def test_the_pdf_says_what_the_html_report_says(name):
     assert [cell for cell in cells if close(cell) not in seen] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_every_page_is_found_by_its_bookmark_and_in_the_contents(name):
     pdf, said = opened(name), of_example(name)

@@ -159,6 +159,7 @@ def test_the_number_behind_a_cell_is_the_one_it_says(name: str) -> None:
     assert seen > 10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_the_words_of_every_page_stand_there(name: str) -> None:
     book, told = opened(file_of(name)), said(name)

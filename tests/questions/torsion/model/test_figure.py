@@ -159,6 +159,7 @@ def test_zones_are_named_beside_their_tongues() -> None:
         assert 44.0 < named["principal zone of mode 1"] * rpm < 56.0  # edge of the tongue about ω = 50 rad/s
 
 
+@pytest.mark.slow
 def test_words_stand_off_the_lines_where_the_drive_runs() -> None:
     running = replace(DRIVE, duty=replace(DRIVE.duty, speed=60.0))
     over = {"duty.speed_rpm": np.linspace(20.0, 90.0, 41) / rpm, "joint_angle_deg": np.linspace(5.0, 30.0, 6)}

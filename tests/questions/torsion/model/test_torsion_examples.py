@@ -12,6 +12,7 @@ from cardan.questions.torsion.steady.run_stability import Verdict
 from cardan.units import rpm
 
 
+@pytest.mark.slow
 def test_the_truck_swings_at_12_6_hz_and_its_yokes_decide_how_far() -> None:
     drive, even = example("truck-power-unit"), example("truck-exact-yokes")
     found = torsion_modes(drive)
@@ -31,6 +32,7 @@ def test_the_truck_swings_at_12_6_hz_and_its_yokes_decide_how_far() -> None:
     assert torsion_modes(cured).growth_rate[0] < 0.0
 
 
+@pytest.mark.slow
 def test_the_engineering_formula_gives_the_size_of_the_swing() -> None:
     """Book (246): 4 c s/(a - 4), s = δ/4 of the whole drive; massless joints, one mode."""
     drive = example("truck-power-unit")

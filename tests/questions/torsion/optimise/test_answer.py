@@ -42,6 +42,7 @@ def test_values_and_torques_are_those_of_the_search(found):
     assert page(said, USUAL).blocks
 
 
+@pytest.mark.slow
 def test_within_tolerances_too_nothing_falls_to_what_it_was(found):
     worst = Worst(torque=50.0, speed=40.0, element=0, unstable=False, sides=())
     for after, begins in ((49.9, "within its tolerances nothing that may change"), (20.0, "within its tolerances the")):

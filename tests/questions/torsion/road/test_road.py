@@ -167,6 +167,7 @@ def test_a_quick_movement_is_followed_in_time(quick: RoadTorsion) -> None:
     assert not 0.9 < quick.peak[0] / standing < 1.1  # the movement is too quick for the resonance to follow
 
 
+@pytest.mark.slow
 def test_resonance_is_a_share_of_the_time(quick: RoadTorsion, slow: RoadTorsion) -> None:
     """Far from the mode it never is; near it where the integrated torque is above twice the mean, or order 2 strong."""
     assert slow.resonance == 0.0
@@ -353,6 +354,7 @@ def test_play_opens_where_the_torque_falls_through_zero() -> None:
     assert found.opened.high[k, 0] == pytest.approx(STIFFNESS * (np.max(yoke - path[0]) - half), rel=0.01)
 
 
+@pytest.mark.slow
 def test_steep_random_movements_are_bounded_and_say_what_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     """120 mm over a stub shaft of 150 mm: from 72° on nothing runs steadily, and no ray is asked far beyond that."""
     asked: list[int] = []

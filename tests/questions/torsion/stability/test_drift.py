@@ -115,6 +115,7 @@ def test_a_jump_is_no_drift():
     assert not torque_falls(stand(640.0)[1].steady.orbit, np.zeros(1, dtype=int))[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [669.0, 669.42, 669.6, 670.0])
 def test_the_middle_one_of_three_motions_is_told_by_nobody(speed):
     """Slow ways from below and from above lead to two others, both stable; by rule that of the larger torque counts."""

@@ -44,6 +44,7 @@ def test_orders_are_asked_over_the_operating_range(monkeypatch: pytest.MonkeyPat
     assert len(rows) == len(found.speed)
 
 
+@pytest.mark.slow
 def test_one_speed_has_its_orders_beside_each_other() -> None:
     drive = example("truck-power-unit")
     found = torsion_response(drive)

@@ -72,6 +72,7 @@ def test_equations_and_power_balance_hold(how: dict) -> None:
     assert found.power_residual < 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", SMOOTH.values(), ids=SMOOTH)
 def test_shooting_finds_the_same(how: dict) -> None:
     model = drive(**how)

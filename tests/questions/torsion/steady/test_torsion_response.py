@@ -275,6 +275,7 @@ def test_a_drift_of_the_speed_is_no_vibration() -> None:
     np.testing.assert_allclose(found.floquet.multipliers[:3], drifting.multipliers[1:4], rtol=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turned", [False, True])
 def test_a_map_is_each_point_alone(turned: bool) -> None:
     speeds, joint_angles = [400.0, 477.0, 560.0], [10.0, 25.0]

@@ -38,6 +38,7 @@ def test_a_settled_start_stays_settled(free: bool) -> None:
     assert found.motion.extremes.torque_low == pytest.approx(wanted.torque_lowest, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_of_peaks_that_repeat_the_first_is_told() -> None:
     """The settled motion of cross joints repeats after half a turn, 0.05 s; four peaks are alike but for rounding."""
     found = transient(example("truck-supports"), Duty(speed=600.0 * rpm, torque=400.0), span=0.2, start="settled")

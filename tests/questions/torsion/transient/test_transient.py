@@ -220,6 +220,7 @@ class TestWithoutInertia:
         fading = -0.1 * series * np.exp(-series / 20.0 * found.times)
         np.testing.assert_allclose(found.torque, fading[:, None] * np.ones(3), rtol=1e-6)
 
+    @pytest.mark.slow
     @pytest.mark.parametrize("damping", [0.0, 3.0])
     def test_between_two_plays_it_hangs_loose_and_makes_them_one(self, damping: float) -> None:
         """Springs and dampers in series of the same ratio are a spring and a damper, their plays add up."""
@@ -233,6 +234,7 @@ class TestWithoutInertia:
         near = 1e-6 if damping == 0.0 else 1e-3
         np.testing.assert_allclose(found.angle[:, ::2], wanted.angle, atol=near)
 
+    @pytest.mark.slow
     def test_a_torque_that_snaps_the_joint_through_ends_it(self) -> None:
         """c_1 + c_2 T'² + t_2 T'' reaches 0: quasi-static, the load grows slowly on a light mass."""
         load = Torque(station=3, law=History(times=np.asarray([0.0, 40.0]), torques=np.asarray([0.0, -4000.0])))
