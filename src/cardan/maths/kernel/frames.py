@@ -5,7 +5,7 @@ Vectors are the last axis (3). Everything works in batches.
 
 from __future__ import annotations
 
-from cardan.maths.arrays import Array, namespace
+from cardan.maths.arrays import Array, abreast, namespace
 
 
 def dot(a: Array, b: Array) -> Array:
@@ -18,7 +18,7 @@ def cross(a: Array, b: Array) -> Array:
     xp = namespace(a, b)
     ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
     bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
-    return xp.stack((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx), axis=-1)
+    return abreast((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx), xp)
 
 
 def norm(a: Array) -> Array:

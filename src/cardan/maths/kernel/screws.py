@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.maths.arrays import Array
+from cardan.maths.arrays import Array, abreast
 
 from . import frames
 
@@ -113,8 +113,7 @@ def hat(vector: Array) -> Array:
     """Return the matrices (..., 3, 3) that multiply as vector products: hat(a) b = a × b."""
     x, y, z = vector[..., 0], vector[..., 1], vector[..., 2]
     none = np.zeros_like(x)
-    rows = (np.stack((none, -z, y), -1), np.stack((z, none, -x), -1), np.stack((-y, x, none), -1))
-    return np.stack(rows, axis=-2)
+    return abreast((none, -z, y, z, none, -x, -y, x, none), np).reshape(*x.shape, 3, 3)
 
 
 def exponential(twist: Array, amount: Array) -> Array:

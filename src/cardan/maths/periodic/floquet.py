@@ -110,14 +110,10 @@ def propagators(mass: Array, damping: Array, stiffness: Array, heavy: Array, ste
     # unknown of every stage and coordinate: the acceleration, or the speed of a coordinate without mass
     by_rate = np.where(heavy, h[..., None] * table[:-1, :, None], np.eye(stages)[:, :, None])
     by_place = np.where(heavy, h[..., None] ** 2 * twice[:-1, :, None], h[..., None] * table[:-1, :, None])
-    matrix = np.zeros((*mass.shape[:2], stages, rank, stages, rank))
-    for i in range(stages):
-        for j in range(stages):
-            matrix[:, :, i, :, j] = (
-                damping[:, :, i] * by_rate[:, :, i, j, None, :] + stiffness[:, :, i] * by_place[:, :, i, j, None, :]
-            )
-        diagonal = np.arange(rank)
-        matrix[:, :, i, diagonal, i, diagonal] += mass[:, :, i]
+    matrix = damping[..., None, :] * by_rate[..., None, :, :]
+    matrix += stiffness[..., None, :] * by_place[..., None, :, :]
+    stage, own = np.ix_(range(stages), range(rank))
+    matrix[:, :, stage, own, stage, own] += mass
     # what the state at the beginning makes of the balances: places through K, speeds through K and C
     pushed = np.concatenate(
         [stiffness, damping[..., moving] + (h[..., None] * points[:-1, None, None]) * stiffness[..., moving]], axis=-1

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.maths.arrays import Array, namespace, unit_complex
+from cardan.maths.arrays import Array, namespace, stacked, unit_complex
 
 from .torsional_model import TorsionalModel
 
@@ -65,6 +65,14 @@ def joint_law(angle: Array, joint_angle: Array, sums: Array | None = None) -> tu
     return whole + more[0], first + more[1], second + more[2], third + more[3]
 
 
+def _turned(angle: Array, joint_angle: Array, sums: Array | None) -> Array:
+    """Return T of `joint_law` alone."""
+    xp = namespace(angle, joint_angle)
+    tau = xp.tan(0.5 * joint_angle) ** 2
+    whole = angle + xp.atan2(tau * xp.sin(2.0 * angle), 1.0 - tau * xp.cos(2.0 * angle))
+    return whole if sums is None else whole + _summed(angle, sums)[0]
+
+
 def _summed(angle: Array, sums: Array) -> list[Array]:
     """Return Re Σ c_k e^(ikθ) and its first three derivatives, arrays (...), by Horner's scheme."""
     xp = namespace(angle, sums)
@@ -96,7 +104,7 @@ def places(model: TorsionalModel, q: Array) -> Places:
         joint_angle, phase = _wide(model.joint_angle[..., source[1]], one), _wide(model.phase[..., source[1]], one)
         sums = None if own is None else _each(own[..., source[1]], one)
         t, t1, t2, t3 = joint_law(f + phase, joint_angle, sums)
-        start = joint_law(phase, joint_angle, sums)[0]
+        start = _turned(phase, joint_angle, sums)
         found.append((t - start, t1 * f1, t2 * f1**2 + t1 * f2, t3 * f1**3 + 3.0 * t2 * f1 * f2 + t1 * f3))
     angle, first, second, third = (beside([each[i] for each in found]) for i in range(4))
     return Places(angle=angle, first=first, second=second, third=third)
@@ -121,14 +129,16 @@ def even_rates(model: TorsionalModel, q: Array) -> Array:
 def beside(values: list[Array]) -> Array:
     """Return arrays (...) beside each other (..., k), each in one piece of memory: they are worked on one by one."""
     xp = namespace(*values)
-    return xp.moveaxis(xp.stack(values), 0, -1)
+    whole = stacked(values, xp)
+    return xp.permute_dims(whole, (*range(1, whole.ndim), 0))
 
 
 def square(rows: list[list[Array]]) -> Array:
     """Return rows of arrays (...) as matrices (..., R, R), each entry in one piece of memory."""
     xp = namespace(*rows[0])
-    whole = xp.stack([one for row in rows for one in row])
-    return xp.moveaxis(xp.reshape(whole, (len(rows), len(rows), *whole.shape[1:])), (0, 1), (-2, -1))
+    whole = stacked([one for row in rows for one in row], xp)
+    whole = xp.reshape(whole, (len(rows), len(rows), *whole.shape[1:]))
+    return xp.permute_dims(whole, (*range(2, whole.ndim), 0, 1))
 
 
 def _wide(values: Array, like: Array) -> Array:
@@ -227,7 +237,7 @@ def element_torques(model: TorsionalModel, q: Array, rate: Array, time: Array = 
     xp = namespace(q)
     place = places(model, q)
     speed = _speeds(model, place, rate)
-    carried = _torques(model, place, speed, q[..., 0])
+    carried, _spring, _damper = _carried(model, place, speed, q[..., 0])
     if not model.hinges:
         return carried
     change = accelerations(model, q, rate, time)
@@ -240,12 +250,16 @@ def element_torques(model: TorsionalModel, q: Array, rate: Array, time: Array = 
     return xp.stack(parts, axis=-1)
 
 
-def _torques(model: TorsionalModel, place: Places, speed: Array, like: Array) -> Array:
-    over, touching = _contact(model, _twist(model, place.angle), like)
-    found = _each(model.stiffness, like) * over + _each(model.damping, like) * touching * _twist(model, speed)
+def _carried(model: TorsionalModel, place: Places, speed: Array, like: Array) -> tuple[Array, Array, Array]:
+    """Return the torques of the elements and their slopes by the twist and by its speed, arrays (..., E)."""
+    twist, turning = _twist(model, place.angle), _twist(model, speed)
+    over, touching = _contact(model, twist, like)
+    spring, damper = _each(model.stiffness, like) * touching, _each(model.damping, like) * touching
+    found = _each(model.stiffness, like) * over + damper * turning
     if model.special:
-        found = found + _springs(model, _twist(model, place.angle))[0] + _rubbing(model, _twist(model, speed), like)[0]
-    return found
+        tables, rubbing = _springs(model, twist), _rubbing(model, turning, like)
+        found, spring, damper = found + tables[0] + rubbing[0], spring + tables[1], damper + rubbing[1]
+    return found, spring, damper
 
 
 def spring_torque(table: tuple[tuple[float, ...], tuple[float, ...]], twist: float) -> tuple[float, float]:
@@ -292,14 +306,17 @@ def _rubbing(model: TorsionalModel, turning: Array, like: Array) -> tuple[Array,
     return size * xp.clip(share, -1.0, 1.0), size / band * inside
 
 
-def _acting(model: TorsionalModel, place: Places, speed: Array, time: Array) -> tuple[Array, Array, Array]:
-    """Return the torque on every station and the slopes of the outer ones by angle and speed, arrays (..., N)."""
+def _acting(
+    model: TorsionalModel, place: Places, speed: Array, time: Array, force: Array
+) -> tuple[Array, Array, Array]:
+    """Return the torque on every station and the slopes of the outer ones by angle and speed, arrays (..., N).
+
+    force (..., E): torques of the elements.
+    """
     xp = namespace(place.angle)
     like = place.angle[..., 0]
-    force = _torques(model, place, speed, like)
     total = [-_wide(model.ground_damping[..., k], like) * speed[..., k] for k in range(len(model.driven))]
-    by_angle = [xp.zeros_like(like) for _k in model.driven]
-    by_speed = [xp.zeros_like(like) for _k in model.driven]
+    by_angle, by_speed = ([xp.zeros_like(like)] * len(model.driven) for _each_slope in range(2))
     for e, (a, b) in enumerate(model.elements):
         total[a] = total[a] - force[..., e]
         total[b] = total[b] + force[..., e]
@@ -312,9 +329,10 @@ def _acting(model: TorsionalModel, place: Places, speed: Array, time: Array) -> 
 
 def gathered(model: TorsionalModel, values: Array) -> Array:
     """Return the sums over the stations of each coordinate, array (..., R)."""
-    sums = [0.0 * values[..., k] for k in model.owner]
+    sums = [values[..., k] for k in model.owner]
     for k, r in enumerate(model.coordinate):
-        sums[r] = sums[r] + values[..., k]
+        if k != model.owner[r]:
+            sums[r] = sums[r] + values[..., k]
     return beside(sums)
 
 
@@ -325,7 +343,8 @@ def balance(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, t
     Returns (..., R) [N·m]: of a coordinate whose speed is forced it is the torque that forces it.
     """
     place = places(model, q)
-    acting, _along, _across = _acting(model, place, _speeds(model, place, rate), time)
+    speed = _speeds(model, place, rate)
+    acting, _along, _across = _acting(model, place, speed, time, _carried(model, place, speed, q[..., 0])[0])
     inertia = _each(model.inertia, q[..., 0])
     left = (
         gathered(model, inertia * place.first**2) * acceleration
@@ -344,7 +363,7 @@ def accelerations(model: TorsionalModel, q: Array, rate: Array, time: Array = 0.
     xp = namespace(q)
     place = places(model, q)
     speed = _speeds(model, place, rate)
-    acting, _along, _across = _acting(model, place, speed, time)
+    acting, _along, _across = _acting(model, place, speed, time, _carried(model, place, speed, q[..., 0])[0])
     inertia = _each(model.inertia, q[..., 0])
     force = gathered(model, place.first * acting) - gathered(model, inertia * place.first * place.second) * rate**2
     mass = gathered(model, inertia * place.first**2)
@@ -400,7 +419,8 @@ def linearised(
     place = places(model, q)
     wide = list(model.coordinate)
     speed = _speeds(model, place, rate)
-    acting, along, across = _acting(model, place, speed, time)
+    force, spring, damper = _carried(model, place, speed, like)
+    acting, along, across = _acting(model, place, speed, time, force)
     inertia, ground = _each(model.inertia, like), _each(model.ground_damping, like)
     own, own_rate = rate[..., wide], acceleration[..., wide]
     f1, f2, f3 = place.first, place.second, place.third
@@ -419,13 +439,7 @@ def linearised(
     nothing = xp.zeros_like(like)
     c = [[damping[..., r] if r == s else nothing for s in range(rank)] for r in range(rank)]
     k = [[stiffness[..., r] if r == s else nothing for s in range(rank)] for r in range(rank)]
-    _over, touching = _contact(model, _twist(model, place.angle), like)
-    spring = _each(model.stiffness, like) * touching
-    damper = _each(model.damping, like) * touching
     curving = f2 * own
-    if model.special:
-        spring = spring + _springs(model, _twist(model, place.angle))[1]
-        damper = damper + _rubbing(model, _twist(model, speed), like)[1]
     for e, (a, b) in enumerate(model.elements):
         ends = (
             (model.coordinate[a], f1[..., a], curving[..., a]),
@@ -484,7 +498,8 @@ def joint_torques(model: TorsionalModel, q: Array, rate: Array, acceleration: Ar
     xp = namespace(q)
     place = places(model, q)
     wide = list(model.coordinate)
-    acting, _along, _across = _acting(model, place, _speeds(model, place, rate), 0.0)
+    speed = _speeds(model, place, rate)
+    acting, _along, _across = _acting(model, place, speed, 0.0, _carried(model, place, speed, q[..., 0])[0])
     inertia = _each(model.inertia, q[..., 0])
     left = inertia * (place.first * acceleration[..., wide] + place.second * rate[..., wide] ** 2) - acting
     entering: list[Array] = []
