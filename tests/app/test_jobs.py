@@ -138,6 +138,7 @@ def test_a_job_stops_when_it_is_asked_to(jobs):
     assert ended(jobs.ask(question("slow", seconds=0.05), "x")).result == "done"
 
 
+@pytest.mark.slow
 def test_a_newer_question_ends_the_older_one_of_the_same_user_only(jobs):
     first, other = jobs.ask(question("slow", n=1), "x"), jobs.ask(question("slow", n=2), "y")
     until(lambda: first.state == other.state == "running")
@@ -198,6 +199,7 @@ def test_a_job_that_takes_too_long_is_given_up_and_the_next_goes_on(one):
     assert ended(one.ask(question("echo", after="late"), "x")).state == "done"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="only some systems limit the memory of a process")
 def test_a_job_that_wants_too_much_memory_is_refused_and_the_worker_lives(one):
     before = ended(one.ask(question("echo", n="modest"), "x")).result[2]

@@ -48,6 +48,7 @@ def test_blokh_has_no_poles_at_quarter_turns(start):
     assert np.allclose(blokh(drive, PHI).output_angle, motion(drive, PHI).output_angle, rtol=0, atol=2e-14)
 
 
+@pytest.mark.slow
 @given(plans(straight=False, most=4), st.floats(-1.5, 1.5))
 def test_blokh_as_printed_is_the_same_where_it_has_no_pole(plan, phi):
     """Book (35) with its tangents, for phases away from ±90°."""

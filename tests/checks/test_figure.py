@@ -20,6 +20,7 @@ def bars(name):
     return figure, next(one for one in figure.rows[0].panels[0].series if isinstance(one, Bars))
 
 
+@pytest.mark.slow
 def test_every_limit_that_must_be_kept_has_a_bar_in_the_colour_of_its_verdict():
     figure, drawn = bars("truck-duty-cycle")
     run = [one for one in check(example("truck-duty-cycle")) if one.run and not one.advice]

@@ -53,6 +53,7 @@ def test_statics_agrees_that_the_forces_are_determinate(found):
     assert [assembly(one.drive).degree for one in found.best] == [0] * len(found.best)
 
 
+@pytest.mark.slow
 def test_the_best_come_first(found):
     assert {one.speed_fluctuation for one in found.best} == {found.best[0].speed_fluctuation}
     known = [one.force for one in found.best]

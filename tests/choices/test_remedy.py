@@ -129,6 +129,7 @@ def test_a_stronger_material_is_named():
     assert asked[0].note == "12KhMF"
 
 
+@pytest.mark.slow
 def test_the_most_helpful_changes_come_first_and_ask_no_less_of_the_drive():
     _drive, _verdicts, found = solved(car)
     best = most_helpful(found)

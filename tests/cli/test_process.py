@@ -24,6 +24,7 @@ def modules_after(*arguments):
     return set(done.stderr.split())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arguments", [("--help",), (), ("--version",)], ids=" ".join)
 def test_help_imports_nothing_heavy(arguments):
     found = modules_after(*arguments)

@@ -24,6 +24,7 @@ angles = st.floats(0.0, 1.5, allow_subnormal=False)
 lengths = st.floats(-1e4, 1e4, allow_subnormal=False)
 
 
+@pytest.mark.slow
 @given(st.floats(-1e6, 1e6, allow_subnormal=False), st.sampled_from(["length", "angle", "angular_speed", "time"]))
 def test_a_number_is_written_so_that_it_reads_back_to_the_last_bit(value: float, dimension: str) -> None:
     unit, number = written(value, dimension)

@@ -52,6 +52,7 @@ def test_unknown_format_is_refused(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_a_table_as_a_workbook_holds_the_numbers_of_the_csv(tmp_path: Path) -> None:
     found = motion(example("truck-printed-angles"))
     save(found, tmp_path / "a.xlsx")

@@ -56,6 +56,7 @@ def test_parquet_with_its_provenance(found, tmp_path):
     assert about["columns"]["joint_angle_deg[1]"] == "deg"
 
 
+@pytest.mark.slow
 def test_a_workbook_has_numbers_and_a_sheet_on_where_they_come_from(found, tmp_path):
     assert export(found, tmp_path / "a.xlsx") == SIZE
     book = openpyxl.load_workbook(tmp_path / "a.xlsx")
@@ -93,6 +94,7 @@ def test_a_condition_may_end_in_a_remark(found, tmp_path):
     assert export(found, tmp_path / "a.csv", where="status = 0 -- answered") == 200
 
 
+@pytest.mark.slow
 def test_what_cannot_be_written_is_told_and_leaves_nothing(found, tmp_path, monkeypatch):
     with pytest.raises(InputError, match=r"should end in one of \.csv"):
         export(found, tmp_path / "a.doc")

@@ -37,6 +37,7 @@ def test_it_turns_all_round_and_as_with_the_bearing(name):
     np.testing.assert_allclose(found.angle, plain.angle, atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "rods"), [(NAMES[0], {"pin of the rod": 1000.0}), (NAMES[1], {"eye 2 on the sleeve": 500.0})]
 )

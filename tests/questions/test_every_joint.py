@@ -274,6 +274,7 @@ def test_a_half_shaft_of_a_car_answers():
     assert np.asarray(found.bending_couple)[[0, 2], 0] == pytest.approx(bent)
 
 
+@pytest.mark.slow
 def test_answers_about_the_half_shaft_agree():
     """Losses and forces count what rubs in its joints: no two answers contradict each other."""
     drive = example("front-halfshaft")

@@ -162,6 +162,7 @@ def test_the_structure_tells_redundant_constraints_and_a_remedy():
     assert pages.appendix[0].answer.startswith("Mobility 1, no redundant constraints")
 
 
+@pytest.mark.slow
 def test_assembly_says_how_much_and_what_to_release():
     text = words(example("overconstrained-pump"))
     assert "Statically indeterminate, degree 3; misalignment loads support 1 (motor, far) with up to 2" in text
@@ -188,6 +189,7 @@ def test_stiffness_left_out_is_asked_for_by_name():
     assert "supports[0].stiffness: missing" in words(replace(drive, supports=rigid))
 
 
+@pytest.mark.slow
 def test_losses_tell_power_efficiency_and_what_is_left_out():
     drive = example("truck-supports")
     found = losses(drive)

@@ -88,6 +88,7 @@ def test_the_report_of_every_example_is_whole(name):
     assert ("Articulation" in words) == bool(drive.movements)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["pto-hitch", "six-joints"])
 def test_nothing_is_fetched(name):
     text = page_of(name)

@@ -85,6 +85,7 @@ def test_units_are_those_of_the_reader_and_only_those_used():
     assert "mm" not in told
 
 
+@pytest.mark.slow
 def test_a_large_logo_is_made_smaller(folder):
     logo = logo_of(TitleBlock(logo="logo.png"), folder)
     shape = matplotlib.image.imread(io.BytesIO(logo.content)).shape

@@ -130,6 +130,7 @@ def test_stop_is_heard_and_the_run_goes_on_later(tmp_path):
     undisturbed(run(WORK, into=tmp_path), WORK, CHUNK)
 
 
+@pytest.mark.slow
 def test_stopped_processes_are_gone(tmp_path):
     work = replace(WORK, trouble=Trouble("slow", seconds=60.0))
     begin = time.monotonic()

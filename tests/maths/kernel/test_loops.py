@@ -164,6 +164,7 @@ def test_slides_are_linear_in_lengths_and_angles_do_not_feel_them():
     assert np.array_equal(twice.slide[ok], 2 * full.slide[ok])
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(st.lists(st.floats(5.0, 175.0), min_size=4, max_size=4))
 def test_the_range_is_where_loops_close(alpha):

@@ -226,6 +226,7 @@ def test_known_errors_lie_where_the_drive_with_these_sizes_does():
     assert shaft.known[2] == pytest.approx(float(np.max(lean)), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_the_answer_tells_how_far_shafts_are_moved():
     crossed = with_tolerances(Hooke(**PLACE), a3=0.02 * mm)
     drive = before(crossed)
@@ -258,6 +259,7 @@ STAY = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", STAY)
 def test_a_kind_whose_shafts_stay_says_why(kind):
     sizes, key, why = STAY[kind]

@@ -126,6 +126,7 @@ def test_a_seed_repeats_and_another_differs():
     assert not np.array_equal(one, other)
 
 
+@pytest.mark.slow
 def test_the_deviation_settles_and_its_error_is_true():
     exact = tolerance(SINGLE, SQUARE).output.deviation
     for points in ("sobol", "random"):
@@ -183,6 +184,7 @@ def test_known_errors_shift_the_bounds():
     )
 
 
+@pytest.mark.slow
 def test_a_bearing_that_holds_the_shaft_ends_its_shift():
     drive = replace(DOUBLE, supports=(Support(shaft=2, position=0.3, axial=True),))
     for method in (Linear(), WorstCase(), SMALL):

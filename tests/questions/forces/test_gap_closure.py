@@ -53,6 +53,7 @@ def test_least_couples_and_openings_are_those_of_dense_samples(n: int) -> None:
         assert np.abs(at).max() < 1e-9 * swing[k]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("share", "closed"), [(1.0001, True), (0.9999, False)])
 def test_the_load_needed_just_closes_all_joints(share: float, closed: bool) -> None:
     drive = one(trains(np.random.default_rng(7), 3, (1,)), 0)

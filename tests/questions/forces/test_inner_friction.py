@@ -141,6 +141,7 @@ def test_all_balances_of_a_drive_close(kind):
         assert np.max(left) < 1e-11
 
 
+@pytest.mark.slow
 @each
 def test_a_torque_that_drives_holds_the_load_that_needs_it(kind):
     drive = machine_held(loads(held(kind)))

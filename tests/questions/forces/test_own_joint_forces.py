@@ -178,6 +178,7 @@ def held_by_springs(drive: Drive, shaft: int, force, couple) -> list[np.ndarray]
     return [first / np.sqrt(2e7), (-pull - first) / np.sqrt(2e7), -along / np.sqrt(3e7)]
 
 
+@pytest.mark.slow
 def test_two_chains_share_their_force_with_the_bearings_by_their_stiffness():
     """The force one way across is that of least energy: of the force of either chain and their difference, by hand."""
     supports = tuple(replace(one, **STIFF, **(ALONG if k % 2 == 0 else {})) for k, one in enumerate(JUST))

@@ -156,6 +156,7 @@ def test_a_drive_carries_what_the_mechanism_of_it_carries(place, side, angle):
     assert found.input_torque * found.speed[0] == pytest.approx(found.output_torque * found.speed[2], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_shaft_that_wobbles_shakes():
     """Mass and inertia of the driven shaft against Newton and Euler for the mechanism, at places of a turn."""
     drive = single()
@@ -414,6 +415,7 @@ def told_by_forces(drive: Drive) -> str:
     return " ".join(one.text.told(Reader()) for one in remarks if hasattr(one.text, "told"))
 
 
+@pytest.mark.slow
 def test_forces_say_by_how_much_they_miss_a_wobble():
     """A tripod runs around its own pin behind a shaft that wobbles, and its wobble is not in forces."""
     text = told_by_forces(pair("tripod"))

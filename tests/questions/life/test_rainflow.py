@@ -49,6 +49,7 @@ def test_every_swing_is_half_a_cycle(values):
     assert rainflow(values).total == 0.5 * (len(points) - 1)
 
 
+@pytest.mark.slow
 @given(st.lists(st.integers(-9, 9), min_size=2, max_size=40))
 @settings(max_examples=300, deadline=None)
 def test_begun_at_its_largest_value_a_history_is_counted_as_by_the_four_point_rule(values):

@@ -56,6 +56,7 @@ def test_the_sentence_tells_mobility_and_redundant_constraints(thing, sentence, 
     assert (told(said.sentence, USUAL), said.tone) == (sentence, tone)
 
 
+@pytest.mark.slow
 def test_the_methods_are_named_by_their_names():
     said = answer(PUMP, mobility(PUMP))
     rows = [[cell.text for cell in row] for row in printed(said.tables[-1], USUAL).rows]
@@ -67,6 +68,7 @@ def test_the_methods_are_named_by_their_names():
     assert [(one.name, one.value.value) for one in said.keys] == [("redundant_constraints", 3.0)]
 
 
+@pytest.mark.slow
 def test_remedies_name_the_keys_of_the_file():
     said = texts(answer(PUMP, mobility(PUMP)))
     (first,) = [text for text in said if text.startswith("Remedy: ")]

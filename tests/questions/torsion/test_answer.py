@@ -153,6 +153,7 @@ def test_readers_are_told_in_their_units_and_language() -> None:
         assert "лбс" not in told(of(drive).sentence, USUAL)
 
 
+@pytest.mark.slow
 def test_a_node_is_told_in_shares_where_the_lengths_are_not_known() -> None:
     drive = example("truck-power-unit")
     (node,) = [told(one.text, OTHER) for one in of(drive).remarks if "node" in told(one.text, USUAL)][:1]

@@ -151,6 +151,7 @@ def test_every_page_is_found_by_its_bookmark_and_in_the_contents(name):
         assert close(f"{number}{title}{page}") in first
 
 
+@pytest.mark.slow
 def test_the_file_tells_what_it_is_and_can_be_read_aloud():
     pdf = opened("pto-hitch")
     root = pdf.trailer["/Root"]

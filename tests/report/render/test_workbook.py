@@ -192,6 +192,7 @@ def ranges(book: Any, chart: ElementTree.Element, kind: str) -> Iterator[tuple[l
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_the_first_page_leads_to_every_other_with_its_answer(name: str) -> None:
     book, told = opened(file_of(name)), said(name)
@@ -347,6 +348,7 @@ def test_the_same_report_gives_the_same_file_and_tells_nobody_who_made_it() -> N
     assert f"{told.date}T00:00:00Z" in core
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_sheets_are_ready_to_be_read_and_printed(name: str) -> None:
     for sheet in opened(file_of(name)):
@@ -366,6 +368,7 @@ def test_sheets_are_ready_to_be_read_and_printed(name: str) -> None:
         assert sheet.max_row > 1
 
 
+@pytest.mark.slow
 def test_pictures_have_a_size_of_their_own_and_the_shape_they_were_drawn_in() -> None:
     data = file_of("car-propshaft")
     drawing = "{http://schemas.openxmlformats.org/drawingml/2006/spreadsheetDrawing}"

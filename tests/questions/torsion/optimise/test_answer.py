@@ -52,6 +52,7 @@ def test_within_tolerances_too_nothing_falls_to_what_it_was(found):
         assert (said.tone == "warning") is (after > 40.0)
 
 
+@pytest.mark.slow
 def test_the_joints_say_why(found):
     said = [told(one, USUAL) for one in reasons(found)]
     assert said[1] == "Joint 1 stands in the node of the mode: it causes no parametric excitation."

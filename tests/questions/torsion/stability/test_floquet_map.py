@@ -50,6 +50,7 @@ def test_the_kernel_finds_what_array_expressions_find(how: dict) -> None:
     np.testing.assert_allclose(fast.orbit.coefficient[..., :kept], slow.orbit.coefficient[..., :kept], atol=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [{"order": 1.0}, {"free": True, "motor": True, "order": 2.0}], ids=["forced", "motor"])
 def test_the_kernel_knows_what_turns_backwards(how: dict) -> None:
     """Mirrored inside; array expressions follow the drive as it turns."""

@@ -110,6 +110,7 @@ def test_an_order_that_does_repeat_is_judged_as_by_its_own_period(speed: float) 
     assert np.abs(found.multipliers) ** 2 == pytest.approx(np.abs(whole.multipliers), rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("governed", [True, False])
 def test_of_free_drives_the_shift_in_time_and_the_drift_are_left_out(governed: bool) -> None:
     load = Falling(standstill=0.0, slope=1.0) if governed else Falling(standstill=-40.0, slope=0.0)

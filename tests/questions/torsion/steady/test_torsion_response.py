@@ -256,6 +256,7 @@ def test_the_principal_zone_grows_unless_damped() -> None:
     assert damped.stable
 
 
+@pytest.mark.slow
 def test_a_drift_of_the_speed_is_no_vibration() -> None:
     """Above the resonance of order 2 vibration takes less the faster it turns: constant torques would run away."""
     first = Station(shaft=1, end="start", inertia=1.2)

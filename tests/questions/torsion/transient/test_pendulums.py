@@ -281,6 +281,7 @@ def test_free_drives_swing_too() -> None:
     assert found.motion.imbalance < 1e-8
 
 
+@pytest.mark.slow
 def test_no_check_is_green_by_the_torque_of_pendulums_that_hit_their_stops_or_swing_wide() -> None:
     """The same drive with stops far out is judged; failures stay, for the torque is larger than counted."""
     steel = Material(yield_strength=355e6, ultimate_strength=600e6)
