@@ -51,10 +51,9 @@ def joint_law(angle: Array, joint_angle: Array, sums: Array | None = None) -> tu
     α/(1 - sin²α cos²θ); with what is beside it.
     """
     xp = namespace(angle, joint_angle)
-    tau = xp.tan(0.5 * joint_angle) ** 2
     twice_sin, twice_cos = xp.sin(2.0 * angle), xp.cos(2.0 * angle)
     cosine, square = xp.cos(joint_angle), xp.sin(joint_angle) ** 2
-    whole = angle + xp.atan2(tau * twice_sin, 1.0 - tau * twice_cos)
+    whole = angle + _ahead(twice_sin, twice_cos, joint_angle)
     below = 1.0 / (1.0 - 0.5 * square * (1.0 + twice_cos))
     first = cosine * below
     second = -first * square * twice_sin * below
@@ -65,11 +64,17 @@ def joint_law(angle: Array, joint_angle: Array, sums: Array | None = None) -> tu
     return whole + more[0], first + more[1], second + more[2], third + more[3]
 
 
+def _ahead(twice_sin: Array, twice_cos: Array, joint_angle: Array) -> Array:
+    """Return by how much T of `joint_law` is ahead of θ, by sine and cosine of 2θ."""
+    xp = namespace(twice_sin, joint_angle)
+    tau = xp.tan(0.5 * joint_angle) ** 2
+    return xp.atan2(tau * twice_sin, 1.0 - tau * twice_cos)
+
+
 def _turned(angle: Array, joint_angle: Array, sums: Array | None) -> Array:
     """Return T of `joint_law` alone."""
     xp = namespace(angle, joint_angle)
-    tau = xp.tan(0.5 * joint_angle) ** 2
-    whole = angle + xp.atan2(tau * xp.sin(2.0 * angle), 1.0 - tau * xp.cos(2.0 * angle))
+    whole = angle + _ahead(xp.sin(2.0 * angle), xp.cos(2.0 * angle), joint_angle)
     return whole if sums is None else whole + _summed(angle, sums)[0]
 
 
@@ -307,16 +312,17 @@ def _rubbing(model: TorsionalModel, turning: Array, like: Array) -> tuple[Array,
 
 
 def _acting(
-    model: TorsionalModel, place: Places, speed: Array, time: Array, force: Array
-) -> tuple[Array, Array, Array]:
+    model: TorsionalModel, place: Places, speed: Array, time: Array
+) -> tuple[Array, Array, Array, Array, Array]:
     """Return the torque on every station and the slopes of the outer ones by angle and speed, arrays (..., N).
 
-    force (..., E): torques of the elements.
+    Returns the slopes of the elements too, by their twist and by its speed, arrays (..., E).
     """
     xp = namespace(place.angle)
     like = place.angle[..., 0]
+    force, spring, damper = _carried(model, place, speed, like)
     total = [-_wide(model.ground_damping[..., k], like) * speed[..., k] for k in range(len(model.driven))]
-    by_angle, by_speed = ([xp.zeros_like(like)] * len(model.driven) for _each_slope in range(2))
+    by_angle, by_speed = ([xp.zeros_like(like)] * len(model.driven) for _slope in range(2))
     for e, (a, b) in enumerate(model.elements):
         total[a] = total[a] - force[..., e]
         total[b] = total[b] + force[..., e]
@@ -324,7 +330,7 @@ def _acting(
         k = torque.station
         value, along, across = torque.law.at(time, place.angle[..., k], speed[..., k])
         total[k], by_angle[k], by_speed[k] = total[k] + value, by_angle[k] + along, by_speed[k] + across
-    return beside(total), beside(by_angle), beside(by_speed)
+    return beside(total), beside(by_angle), beside(by_speed), spring, damper
 
 
 def gathered(model: TorsionalModel, values: Array) -> Array:
@@ -343,8 +349,7 @@ def balance(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, t
     Returns (..., R) [N·m]: of a coordinate whose speed is forced it is the torque that forces it.
     """
     place = places(model, q)
-    speed = _speeds(model, place, rate)
-    acting, _along, _across = _acting(model, place, speed, time, _carried(model, place, speed, q[..., 0])[0])
+    acting, *_slopes = _acting(model, place, _speeds(model, place, rate), time)
     inertia = _each(model.inertia, q[..., 0])
     left = (
         gathered(model, inertia * place.first**2) * acceleration
@@ -363,7 +368,7 @@ def accelerations(model: TorsionalModel, q: Array, rate: Array, time: Array = 0.
     xp = namespace(q)
     place = places(model, q)
     speed = _speeds(model, place, rate)
-    acting, _along, _across = _acting(model, place, speed, time, _carried(model, place, speed, q[..., 0])[0])
+    acting, *_slopes = _acting(model, place, speed, time)
     inertia = _each(model.inertia, q[..., 0])
     force = gathered(model, place.first * acting) - gathered(model, inertia * place.first * place.second) * rate**2
     mass = gathered(model, inertia * place.first**2)
@@ -419,8 +424,7 @@ def linearised(
     place = places(model, q)
     wide = list(model.coordinate)
     speed = _speeds(model, place, rate)
-    force, spring, damper = _carried(model, place, speed, like)
-    acting, along, across = _acting(model, place, speed, time, force)
+    acting, along, across, spring, damper = _acting(model, place, speed, time)
     inertia, ground = _each(model.inertia, like), _each(model.ground_damping, like)
     own, own_rate = rate[..., wide], acceleration[..., wide]
     f1, f2, f3 = place.first, place.second, place.third
@@ -498,8 +502,7 @@ def joint_torques(model: TorsionalModel, q: Array, rate: Array, acceleration: Ar
     xp = namespace(q)
     place = places(model, q)
     wide = list(model.coordinate)
-    speed = _speeds(model, place, rate)
-    acting, _along, _across = _acting(model, place, speed, 0.0, _carried(model, place, speed, q[..., 0])[0])
+    acting, *_slopes = _acting(model, place, _speeds(model, place, rate), 0.0)
     inertia = _each(model.inertia, q[..., 0])
     left = inertia * (place.first * acceleration[..., wide] + place.second * rate[..., wide] ** 2) - acting
     entering: list[Array] = []

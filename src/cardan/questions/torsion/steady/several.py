@@ -186,16 +186,17 @@ def middle_ones(orbit: Orbit, judged: Floquet | None = None) -> Array:
 def _followed(orbit: Orbit, rows: Array) -> Iterator[tuple[int, list[Run]]]:
     """Yield rows with the motions that are followed to their speed from below and from above."""
     few = HARMONICS * round(orbit.period / np.pi)
-    on_the_way, how = (HarmonicBalance(harmonics=few, most=most) for most in (few, MOST))
+    way = np.linspace((1.0 - ASIDE, 1.0 + ASIDE), 1.0, WAY)
+    steps = [*[(few, Status.COARSE)] * (WAY - 1), (MOST, Status.CONVERGED)]
     for some in np.split(rows, range(CHUNK, len(rows), CHUNK)):
         part = orbit.turning.part(some)
         runs: list[list[Run]] = [[] for _row in some]
-        for begin in (1.0 - ASIDE, 1.0 + ASIDE):
+        for shares in way.T:
             wave, there = at_rest(part), np.ones(len(some), dtype=bool)
-            for share in np.linspace(begin, 1.0, WAY):
+            for share, (most, enough) in zip(shares, steps, strict=True):
                 here = Turning(part.model, part.angle_error, share * part.speed, part.period)
-                led = sums_of(here, wave, on_the_way if share < 1.0 else how)
-                there &= led.status <= (Status.COARSE if share < 1.0 else Status.CONVERGED)
+                led = sums_of(here, wave, HarmonicBalance(harmonics=few, most=most))
+                there &= led.status <= enough
                 wave = np.where(np.isfinite(led.coefficient), led.coefficient, 0.0)
             for k in np.flatnonzero(there).tolist():
                 runs[k].append(Run(wave=wave[k], reached=True))
