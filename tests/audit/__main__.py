@@ -6,9 +6,12 @@ default, or a number.
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 from collections import Counter
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as the program `cardan` has it
 
 from tests.builders.any_drive import NEVER, OFTEN
 

@@ -18,6 +18,7 @@ from cardan.questions.torsion.steady.torsion_response import torsion_response
 from cardan.questions.torsion.transient.torsion_transient import transient
 from cardan.questions.torsion.transient.transient import Adaptive
 from cardan.units import deg, rpm
+from tests.builders.any_drive import any_drive
 
 LINE = replace(
     Drive.from_angles([20 * deg]),
@@ -26,6 +27,16 @@ LINE = replace(
     duty=Duty(speed=40.0, torque=60.0),
 )
 ROUGH = Adaptive(rtol=1e-7, atol=1e-8)
+
+
+def test_a_stiff_line_keeps_its_small_torque() -> None:
+    """A shaft of 9 MN·m/rad bears 2.5 N·m: an angle off by 1e-9 is a torque off by 0.01 N·m."""
+    drive = any_drive(8020172)
+    wanted, span = torsion_response(drive), 2.0 * 2.0 * math.pi / float(drive.duty.speed or 0.0)
+    found = transient(drive, replace(drive.duty, run_up=None), span=span, times=3, start="settled")
+    assert found.train.model.stiffness.max() > 9e6
+    assert found.motion.extremes.torque_high == pytest.approx(wanted.torque_highest, abs=1e-3)
+    assert found.motion.extremes.torque_low == pytest.approx(wanted.torque_lowest, abs=1e-3)
 
 
 @pytest.mark.parametrize("free", [False, True])

@@ -27,6 +27,9 @@ WITHIN = 8
 LENIENT = 0.75
 """Power of the tolerance by which the implicit method is judged."""
 
+FELT = 1e-3
+"""Torque [N·m] that an error of an angle in a step may make in the stiffest element."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Freedom:
@@ -187,10 +190,11 @@ class Implicit:
         self.own: Array = np.searchsorted(freedom.free, freedom.heavy)
         # The error of a step of order nine is judged by a formula of order five: by that the tolerance counts less.
         relative, absolute = (one**LENIENT for one in tolerance)
+        angle = min(absolute, FELT / float(np.max(model.stiffness, initial=FELT)))
 
         def scale(y: Array) -> Array:
             speeds = absolute + relative * np.abs(y[self.count :])
-            return np.concatenate((np.full(self.count, absolute), speeds))
+            return np.concatenate((np.full(self.count, angle), speeds))
 
         self.radau = Radau(
             self,
