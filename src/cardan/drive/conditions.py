@@ -170,10 +170,18 @@ def held_speeds(duty: Duty) -> tuple[float, ...]:
     return tuple(sorted({abs(speed) for speed in (duty.speed, *own) if speed}))
 
 
+def speed_ranges(duty: Duty) -> tuple[tuple[float, float], ...]:
+    """Return the ranges of speed that a duty runs through [rad/s], its own first, then those of its load cases.
+
+    A load case bound to a pose is no part of the duty as drawn.
+    """
+    every = (duty.speed_range, *(one.speed_range for one in load_cases(duty) if not one.pose))
+    return tuple(dict.fromkeys(one for one in every if one is not None))
+
+
 def used_speeds(duty: Duty) -> tuple[float, float] | None:
     """Return the lowest and highest speed of running [rad/s], None where the duty says none."""
-    ranges = (one.speed_range for one in load_cases(duty) if one.speed_range is not None and not one.pose)
-    speeds = (*(duty.speed_range or ()), *chain.from_iterable(ranges), *held_speeds(duty))
+    speeds = (*chain.from_iterable(speed_ranges(duty)), *held_speeds(duty))
     return (min(speeds), max(speeds)) if speeds else None
 
 

@@ -104,7 +104,7 @@ def _growing(drive: Drive, found: TorsionModes, proof: ProvedSpeeds) -> Iterator
         return
     sense = -1.0 if (drive.duty.speed or 1.0) < 0.0 else 1.0
     speeds = [min(max(proof.worst[k], low), high) for k, (low, high) in pairs]
-    alone = proof.lowest == proof.highest  # speeds that are held, judged by themselves
+    alone = (proof.lowest == proof.highest) | proof.zone.by_torques  # judged by themselves
     for (k, _between), speed in zip(pairs, speeds, strict=True):
         rate = float(proof.growth_rate[k])
         if not alone[k]:
@@ -160,7 +160,7 @@ def _counted(drive: Drive, note: Text) -> Text:
     orders = nonsynchronous(drive)
     if orders is None:
         return note
-    text = _("{note}; orders that do not repeat within two turns ({orders}) count only at speeds that are held")
+    text = _("{note}; orders that do not repeat within two turns ({orders}) count at single speeds, not between them")
     return say(text, note=note, orders=orders)
 
 

@@ -7,6 +7,7 @@ growth over ever more periods.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,9 @@ FEWEST, MOST = 2048, 32768
 
 AT_ONCE = 4
 """Periods multiplied between two orthogonalisations."""
+
+BLOCK = 2_000_000
+"""Numbers in the phases of periods that are held at once."""
 
 BEGIN = 256
 """Periods left out, until the directions of growth are found."""
@@ -58,38 +62,46 @@ def exponents(matrices: Array, ratio: float) -> Exponents:
     """Return the exponents of products M(θ0 + 2πr(N-1)) … M(θ0 + 2πr) M(θ0) from θ0 = 0 on.
 
     matrices (B, S, m, m): M at S even samples of θ, so many that sums of S harmonics hold it between them; ratio: r.
-    By orthogonalisation (QR) of a frame; the logarithms are averaged with weights that rise and fall smoothly, with
-    which means of what two frequencies make converge faster than any power of the number of periods.
+    By orthogonalisation (QR) of a frame, until the exponents of each are known; the logarithms are averaged with
+    weights that rise and fall smoothly, with which means of what two frequencies make converge faster than any power of
+    the number of periods.
     """
     parts = parts_of(matrices)
-    frame = np.broadcast_to(np.eye(parts.shape[-1]), (len(parts), *parts.shape[2:]))
-    logs: list[Array] = []
-    done, periods = -BEGIN, FEWEST
-    while True:
-        while done < periods:
-            begin = BEGIN + done
-            steps = np.arange(begin, min(begin + FEWEST, BEGIN + periods))
-            for block in _blocks(parts, ratio, steps):
-                frame, upper = np.linalg.qr(block @ frame)
-                logs.append(np.log(np.maximum(np.abs(np.diagonal(upper, axis1=-2, axis2=-1)), TINY)) / AT_ONCE)
-            done += len(steps)
-        found = _averaged(np.asarray(logs[BEGIN // AT_ONCE :]))
+    count, rank = len(parts), parts.shape[-1]
+    growth, error = np.full((count, rank), np.nan), np.full((count, rank), np.nan)
+    frame = np.broadcast_to(np.eye(rank), (count, rank, rank))
+    logs = np.zeros((0, count, rank))
+    going = np.arange(count)
+    done, periods = 0, BEGIN + FEWEST
+    while going.size:
+        steps = np.arange(done, periods)
+        more: list[Array] = []
+        for block in _blocks(parts[going], ratio, steps):
+            frame, upper = np.linalg.qr(block @ frame)
+            more.append(np.diagonal(upper, axis1=-2, axis2=-1))
+        logs = np.concatenate([logs, np.log(np.maximum(np.abs(more), TINY)) / AT_ONCE])
+        found = _averaged(logs[BEGIN // AT_ONCE :])
+        growth[going], error[going] = found.growth, found.error
         known = found.error[:, 0] <= np.maximum(CLOSE, SURE * np.abs(found.growth[:, 0]))
-        if periods >= MOST or np.all(known):
-            return found
-        periods *= 2
+        if periods >= BEGIN + MOST:
+            break
+        going, frame, logs = going[~known], frame[~known], logs[:, ~known]
+        done, periods = periods, 2 * periods - BEGIN
+    return Exponents(growth=growth, error=error)
 
 
-def _blocks(parts: Array, ratio: float, steps: Array) -> Array:
-    """Return products of matrices of successive periods, array (n, B, m, m)."""
-    count = parts.shape[1]
+def _blocks(parts: Array, ratio: float, steps: Array) -> Iterator[Array]:
+    """Yield products of matrices of successive periods, arrays (B, m, m)."""
+    outer, count, rank = parts.shape[0], parts.shape[1], parts.shape[-1]
     number = np.fft.fftfreq(count, 1.0 / count)
-    turn = np.exp(2j * np.pi * np.multiply.outer((ratio * steps) % 1.0, number))
-    every = np.einsum("ts,bsij->tbij", turn, parts, optimize=True).real
-    found: Array = every[0::AT_ONCE]
-    for k in range(1, AT_ONCE):
-        found = every[k::AT_ONCE] @ found
-    return found
+    at_once = AT_ONCE * max(1, BLOCK // (AT_ONCE * max(count, outer * rank**2)))
+    for some in np.split(steps, range(at_once, len(steps), at_once)):
+        turn = np.exp(2j * np.pi * np.multiply.outer((ratio * some) % 1.0, number))
+        every = (turn @ parts.swapaxes(0, 1).reshape(count, -1)).real.reshape(-1, AT_ONCE, outer, rank, rank)
+        found = every[:, 0]
+        for k in range(1, AT_ONCE):
+            found = every[:, k] @ found
+        yield from found
 
 
 def _averaged(logs: Array) -> Exponents:

@@ -17,7 +17,10 @@ from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station, ToNext
 from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.stability import answer as home
-from cardan.questions.torsion.stability.torsion_stability import no_smooth_motion
+from cardan.questions.torsion.stability import torsion_stability as asking
+from cardan.questions.torsion.stability.torsion_stability import EDGE, no_smooth_motion, proved_in_use
+from cardan.questions.torsion.steady import answer as told_running
+from cardan.questions.torsion.steady import torsion_response as running
 from cardan.questions.torsion.steady.answer import answer as running_answer
 from cardan.units import deg
 
@@ -131,11 +134,81 @@ def test_at_a_point_orders_that_do_not_repeat_count_and_every_answer_says_so() -
 
 
 @pytest.mark.slow
-def test_over_speeds_they_do_not_count_and_the_answers_say_so() -> None:
-    drive, speeds = engined(120.0), np.linspace(25.0, 35.0, 9)
+def test_over_speeds_and_maps_they_count_as_at_each_point_and_the_answers_say_so() -> None:
+    drive, speeds = engined(120.0), np.linspace(26.0, 34.0, 5)
+    over = stability(drive, over={"duty.speed_rad_s": speeds})
+    both = stability(drive, over={"duty.speed_rad_s": speeds, "duty.torques[0].amplitude_Nm": [10.0, 120.0]})
+    swept = torsion_response(drive, speed=speeds)
+    held = "Stability is that of the motion with the orders that do not repeat within two turns (3.315)."
+    answers = [home.answer(drive, one) for one in (over, both)]
+    for said in (*answers, running_answer(drive, swept)):
+        assert held in [told(one.text, USUAL) for one in said.remarks]
+    assert over.together.all()
+    assert swept.together.all()
+    assert both.together.all()
+    alone = [stability(replace(drive, duty=replace(drive.duty, speed=float(one)))) for one in speeds]
+    assert [float(one.growth_rate) for one in alone] == pytest.approx(over.growth_rate, rel=1e-3)
+    assert over.growth_rate == pytest.approx(swept.floquet.growth_rate, rel=1e-3)
+    assert over.growth_rate == pytest.approx(both.growth_rate[:, 1], rel=1e-3)
+    assert (over.growth_rate > 0.0).any()
+    assert (both.growth_rate[:, 0] < 0.0).all()
+    assert over.proof is not None
+    assert over.proof.stable  # without these orders, which no verdict and no picture may take for the whole
+    assert answers[0].tone == "failed"
+    (figure,) = answers[0].figures()
+    assert any(type(one).__name__ == "Band" for one in figure.rows[0].panels[0].series)
+    texts = [told(one.text, USUAL) for one in answers[0].remarks]
+    assert any(one.startswith("Only points") and "nothing is proved with orders" in one for one in texts)
+    assert any(one.endswith("That leaves out the orders that do not repeat within two turns.") for one in texts)
+
+
+@pytest.mark.slow
+def test_where_they_cannot_count_the_answers_say_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    drive, speeds = engined(120.0), np.linspace(26.0, 34.0, 5)
+    orders = stability(drive, over={"duty.torques[0].order": [3.315, 3.415]})  # points with other torques each
+    monkeypatch.setattr(asking, "MANY", 4)
+    monkeypatch.setattr(home, "MANY", 4)
+    monkeypatch.setattr(running, "COUNTED", 4)
+    monkeypatch.setattr(told_running, "COUNTED", 4)
     over, swept = stability(drive, over={"duty.speed_rad_s": speeds}), torsion_response(drive, speed=speeds)
     without = "Stability is judged without the orders that do not repeat within two turns (3.315)"
-    for said in (home.answer(drive, over), running_answer(drive, swept)):
-        assert any(told(one.text, USUAL).startswith(without) for one in said.remarks)
-    assert not over.together.any()
-    assert not swept.together.any()
+    for said, why in (
+        (home.answer(drive, over), "; at up to 4 points they count."),
+        (running_answer(drive, swept), "; at up to 4 points they count."),
+        (home.answer(drive, orders), ": how disturbances of the motion with them grow is not known here."),
+    ):
+        assert without + why in [told(one.text, USUAL) for one in said.remarks]
+    for found in (over, swept, orders):
+        assert not found.together.any()
+
+
+@pytest.mark.slow
+def test_the_check_over_a_range_finds_where_that_order_alone_makes_vibration_grow() -> None:
+    drive = engined(120.0)
+    ranged = replace(drive, duty=replace(drive.duty, speed=None, speed_range=(25.0, 40.0)))
+    proof = proved_in_use(ranged)
+    assert proof is not None
+    assert proof.zone.by_torques.tolist() == [True]
+    for edge, beyond in ((proof.lowest[0], -1.0), (proof.highest[0], 1.0)):
+        there = [edge, edge * (1.0 + 2.0 * beyond * EDGE)]
+        assert (stability(drive, over={"duty.speed_rad_s": there}).growth_rate > 0.0).tolist() == [True, False]
+    (verdict,) = check(ranged, only=["parametric_stability"])
+    assert not verdict.passed
+    assert "count at single speeds, not between them" in told(verdict.note, USUAL)
+    (calm,) = check(
+        replace(ranged, duty=replace(ranged.duty, torques=engined(10.0).duty.torques)), only=["parametric_stability"]
+    )
+    assert calm.passed
+
+
+@pytest.mark.slow
+def test_who_stops_amid_these_orders_is_told_so() -> None:
+    asked: list[float] = []
+
+    def stop(share: float) -> str | None:
+        asked.append(share)
+        return "stop" if share > 0.25 else None
+
+    found = stability(engined(120.0), over={"shafts[0].damping_Nms_per_rad": np.linspace(1.0, 3.0, 80)}, progress=stop)
+    assert found.cancelled
+    assert 0 < np.sum(found.together) < 80

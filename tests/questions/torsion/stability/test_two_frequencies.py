@@ -131,14 +131,14 @@ def test_the_shift_in_time_of_a_free_drive_goes_on_as_the_motion_does() -> None:
     steady = periodic_response(model, speed=41.0)
     motion = moving(steady.orbit, np.asarray([0]), ORDER, swinging(60.0), 3, finer=3)
     theta = np.asarray([0.3])
-    matrix = monodromy(coefficients_of(motion, theta), np.asarray([np.pi / 41.0]))[0]
+    matrix = monodromy(coefficients_of(motion, np.asarray([0]), theta), np.asarray([np.pi / 41.0]))[0]
     ends = []
     for at in (theta, theta + 2.0 * np.pi * motion.ratio):
         _x, v, a = (one[0, 0, 0] for one in motion.torus.along(np.zeros(1), at))
         rate = float(motion.turning.frequency[0])
         ends.append(np.concatenate([41.0 + rate * v, rate**2 * a]))
     assert matrix @ ends[0] == pytest.approx(ends[1], rel=1e-4, abs=1e-4 * float(np.max(np.abs(ends[1]))))
-    assert matrices_of(motion, 8)[0].shape[-1] == len(matrix) - 1
+    assert matrices_of(motion, np.asarray([0]), theta)[0].shape[-1] == len(matrix) - 1
 
 
 def test_what_is_not_known_stays_as_it_is_without_these_orders() -> None:

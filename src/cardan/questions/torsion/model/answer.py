@@ -355,8 +355,13 @@ def _remarks(drive: Drive, found: TorsionModes, exact: Exact | None) -> Iterator
     yield from left_out(drive)
     yield from yokes_estimated(drive)
     yield from _enough(drive, found, exact)
-    if exact is not None:
-        yield from counted(nonsynchronous(drive), np.zeros(1))
+    orders = nonsynchronous(drive)
+    if exact is not None and orders is not None:
+        text = _(
+            "Stability is proved without the orders that do not repeat within two turns ({orders}); they count at "
+            "single speeds of the operating range, not between them."
+        )
+        yield Remark(text=say(text, orders=orders))
     text = _("Checked: the torques of every mode balance {closely}.")
     yield Remark(text=text.format(closely=closely(found.residual)), depth="full", aside=True)
     yield Remark(
@@ -599,26 +604,32 @@ def nonsynchronous(drive: Drive) -> Joined | None:
     return Joined(found) if found else None
 
 
-def counted(orders: Joined | None, together: ArrayLike) -> Iterator[Remark]:
+def counted(orders: Joined | None, together: ArrayLike, most: int) -> Iterator[Remark]:
     """Yield whether stability counts the orders that no two turns hold a whole number of times.
 
-    together (...): where it does.
+    together (...): where it does; most: points at which it may.
     """
     if orders is None:
         return
     known = np.asarray(together)
-    text = _(
-        "Stability is judged without the orders that do not repeat within two turns ({orders}); at a single speed they "
-        "count."
-    )
     if np.all(known):
         text = _("Stability is that of the motion with the orders that do not repeat within two turns ({orders}).")
-    elif known.ndim == 0:
+    elif np.any(known):
+        text = _(
+            "Stability is that of the motion with the orders that do not repeat within two turns ({orders}) at {share} "
+            "of the points; elsewhere it is judged without them, as how disturbances grow with them is not known."
+        )
+    elif known.size > most:
+        text = _(
+            "Stability is judged without the orders that do not repeat within two turns ({orders}); at up to {most} "
+            "points they count."
+        )
+    else:
         text = _(
             "Stability is judged without the orders that do not repeat within two turns ({orders}): how disturbances "
             "of the motion with them grow is not known here."
         )
-    yield Remark(text=say(text, orders=orders))
+    yield Remark(text=say(text, orders=orders, most=most, share=Quantity(float(np.mean(known)), "share", 2)))
 
 
 def counted_to_first_order(drive: Drive) -> Iterator[Remark]:

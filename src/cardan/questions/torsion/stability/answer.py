@@ -27,6 +27,7 @@ from cardan.questions.torsion.model.answer import (
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.steady.run_stability import Kind, Verdict, verdict_words
+from cardan.questions.torsion.steady.two_frequency_stability import MANY
 from cardan.texts import _, mark
 from cardan.units import deg, rpm
 
@@ -40,7 +41,7 @@ ACROSS, UP = 61, 14
 """Speeds and joint angles of a map."""
 
 COARSE_ACROSS, COARSE_UP = 21, 7
-"""The same of a drive with backlash: a point at which that opens takes a hundred times as long."""
+"""The same of a drive with backlash, or with orders that do not repeat: a point takes a hundred times as long."""
 
 LITTLE, WIDEST = math.radians(0.5), math.radians(45.0)
 """No map of drives with smaller joint angles; what stands for the angle of one with a larger one."""
@@ -78,7 +79,8 @@ def ask(drive: Drive, *, progress: Callable[[float], object] | None = None) -> S
         return None
     runs = abs(drive.duty.speed) / rpm
     loose = bool(np.any(torsional_train(drive, loaded=False).model.backlash > 0.0))
-    across, up = (COARSE_ACROSS, COARSE_UP) if loose else (ACROSS, UP)
+    coarse = loose or nonsynchronous(drive) is not None
+    across, up = (COARSE_ACROSS, COARSE_UP) if coarse else (ACROSS, UP)
     speeds = np.linspace(0.5 * runs, 1.5 * runs, across)
     joint_angles = np.linspace(0.3, 1.6, up) * min(joint_angle, WIDEST) / deg
     return stability(drive, over={"duty.speed_rpm": speeds, JOINT_ANGLE: joint_angles}, progress=progress)
@@ -134,7 +136,8 @@ def _point(found: Stability) -> tuple[Tone, Text]:
 def _mapped(found: Stability, axes: tuple[MapAxis, ...]) -> tuple[Tone, Text]:
     """Return what becomes of vibration over a path or two."""
     known = np.any(found.verdict != Verdict.UNKNOWN)
-    if len(axes) == 1 and known and found.proof is not None and found.proof.looked_at:
+    proved = found.proof is not None and found.proof.looked_at and not np.any(found.together)
+    if len(axes) == 1 and known and proved and found.proof is not None:
         return _followed(found, found.proof, axes[0])
     unstable = found.verdict == Verdict.UNSTABLE
     if not np.any(unstable):
@@ -189,7 +192,8 @@ def _unproved(found: Stability, over: MapAxis) -> Iterator[Remark]:
     proof, rubs = found.proof, any(one.friction > 0.0 for _element, one in found.train.springs)
     if proof is None:
         return
-    if not proof.looked_at:
+    together = bool(np.any(found.together))
+    if together or not proof.looked_at:
         step = over.quantity(float(np.max(np.diff(np.sort(over.values)), initial=0.0)), 2)
         text = _(
             "Only points {step} apart were judged: narrower zones may be missed, and a proof between them would take "
@@ -199,6 +203,11 @@ def _unproved(found: Stability, over: MapAxis) -> Iterator[Remark]:
             text = _(
                 "Only points {step} apart were judged: narrower zones may be missed, as nothing is proved where dry "
                 "friction sticks and slips."
+            )
+        if together:
+            text = _(
+                "Only points {step} apart were judged: narrower zones may be missed, as nothing is proved with orders "
+                "that do not repeat within two turns."
             )
         yield Remark(text=say(text, step=step), tone="warning")
         return
@@ -219,20 +228,22 @@ def _unproved(found: Stability, over: MapAxis) -> Iterator[Remark]:
             yield Remark(text=say(text, where=named, why=no_smooth_motion(found.train)), tone="warning")
 
 
-def _as_drawn(proof: ProvedSpeeds, over: MapAxis) -> Remark:
-    """Return what is proved of the drive as it is, beside a map of points."""
+def _as_drawn(found: Stability, proof: ProvedSpeeds, over: MapAxis) -> Remark:
+    """Return what is proved of the drive as it is, beside points of other drives or with more orders."""
     low, high = (_edge(one, over) for one in proof.looked)
     zones = _zone_texts(proof, over)
     hidden = Quantity(proof.hidden, over.dimension, 2, unit=over.unit)
-    if not zones:
-        text = _("As drawn it is stable from {low:bare} to {high}: proved throughout.")
-        if not proof.proved:
-            text = _("As drawn no zone wider than {hidden} can hide from {low:bare} to {high}.")
-        return Remark(text=say(text, low=low, high=high, hidden=hidden), tone="good")
     text = _("As drawn it is unstable at {where}; otherwise stable from {low:bare} to {high}, proved.")
-    if not proof.proved:
+    if not zones and proof.proved:
+        text = _("As drawn it is stable from {low:bare} to {high}: proved throughout.")
+    elif not zones:
+        text = _("As drawn no zone wider than {hidden} can hide from {low:bare} to {high}.")
+    elif not proof.proved:
         text = _("As drawn it is unstable at {where}; from {low:bare} to {high} a zone up to {hidden} wide could hide.")
-    return Remark(text=say(text, where=Joined(zones), low=low, high=high, hidden=hidden), tone="warning")
+    said: Text = say(text, where=Joined(zones), low=low, high=high, hidden=hidden)
+    if np.any(found.together):
+        said = say(_("{what} That leaves out the orders that do not repeat within two turns."), what=said)
+    return Remark(text=said, tone="warning" if zones else "good")
 
 
 def _within(stretches: Any, others: Any, *, inside: bool = True) -> Any:
@@ -293,8 +304,8 @@ def _remarks(drive: Drive, found: Stability, axes: tuple[MapAxis, ...], *, signs
         yield Remark(text=text.format(done=done, all=found.verdict.size), tone="warning")
     if len(axes) == 1 and found.proof is not None:
         yield from _unproved(found, axes[0])
-    if len(axes) == 2 and found.proof is not None and found.proof.looked_at:
-        yield _as_drawn(found.proof, next(one for one in axes if one.key == SPEED))
+    if (len(axes) == 2 or np.any(found.together)) and found.proof is not None and found.proof.looked_at:
+        yield _as_drawn(found, found.proof, next(one for one in axes if one.key == SPEED))
     if not axes and int(found.verdict) == Verdict.STABLE and np.isfinite(found.zone.speed):
         text = _("The nearest zone of instability is the {zone}, at {speed}.")
         yield Remark(text=say(text, zone=found.zone.name(), speed=_speed(found.zone.speed)))
@@ -319,7 +330,7 @@ def _remarks(drive: Drive, found: Stability, axes: tuple[MapAxis, ...], *, signs
         if found.zone.by_torques:
             text = _("What helps: another speed, smaller torques of that order, more damping.")
         yield Remark(text=text)
-    yield from counted(nonsynchronous(drive), found.together)
+    yield from counted(nonsynchronous(drive), found.together, MANY)
     if found.train.model.free:
         yield Remark(text=_("Rigid-body rotation is left out: a free drive may shift in time."))
     yield from assumptions(found.train, sprung=True)
@@ -330,8 +341,10 @@ def _remarks(drive: Drive, found: Stability, axes: tuple[MapAxis, ...], *, signs
             "torsion response tells."
         )
         yield Remark(text=text)
-    if len(axes) == 2 and not signs and plays(found):
+    if len(axes) == 2 and not signs and (plays(found) or np.any(found.together)):
         text = _("The map is coarse, as motions whose backlash opens take long; in full: {command}")
+        if not plays(found):
+            text = _("The map is coarse, as motions with orders that do not repeat take long; in full: {command}")
         yield Remark(text=text.format(command=_finer(axes)), depth="full")
     if not axes:
         text = _("A stability map over speed in rpm and largest joint angle in degrees:")

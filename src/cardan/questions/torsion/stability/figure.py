@@ -151,7 +151,7 @@ def growth_figure(found: Stability) -> Figure:
 
 def _bands(found: Stability, over: MapAxis) -> Iterator[Band]:
     """Yield the unstable ranges: to their edges where these were followed, else as far as the points tell."""
-    if found.proof is None or not found.proof.looked_at:
+    if found.proof is None or not found.proof.looked_at or np.any(found.together):
         yield from unstable_bands(over.values, found.verdict)
         return
     for low, high in zip(found.proof.lowest, found.proof.highest, strict=True):

@@ -122,26 +122,33 @@ class ProvedSpeeds:
         return found[np.argsort(-self.growth_rate[found], kind="stable")]
 
     def judged_at(self, found: Floquet, speed: Array) -> ProvedSpeeds:
-        """Return the same with some speeds (n,) [rad/s] judged by themselves, found (n,): ranges of no width."""
+        """Return the same with some speeds (n,) [rad/s] judged by themselves, found (n,): rising.
+
+        What is unstable at one or at several in a row is a range from the first of them to the last.
+        """
         known = found.verdict != Verdict.UNKNOWN
         inside = np.any((self.lowest <= speed[:, None]) & (speed[:, None] <= self.highest), axis=-1)
-        more = np.flatnonzero((found.verdict == Verdict.UNSTABLE) & ~inside)
-        order = np.argsort(np.concatenate([self.lowest, speed[more]]), kind="stable")
+        grows = (found.verdict == Verdict.UNSTABLE) & ~inside
+        runs = [one for one in np.split(np.arange(len(speed)), np.flatnonzero(np.diff(grows)) + 1) if grows[one[0]]]
+        first, last = (np.asarray([one[end] for one in runs], dtype=int) for end in (0, -1))
+        most = np.asarray([one[np.argmax(found.growth_rate[one])] for one in runs], dtype=int)
+        order = np.argsort(np.concatenate([self.lowest, speed[first]]), kind="stable")
 
         def joined(own: Array, others: Array) -> Array:
-            whole: Array = np.concatenate([own, others[more]])[order]
+            whole: Array = np.concatenate([own, others])[order]
             return whole
 
         unproved = np.asarray([pair for one in self.unproved for pair in _cut(one, speed[known])]).reshape(-1, 2)
         names = [one.name for one in fields(Zone)]
+        zones = {name: joined(getattr(self.zone, name), getattr(found.zone, name)[most]) for name in names}
         return replace(
             self,
-            lowest=joined(self.lowest, speed),
-            highest=joined(self.highest, speed),
-            worst=joined(self.worst, speed),
-            growth_rate=joined(self.growth_rate, found.growth_rate),
-            kind=joined(self.kind, found.kind),
-            zone=Zone(**{name: joined(getattr(self.zone, name), getattr(found.zone, name)) for name in names}),
+            lowest=joined(self.lowest, speed[first]),
+            highest=joined(self.highest, speed[last]),
+            worst=joined(self.worst, speed[most]),
+            growth_rate=joined(self.growth_rate, found.growth_rate[most]),
+            kind=joined(self.kind, found.kind[most]),
+            zone=Zone(**zones),
             unproved=unproved,
             samples=self.samples + int(known.sum()),
         )

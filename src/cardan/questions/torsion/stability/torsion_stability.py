@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 
 import numpy as np
 
-from cardan.drive.conditions import held_speeds, used_speeds
+from cardan.drive.conditions import held_speeds, speed_ranges, used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.paths import place, read, with_values
@@ -18,8 +18,9 @@ from cardan.maths.arrays import Array, ArrayLike
 from cardan.questions.torsion.model.joint_bends import bends
 from cardan.questions.torsion.model.torsional_layouts import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
+from cardan.questions.torsion.model.torsional_modes import straight_modes
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained, sprung, torsional_train
-from cardan.questions.torsion.steady.run_stability import Floquet, Verdict, Zone, floquet
+from cardan.questions.torsion.steady.run_stability import Floquet, Verdict, Zone, floquet, joined
 from cardan.questions.torsion.steady.several import (
     middle_ones,
     settled_judgement,
@@ -34,7 +35,8 @@ from cardan.questions.torsion.steady.torsion_response import (
     order_jumps,
     parted,
 )
-from cardan.questions.torsion.steady.two_frequency_stability import with_torques
+from cardan.questions.torsion.steady.two_frequencies import grouped
+from cardan.questions.torsion.steady.two_frequency_stability import MANY, with_torques
 from cardan.texts import _
 from cardan.units import deg
 
@@ -56,8 +58,19 @@ RANGE, TRIALS, ROUNDS = (1e-5, 1.0), 11, 3
 PROVING, LITTLE = 0.5, 1.5e7
 """Share of the work after which stability over the speeds is proved, and how much that may take beside a map."""
 
+CLOSER, PARTS, EDGE = 4, 6, 0.002
+"""How often edges between such speeds are looked at closer, into how many parts each gap is divided, and the share of
+the speed to which they are known then."""
+
+EVEN, NARROW, LOWEST = 9, 0.02, 3
+"""Speeds of a range at most, evenly spread, at which torques that do not repeat are counted, the share of the speed by
+which they are apart at least, and modes they may meet."""
+
 AROUND, SLOWEST = 0.1, 0.05
 """Share by which speeds are looked at beyond those in use, and of the highest below which none is."""
+
+ALONE = 0.2
+"""Share of the work on points after which torques that do not repeat are counted, where there are some."""
 
 TOLD = 4
 """Points of drives with several motions, up to which that is judged which `torsion_response` tells: seconds each."""
@@ -105,8 +118,9 @@ class Stability:
         Over speeds: the unstable ranges between the lowest and the highest to their edges, and a proof that there are
         no others; on a map over something else too, of the drive as it is.
     together : array of bool (...)
-        Whether torques of orders that do not repeat within two turns count, by the motion with them: at a point, where
-        that motion is known. All else is judged without them, the proof and the least loss factor too.
+        Whether torques of orders that do not repeat within two turns count, by the motion with them: at up to a
+        thousand points, where that motion is known. All else is judged without them, the proof and the least loss
+        factor too.
     """
 
     over: tuple[tuple[str, Array], ...]
@@ -210,8 +224,8 @@ def stability(
             continue
         share = PROVING if variants.speeding is not None else 1.0
         told = within(progress, share * first / count, share * last / count)
-        at = variants.at(np.unravel_index(rows, shape) if shape else (), len(rows))
-        part, stopped = _judged(*at, told, () if axes else variants.loose, alone=count <= TOLD)
+        model, speed, loose = variants.at(np.unravel_index(rows, shape) if shape else (), len(rows))
+        part, stopped = _judged(model, speed, told, loose if count <= MANY else (), alone=count <= TOLD)
         parts.append(part)
         if progress is not None and not stopped:
             stopped = progress(share * last / count) == "stop" and last < count
@@ -240,7 +254,8 @@ def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     """Return the unstable ranges at the speeds in use and a tenth beyond, None where the drive names no speed.
 
     Speeds that are held are judged by themselves too: where a line is too stiff for a proof, of several motions, and
-    with torques of orders that do not repeat within two turns.
+    with torques of orders that do not repeat within two turns. With such torques so are some between them: evenly
+    spread, and where they meet a mode twice, or two modes as a sum.
     Raises InputError: what the torsional model misses, each with the key to add.
     """
     used = used_speeds(drive.duty)
@@ -252,13 +267,46 @@ def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     train = torsional_train(drive, drive.duty, speed=sense * low, pieces=pieces)
     between = (low, high) if sense > 0.0 else (-high, -low)
     proof = _proved(drive, between, train, pieces, LITTLE, None)
+
+    def told(speeds: Array) -> Floquet:
+        model, loose = parted(loaded_model(drive, drive.duty, sense * speeds, pieces=pieces)[1])
+        return judged(model, sense * speeds, loose)
+
     held = np.asarray(held_speeds(drive.duty))
-    if not held.size:
-        return proof
+    loose = parted(train.model)[1]
+    for first, last in speed_ranges(drive.duty) if loose and not several_looked_for(train.model) else ():
+        inside = held[(first <= held) & (held <= last)]
+        speeds = np.union1d(inside, _between(max(first, low), last, train.model, loose))
+        proof = proof.judged_at(*_edged(told, speeds))
+        held = np.setdiff1d(held, inside)
     for one in held:
-        model, loose = parted(loaded_model(drive, drive.duty, sense * one[None], pieces=pieces)[1])
-        proof = proof.judged_at(judged(model, sense * one[None], loose), one[None])
+        proof = proof.judged_at(told(one[None]), one[None])
     return proof
+
+
+def _edged(told: Callable[[Array], Floquet], speeds: Array) -> tuple[Floquet, Array]:
+    """Return what is told at speeds (s,), and at more between a stable one and an unstable one; with all of them."""
+    found = told(speeds)
+    for _round in range(CLOSER):
+        grows = found.verdict == Verdict.UNSTABLE
+        left = np.flatnonzero(np.diff(grows) & (np.diff(speeds) > EDGE * speeds[1:]))
+        if not left.size:
+            break
+        more = np.linspace(speeds[left], speeds[left + 1], PARTS + 1)[1:-1].ravel()
+        order = np.argsort(np.concatenate([speeds, more]))
+        found, speeds = joined(found, told(more), order), np.concatenate([speeds, more])[order]
+    return found, speeds
+
+
+def _between(low: float, high: float, model: TorsionalModel, loose: tuple[Torque, ...]) -> Array:
+    """Return the speeds of a range at which torques that do not repeat are counted, rising, array (s,) [rad/s]."""
+    omega = straight_modes(replace(model, torques=())).omega[:LOWEST]
+    sums = 0.5 * (omega[:, None] + omega).reshape(-1)
+    orders = np.asarray([one for one, _group in grouped(loose)])
+    meeting = (2.0 * sums[:, None] / np.abs(orders[:, None] + (0.0, -2.0, 2.0)).reshape(-1)).reshape(-1)
+    count = int(np.clip(np.ceil((high - low) / (NARROW * high)), 1, EVEN - 1)) + 1
+    every = np.concatenate([np.linspace(low, high, count), meeting[(low < meeting) & (meeting < high)]])
+    return np.unique(every.round(6))
 
 
 def proved_in_band(drive: Drive, low: float, high: float) -> ProvedSpeeds | None:
@@ -359,21 +407,32 @@ def _judged(
         verdict, cancelled = judged(model, speed), False
         together = np.zeros(np.shape(verdict.verdict), dtype=bool)
     else:
-        found = floquet_map(model, speed=speed, progress=progress)
-        (verdict, together), cancelled = _with_torques(found, _settled(found), loose), found.cancelled
+        share = ALONE if loose else 1.0
+        found = floquet_map(model, speed=speed, progress=within(progress, 0.0, share))
+        rest = within(progress, share, 1.0)
+        said: list[object] = []
+
+        def told(done: float) -> object:
+            said.append(rest(done) if rest is not None else None)
+            return said[-1]
+
+        verdict, together = _with_torques(found, _settled(found), loose, told)
+        cancelled = found.cancelled or "stop" in said
     zone = {f"zone_{one.name}": getattr(verdict.zone, one.name) for one in fields(Zone)}
     names = ("verdict", "kind", "growth_rate", "spectral_radius", "order", "multipliers")
     own = {"speed": speed, "together": together}
     return {name: getattr(verdict, name) for name in names} | zone | own, cancelled
 
 
-def _with_torques(found: FloquetMap, alone: Floquet, loose: tuple[Torque, ...]) -> tuple[Floquet, Array]:
+def _with_torques(
+    found: FloquetMap, alone: Floquet, loose: tuple[Torque, ...], progress: Progress | None = None
+) -> tuple[Floquet, Array]:
     """Return stability with torques that do not repeat, and where it counts them; alone: what it is without them."""
     if not loose:
         return alone, np.zeros(np.shape(alone.verdict), dtype=bool)
     several = bool(np.any(middle_ones(found.orbit, found.floquet)))
     orbit = stable_motions(found.orbit, found.status)[0] if several else found.orbit
-    return with_torques(orbit, alone, loose)
+    return with_torques(orbit, alone, loose, progress=progress)
 
 
 def _settled(found: FloquetMap) -> Floquet:
@@ -460,7 +519,6 @@ class _Variants:
         )
         self.here = tuple((path, float(value)) for path, value in own.items() if isinstance(value, float | int))
         self.train, self.model = loaded_model(drive, drive.duty, self.speeds[:1], pieces=pieces)
-        self.loose = parted(self.model)[1]
 
     def proof(self, progress: Progress | None) -> ProvedSpeeds | None:
         """Return the unstable ranges between the lowest and the highest of the speeds, of the drive as it is."""
@@ -475,12 +533,16 @@ class _Variants:
         every = np.arange(int(np.prod(shape, dtype=int))).reshape(shape)
         return every.reshape(-1) if self.speeding is None else np.moveaxis(every, self.speeding, -1).reshape(-1)
 
-    def at(self, index: Sequence[Array], count: int) -> tuple[TorsionalModel, Array]:
-        """Return the models (b,) and speeds (b,) of points by their places on the axes."""
+    def at(self, index: Sequence[Array], count: int) -> tuple[TorsionalModel, Array, tuple[Torque, ...]]:
+        """Return the models (b,) and speeds (b,) of points by their places on the axes, and torques that do not repeat.
+
+        None of these where the points have others than each other.
+        """
         column = np.zeros(count, dtype=int) if self.speeding is None else index[self.speeding]
         speed = self.speeds[column]
         keys = np.stack([index[k] for k in self.others], axis=-1) if self.others else np.zeros((count, 0), dtype=int)
         found: list[TorsionalModel] = []
+        beside: list[TorsionalModel] = []
         order: list[Array] = []
         for key in np.unique(keys, axis=0):
             rows = np.flatnonzero(np.all(keys == key, axis=-1))
@@ -489,11 +551,16 @@ class _Variants:
             if self.bending is not None:
                 largest = float(self.axes[self.bending][1][key[self.others.index(self.bending)]])
                 model = _bent(drive, model, largest * deg)
-            found.append(some_of(parted(model)[0], (len(rows),), np.arange(len(rows)), moments=False))
+            steady, loose = parted(model)
+            for kept, torques in ((found, steady.torques), (beside, loose)):
+                own = replace(steady, torques=torques)
+                kept.append(some_of(own, (len(rows),), np.arange(len(rows)), moments=False))
             order.append(rows)
         back = np.argsort(np.concatenate(order), kind="stable")
-        whole = chained(found)
-        return some_of(whole, (count,), back, moments=False), speed
+        alike = len({tuple((torque.station, torque.law.order) for torque in one.torques) for one in beside}) == 1
+        whole = some_of(chained(found), (count,), back, moments=False)
+        loose = some_of(chained(beside), (count,), back, moments=False).torques if alike else ()
+        return whole, speed, loose
 
     def _variant(self, key: Array) -> Drive:
         pairs = [(self.axes[k], j) for k, j in zip(self.others, key, strict=True) if k != self.bending]

@@ -29,7 +29,7 @@ from .pendulum_swing import strikes
 from .run_stability import Verdict, verdict_words
 from .settling import LONGEST
 from .several import Beside
-from .torsion_response import ROUNDING, TorsionResponse, level, peak_refined, torsion_response
+from .torsion_response import COUNTED, ROUNDING, TorsionResponse, level, peak_refined, torsion_response
 
 drawn = later("cardan.questions.torsion.steady.figure")
 
@@ -306,7 +306,7 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
         bands = [say(pair, order=_order(order), torque=_torque(size)) for order, size in beside]
         yield Remark(text=say(text, bands=Joined(bands)))
     if np.any(steady.found):
-        yield from counted(_loose(found), found.together)
+        yield from counted(_loose(found), found.together, COUNTED)
     if any(one.periods == 1 for one in found.beside):
         yield _beside(found)
     if any(one.periods != 1 for one in found.beside):

@@ -9,7 +9,7 @@ from enum import IntEnum
 import numpy as np
 
 from cardan.maths.arrays import Array
-from cardan.maths.periodic.floquet import Coefficients, monodromy, propagators, without_direction
+from cardan.maths.periodic.floquet import STAGES, Coefficients, collocation, monodromy, propagators, without_direction
 from cardan.maths.periodic.harmonics import HarmonicBalance, Status, harmonic_balance
 from cardan.maths.periodic.switching_orbit import Pieces, periodic_pieces
 from cardan.questions.torsion.model.torsional_balance import slopes
@@ -269,6 +269,25 @@ def replaced(known: Floquet, rows: Array, others: Floquet, own: Array) -> Floque
     return shaped(replace(known, zone=zone, **flat), known.verdict.shape)
 
 
+def joined(one: Floquet, other: Floquet, order: Array) -> Floquet:
+    """Return what is said of motions (a,) and of others (b,) in an order of all of them, array of int (a + b,)."""
+    wide = max(found.multipliers.shape[-1] for found in (one, other))
+
+    def both(values: Array, others: Array) -> Array:
+        if values.dtype.kind == "c":
+            values, others = (
+                np.pad(each, ((0, 0), (0, wide - each.shape[-1])), constant_values=np.nan) for each in (values, others)
+            )
+        whole: Array = np.concatenate([values, others])[order]
+        return whole
+
+    zone = Zone(**{f.name: both(getattr(one.zone, f.name), getattr(other.zone, f.name)) for f in fields(Zone)})
+    names = [f.name for f in fields(Floquet) if f.name not in ("zone", "period")]
+    return Floquet(
+        zone=zone, period=one.period, **{name: both(getattr(one, name), getattr(other, name)) for name in names}
+    )
+
+
 def nearest_zone(frequencies: Array, speed: Array, kind: Array, base: float = 2.0) -> Zone:
     """Return the zone of parametric resonance nearest to each speed.
 
@@ -315,6 +334,9 @@ SLOW, BESIDE = 0.02, 0.5
 
 ASIDE = 2e-4
 """Share of the speed by which the torque that keeps it is looked at on either side."""
+
+PANELS = 24
+"""Panels of a period over which damping is integrated, each by as many points as a step of the disturbance has."""
 
 FADED = 20.0
 """What has died out by e to this power over a period leaves no digits to check."""
@@ -576,10 +598,10 @@ def liouville(coefficients: Coefficients, duration: Array, matrix: Array) -> Arr
 
     So where a coordinate has no mass, and where what is left of a disturbance is smaller than rounding.
     """
-    share = (np.arange(128) + 0.5) / 128
-    mass, damping, _stiffness = coefficients(share)
+    points, table = collocation(STAGES)
+    mass, damping, _stiffness = coefficients(((np.arange(PANELS)[:, None] + points) / PANELS).ravel())
     if np.any(mass == 0.0):
         return np.full(len(duration), np.nan)
-    lost = np.mean(np.einsum("bprr,bpr->bp", damping, 1.0 / mass), axis=-1) * duration
+    lost = np.einsum("bprr,bpr->bp", damping, 1.0 / mass) @ np.tile(table[-1] / PANELS, PANELS) * duration
     with np.errstate(divide="ignore"):
         return np.where(lost < FADED, np.linalg.slogdet(matrix)[1] + lost, np.nan)

@@ -39,6 +39,9 @@ ROUNDS, CLOSER, FLAT = 8, 3, 1e-3
 """How often further speeds are put about the largest alternating torque, how many on either side, and the share by
 which its neighbours may lie lower where none are needed."""
 
+COUNTED = 40
+"""Speeds at most at which the stability counts torques that do not repeat: seconds all together."""
+
 SHARE = 0.35
 """Share of the work that finds motions; the rest judges them."""
 
@@ -77,7 +80,7 @@ class TorsionResponse:
         Paths of what the drive does not say and the answer assumes.
     together : array of bool (...)
         Whether the stability counts torques of orders that do not repeat within two turns, by the motion with them; it
-        does at a few speeds, where that motion is known.
+        does at up to `COUNTED` speeds, where that motion is known.
     """
 
     train: TorsionalTrain
@@ -201,7 +204,9 @@ def torsion_response(
     else:
         orbit, status, beside = stable_motions(*steady_orbits(model, speed=speeds, method=method, progress=part))
     steady = described(orbit, status)
-    verdict, together = with_torques(steady.orbit, floquet(steady), loose)
+    part = _scaled(progress, SHARE, 1.0)
+    few = loose if speeds.size <= COUNTED else ()
+    verdict, together = with_torques(steady.orbit, floquet(steady), few, progress=part)
     bands = {base: (side_bands(steady.orbit, base, group), group) for base, group in grouped(loose)}
     if progress is not None:
         progress(1.0)

@@ -8,6 +8,7 @@ of its station at ν Ω = ω_i ± ω_j, and with the side bands |ν ± 2r|.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -32,10 +33,14 @@ from .run_stability import (
     replaced,
     unmoved,
 )
+from .steady import Progress
 from .two_frequencies import Moving, grouped, moving, others_of
 
-FEW = 4
-"""Points at most that are judged with both frequencies: each takes some tenths of a second."""
+MANY = 1000
+"""Points at most that are judged with both frequencies: each takes some hundredths of a second."""
+
+CHUNK = 32
+"""Motions judged at once: they spread over as many phases of the torques."""
 
 SAMPLES, MOST = 8, 256
 """Samples of the phase of the torques, doubled until its harmonics are small."""
@@ -74,133 +79,161 @@ class _Growth:
         return found
 
 
-def with_torques(orbit: Orbit, known: Floquet, loose: tuple[Torque, ...]) -> tuple[Floquet, Array]:
+def with_torques(
+    orbit: Orbit, known: Floquet, loose: tuple[Torque, ...], *, progress: Progress | None = None
+) -> tuple[Floquet, Array]:
     """Return what becomes of disturbances with torques that do not repeat, and where that is known, array (...).
 
     orbit (...), known (...): motions without these torques and their stability, which stays where their motion with
     them is not known: with play that opens, with dry friction or springs that bend, with torques of several orders that
-    are no multiples of one, and at more points than `FEW`.
+    are no multiples of one, and at more points than `MANY`.
+    progress: told the share done; when it answers "stop", what was not done stays as without these torques.
     """
     count, groups = orbit.count, list(grouped(loose))
     exact = np.zeros(count, dtype=bool)
-    if len(groups) != 1 or orbit.model.special or count > FEW or not orbit.turning.coordinates:
+    if len(groups) != 1 or orbit.model.special or count > MANY or not orbit.turning.coordinates:
         return known, exact.reshape(orbit.angle_error)
     ((base, group),) = groups
-    states = known.verdict.reshape(-1)
-    found = known
-    for row in range(count):
-        if states[row] == Verdict.UNKNOWN or row in orbit.pieces:
-            continue
-        growth = _settled(orbit, row, base, group)
-        if growth is not None:
-            exact[row], found = True, _put(found, orbit, row, growth)
-    return found, exact.reshape(orbit.angle_error)
+    rows = np.flatnonzero(known.verdict.reshape(-1) != Verdict.UNKNOWN)
+    rows = rows[~np.isin(rows, list(orbit.pieces))]
+    speed = orbit.speed.reshape(-1)
+    found: dict[int, _Growth] = {}
+    done = 0
+    for sense in (speed[rows] > 0.0, speed[rows] < 0.0):
+        alike = rows[sense][np.argsort(np.abs(speed[rows[sense]]), kind="stable")]
+        for some in np.split(alike, range(CHUNK, len(alike), CHUNK)):
+            found |= _settled(orbit, some, base, group)
+            done += len(some)
+            if progress is not None and some.size and progress(done / len(rows)) == "stop":
+                return _put(known, orbit, found)
+    return _put(known, orbit, found)
 
 
-def _settled(orbit: Orbit, row: int, base: float, loose: tuple[Torque, ...]) -> _Growth | None:
-    """Return the growth about the motion of one drive, its sum of so many harmonics that it no longer changes."""
-    before: float | None = None
-    samples = SAMPLES
+def _settled(orbit: Orbit, rows: Array, base: float, loose: tuple[Torque, ...]) -> dict[int, _Growth]:
+    """Return the growth about motions by their rows, of sums of so many harmonics that it no longer changes.
+
+    rows (b,) of int: of drives that turn the same way.
+    """
+    found: dict[int, _Growth] = {}
+    before: dict[int, _Growth] = {}
     others = others_of(orbit, base, loose)[0]
     for finer in FINER:
-        motion = moving(orbit, np.asarray([row]), base, loose, others, finer=finer)
+        if not rows.size:
+            break
+        motion = moving(orbit, rows, base, loose, others, finer=finer)
         order = np.abs(motion.torus.order).ravel()[1:]
-        if not motion.bands.found[0] or (orbit.model.free and np.any(order < LEAST)):  # nothing holds a part at rest
-            return None
-        found = _growth(orbit, row, motion, loose, samples)
-        if found is None:
-            return None
-        first, samples = float(found.exponents[0]), len(found.matrices)
-        if before is not None:
-            error = found.error + abs(first - before)
-            if error <= max(SURE * abs(first), LEAST):
-                return replace(found, error=error)
-        before = first
-    return None
+        if orbit.model.free and np.any(order < LEAST):  # nothing holds a part at rest
+            break
+        samples = min((len(one.matrices) for one in before.values()), default=SAMPLES)
+        now = _growths(orbit, rows, motion, loose, samples)
+        for row, one in now.items():
+            if row in before:
+                error = one.error + abs(float(one.exponents[0] - before[row].exponents[0]))
+                if error <= max(SURE * abs(float(one.exponents[0])), LEAST):
+                    found[row] = replace(one, error=error)
+        before = now
+        rows = np.asarray([row for row in now if row not in found], dtype=int)
+    return found
 
 
-def coefficients_of(motion: Moving, theta: Array) -> Coefficients:
-    """Return mass, damping and stiffness of the free coordinates of one drive over the share of a period of the shaft.
+def coefficients_of(motion: Moving, rows: Array, theta: Array) -> Coefficients:
+    """Return mass, damping and stiffness of the free coordinates of drives over the share of a period of the shaft.
 
-    theta (s,): phases of the torques at its beginning, each a drive of its own.
+    rows (b,) of int: of drives that turn the same way; theta (s,): phases of the torques at its beginning, each with
+    every one of them a drive of its own, (b·s,).
     """
-    part, rows = motion.turning, np.zeros(len(theta), dtype=int)
-    sense = float(np.sign(part.speed[0]))
-    rate = float(part.frequency[0])
+    part, every = motion.turning, np.repeat(rows, len(theta))
+    sense, rate = float(np.sign(part.speed[rows[0]])), part.frequency[every][:, None, None]
+    torus = replace(motion.torus, coefficient=motion.torus.coefficient[rows])
+    begin = np.tile(theta, len(rows))[:, None]
 
     def coefficients(share: Array) -> tuple[Array, Array, Array]:
         z = sense * 2.0 * np.pi * share
-        x, v, a = (one[0] for one in motion.torus.along(z, theta))
-        drives = motion.drives(rows, z, theta[:, None] + motion.ratio * z).of_disturbances
-        by = slopes(drives, *part.motion(rows, z, x, rate * v, rate**2 * a))
+        x, v, a = (one.reshape(-1, *one.shape[2:]) for one in torus.along(z, theta))
+        drives = motion.drives(every, z, begin + motion.ratio * z).of_disturbances
+        by = slopes(drives, *part.motion(every, z, x, rate * v, rate**2 * a))
         k = part.first
         return by.mass[..., k:], by.damping[..., k:, k:], by.stiffness[..., k:, k:]
 
     return coefficients
 
 
-def matrices_of(motion: Moving, samples: int) -> tuple[Array, Array, Array]:
-    """Return what disturbances of one drive are multiplied by in a period, array (s, m, m).
+def matrices_of(motion: Moving, rows: Array, theta: Array) -> tuple[Array, Array, Array]:
+    """Return what disturbances of drives are multiplied by in a period, array (b, s, m, m).
 
-    At even phases of the torques at its beginning; of a free drive without the shift in time. With which coordinates
-    are heavy, and the residuals (s,) by Liouville.
+    rows (b,) of int: of drives that turn the same way; theta (s,): phases of the torques at its beginning.
+    Returns matrices: of a free drive without the shift in time; which coordinates are heavy; and the residuals (b,) by
+    Liouville of the first phase.
     """
-    theta = 2.0 * np.pi * np.arange(samples) / samples
-    part, sense = motion.turning, float(np.sign(motion.turning.speed[0]))
-    coefficients = coefficients_of(motion, theta)
-    duration = np.full(samples, part.period / abs(float(part.speed[0])))
-    found = monodromy(coefficients, duration, reach=REACH)
-    residual = liouville(coefficients, duration, found)
+    part, sense = motion.turning, float(np.sign(motion.turning.speed[rows[0]]))
+    coefficients = coefficients_of(motion, rows, theta)
+    duration = part.period / np.abs(part.speed[rows])
+    found = monodromy(coefficients, np.repeat(duration, len(theta)), reach=REACH)
+    residual = liouville(coefficients_of(motion, rows, theta[:1]), duration, found[:: len(theta)])
     heavy = np.any(coefficients(np.linspace(0.0, 1.0, 5))[0] != 0.0, axis=(0, 1))
     if part.model.free:
-        begin, end = (_tangent(motion, one, heavy) for one in (theta, theta + sense * 2.0 * np.pi * motion.ratio))
-        found = across_directions(found, begin, end)
-    return found, heavy, residual
+        ends = (theta, theta + sense * 2.0 * np.pi * motion.ratio)
+        found = across_directions(found, *(_tangent(motion, rows, one, heavy) for one in ends))
+    return found.reshape(len(rows), len(theta), *found.shape[1:]), heavy, residual
 
 
-def _tangent(motion: Moving, theta: Array, heavy: Array) -> Array:
-    """Return the disturbance by a shift in time at the beginning of a period, array (s, m)."""
-    part = motion.turning
-    rate = float(part.frequency[0])
-    _x, v, a = (one[0, :, 0] for one in motion.torus.along(np.zeros(1), theta))
-    found: Array = np.concatenate([part.speed[0] + rate * v, (rate**2 * a)[:, heavy]], axis=-1)
-    return found
+def _sampled(motion: Moving, samples: int) -> Iterator[tuple[Array, Array, Array, Array]]:
+    """Yield which motions (k,) of int have so many phases that sums of their harmonics hold the matrices between them.
 
-
-def _growth(orbit: Orbit, row: int, motion: Moving, loose: tuple[Torque, ...], samples: int) -> _Growth | None:
-    """Return the growth about one motion, None where it is not known; from so many samples on."""
-    while True:
-        matrices, heavy, residuals = matrices_of(motion, samples)
-        if not matrices.shape[-1]:
-            return None
-        if tail(parts_of(matrices[None]))[0] <= SMALL:
-            break
-        if samples >= MOST:
-            return None
+    With what `matrices_of` gives of them; samples: of the phase, to begin with.
+    """
+    going = np.flatnonzero(motion.bands.found)
+    if not going.size:
+        return
+    matrices, heavy, residual = matrices_of(motion, going, 2.0 * np.pi * np.arange(samples) / samples)
+    while going.size and matrices.shape[-1]:
+        held = tail(parts_of(matrices)) <= SMALL
+        if np.any(held):
+            yield going[held], matrices[held], heavy, residual[held]
+        going, matrices, residual = going[~held], matrices[~held], residual[~held]
+        if 2 * samples > MOST or not going.size:
+            return
+        between = matrices_of(motion, going, 2.0 * np.pi * (np.arange(samples) + 0.5) / samples)[0]
         samples *= 2
+        matrices = np.stack([matrices, between], axis=2).reshape(len(going), samples, *matrices.shape[2:])
+
+
+def _tangent(motion: Moving, rows: Array, theta: Array, heavy: Array) -> Array:
+    """Return the disturbance by a shift in time at the beginning of a period, array (b·s, m)."""
+    part = motion.turning
+    rate = part.frequency[rows][:, None, None]
+    _x, v, a = (one[rows, :, 0] for one in motion.torus.along(np.zeros(1), theta))
+    found = np.concatenate([part.speed[rows][:, None, None] + rate * v, (rate**2 * a)[..., heavy]], axis=-1)
+    return found.reshape(-1, found.shape[-1])
+
+
+def _growths(orbit: Orbit, rows: Array, motion: Moving, loose: tuple[Torque, ...], samples: int) -> dict[int, _Growth]:
+    """Return the growth about motions (b,) by their rows where it is known; from so many samples on."""
+    found: dict[int, _Growth] = {}
     part = motion.turning
     ratio = motion.ratio * float(np.sign(part.speed[0]))
-    found = exponents(matrices[None], ratio)
-    growth, error = found.growth[0], found.error[0]
-    removed = int(part.model.free)
-    if part.model.free and drifting(orbit.drives(np.asarray([row])), part.speed)[0]:
-        drift = _drift(orbit, row, motion, loose, growth, error)
-        if drift is None:
-            return None
-        growth, error = np.delete(growth, drift), np.delete(error, drift)
-        removed += 1
-    _mass, damping, _stiffness = coefficients_of(motion, np.zeros(1))(np.linspace(0.0, 1.0, 5))
-    kept = len(growth) - int(unmoved(damping, heavy)[0])
-    if kept < 1:
-        return None
-    return _Growth(
-        exponents=growth[:kept],
-        removed=removed,
-        error=float(error[0]),
-        matrices=matrices,
-        ratio=ratio,
-        residual=float(np.mean(residuals)),
-    )
+    for here, matrices, heavy, residual in _sampled(motion, samples):
+        _mass, damping, _stiffness = coefficients_of(motion, here, np.zeros(1))(np.linspace(0.0, 1.0, 5))
+        every, still = exponents(matrices, ratio), unmoved(damping, heavy)
+        drifts = part.model.free & drifting(orbit.drives(rows[here]), part.speed[here])
+        for k, row in enumerate(rows[here].tolist()):
+            growth, error = every.growth[k], every.error[k]
+            if drifts[k]:
+                drift = _drift(orbit, row, motion, loose, growth, error)
+                if drift is None:
+                    continue
+                growth, error = np.delete(growth, drift), np.delete(error, drift)
+            kept = len(growth) - int(still[k])
+            if kept >= 1:
+                found[row] = _Growth(
+                    exponents=growth[:kept],
+                    removed=int(part.model.free) + int(drifts[k]),
+                    error=float(error[0]),
+                    matrices=matrices[k],
+                    ratio=ratio,
+                    residual=float(residual[k]),
+                )
+    return found
 
 
 def _drift(
@@ -222,7 +255,7 @@ def _drift(
             if not near.bands.found[0]:
                 return None
             forces.append(float(near.torus.force[0]))
-        if (forces[1] - forces[0]) * float(motion.turning.speed[0]) < 0.0:
+        if (forces[1] - forces[0]) * float(near.turning.speed[0]) < 0.0:
             return 0
     fitting = np.flatnonzero(alone & ~above)
     return int(fitting[np.argmin(np.abs(growth[fitting]))]) if fitting.size else None
@@ -246,24 +279,37 @@ def _angles(matrices: Array, ratio: float, growth: Array) -> Array:
     return found
 
 
-def _put(known: Floquet, orbit: Orbit, row: int, growth: _Growth) -> Floquet:
-    """Return the same with the growth about one motion in its place."""
-    frequencies = straight_frequencies(orbit.drives(np.asarray([row])))
+def _put(known: Floquet, orbit: Orbit, growths: dict[int, _Growth]) -> tuple[Floquet, Array]:
+    """Return the same with the growth about some motions in its place, and where that is."""
+    exact = np.zeros(orbit.count, dtype=bool)
+    rows = np.asarray(sorted(growths), dtype=int)
+    exact[rows] = True
+    if not rows.size:
+        return known, exact.reshape(orbit.angle_error)
+    every = [growths[row] for row in rows.tolist()]
+    multipliers = np.full((len(rows), max(len(one.exponents) for one in every)), np.nan + 0j)
+    for values, one in zip(multipliers, every, strict=True):
+        values[: len(one.exponents)] = one.multipliers
+    frequencies, speed = straight_frequencies(orbit.drives(rows)), orbit.speed.reshape(-1)[rows]
     own = judged(
-        growth.multipliers[None],
-        np.asarray([growth.removed]),
-        np.asarray([growth.residual]),
+        multipliers,
+        np.asarray([one.removed for one in every]),
+        np.asarray([one.residual for one in every]),
         frequencies[:, 1:] if orbit.model.free else frequencies,
-        orbit.speed.reshape(-1)[[row]],
+        speed,
         orbit.period,
-        np.ones(1, dtype=bool),
-        neutral=max(NEUTRAL, growth.error),
+        np.ones(len(rows), dtype=bool),
+        neutral=np.asarray([max(NEUTRAL, one.error) for one in every]),
         base=base_order(orbit.model),
     )
-
-    if own.verdict[0] == Verdict.UNSTABLE and known.verdict.reshape(-1)[row] != Verdict.UNSTABLE:
-        modes = np.maximum(known.zone.modes.reshape(-1, 2)[[row]], 1)
-        one = np.ones(1, dtype=int)
-        by = Zone(modes=modes, sign=one, multiple=0 * one, speed=np.abs(orbit.speed.reshape(-1)[[row]]))
-        own = replace(own, zone=by)
-    return replaced(known, np.asarray([row]), own, np.zeros(1, dtype=int))
+    alone = known.verdict.reshape(-1)[rows] != Verdict.UNSTABLE
+    by = (own.verdict == Verdict.UNSTABLE) & alone
+    modes = np.maximum(known.zone.modes.reshape(-1, 2)[rows], 1)
+    zone = Zone(
+        modes=np.where(by[:, None], modes, own.zone.modes),
+        sign=np.where(by, 1, own.zone.sign),
+        multiple=np.where(by, 0, own.zone.multiple),
+        speed=np.where(by, np.abs(speed), own.zone.speed),
+    )
+    found = replaced(known, rows, replace(own, zone=zone), np.arange(len(rows)))
+    return found, exact.reshape(orbit.angle_error)
