@@ -228,8 +228,8 @@ def _unproved(found: Stability, over: MapAxis) -> Iterator[Remark]:
             yield Remark(text=say(text, where=named, why=no_smooth_motion(found.train)), tone="warning")
 
 
-def _as_drawn(found: Stability, proof: ProvedSpeeds, over: MapAxis) -> Remark:
-    """Return what is proved of the drive as it is, beside points of other drives or with more orders."""
+def _as_drawn(found: Stability, proof: ProvedSpeeds, over: MapAxis) -> Iterator[Remark]:
+    """Yield what is proved of the drive as it is, beside points of other drives or with more orders."""
     low, high = (_edge(one, over) for one in proof.looked)
     zones = _zone_texts(proof, over)
     hidden = Quantity(proof.hidden, over.dimension, 2, unit=over.unit)
@@ -240,10 +240,10 @@ def _as_drawn(found: Stability, proof: ProvedSpeeds, over: MapAxis) -> Remark:
         text = _("As drawn no zone wider than {hidden} can hide from {low:bare} to {high}.")
     elif not proof.proved:
         text = _("As drawn it is unstable at {where}; from {low:bare} to {high} a zone up to {hidden} wide could hide.")
-    said: Text = say(text, where=Joined(zones), low=low, high=high, hidden=hidden)
+    said = say(text, where=Joined(zones), low=low, high=high, hidden=hidden)
+    yield Remark(text=said, tone="warning" if zones else "good")
     if np.any(found.together):
-        said = say(_("{what} That leaves out the orders that do not repeat within two turns."), what=said)
-    return Remark(text=said, tone="warning" if zones else "good")
+        yield Remark(text=_("What is proved leaves out the orders that do not repeat within two turns."))
 
 
 def _within(stretches: Any, others: Any, *, inside: bool = True) -> Any:
@@ -305,7 +305,7 @@ def _remarks(drive: Drive, found: Stability, axes: tuple[MapAxis, ...], *, signs
     if len(axes) == 1 and found.proof is not None:
         yield from _unproved(found, axes[0])
     if (len(axes) == 2 or np.any(found.together)) and found.proof is not None and found.proof.looked_at:
-        yield _as_drawn(found, found.proof, next(one for one in axes if one.key == SPEED))
+        yield from _as_drawn(found, found.proof, next(one for one in axes if one.key == SPEED))
     if not axes and int(found.verdict) == Verdict.STABLE and np.isfinite(found.zone.speed):
         text = _("The nearest zone of instability is the {zone}, at {speed}.")
         yield Remark(text=say(text, zone=found.zone.name(), speed=_speed(found.zone.speed)))
