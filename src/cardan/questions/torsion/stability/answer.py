@@ -27,13 +27,12 @@ from cardan.questions.torsion.model.answer import (
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.steady.run_stability import Kind, Verdict, verdict_words
-from cardan.questions.torsion.steady.two_frequency_stability import MANY
 from cardan.texts import _, mark
 from cardan.units import deg, rpm
 
 from .figure import SPEED, MapAxis, map_axes, plays, stability_figures
 from .proved_speeds import ProvedSpeeds
-from .torsion_stability import JOINT_ANGLE, TOLD, Stability, no_smooth_motion, stability
+from .torsion_stability import JOINT_ANGLE, MANY, TOLD, Stability, no_smooth_motion, stability
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 

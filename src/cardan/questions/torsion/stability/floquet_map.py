@@ -21,6 +21,7 @@ from cardan.questions.torsion.steady.run_stability import (
     Floquet,
     Verdict,
     Zone,
+    as_wide,
     drifting,
     floquet,
     force_falls,
@@ -156,22 +157,12 @@ class _Table:
         wide[..., :kept] = coefficient[..., :kept]
         for name, values in (parts | {"coefficient": wide, "force": force, "status": status}).items():
             if name == "multipliers" and name in self.columns:
-                values = self._as_wide(values)
+                self.columns[name], values = as_wide(self.columns[name], values)
             if name not in self.columns:
                 blank = {"verdict": Verdict.UNKNOWN, "status": Status.CANCELLED}.get(name, 0)
                 fill = np.nan if values.dtype.kind in "fc" else int(blank)
                 self.columns[name] = np.full((self.count, *values.shape[1:]), fill, dtype=values.dtype)
             self.columns[name][rows] = values
-
-    def _as_wide(self, values: Array) -> Array:
-        """Return multipliers (b, m) as wide as those known, which grow where they were narrower: nan at the end."""
-        known = self.columns["multipliers"]
-        wide = max(known.shape[-1], values.shape[-1])
-        known, values = (
-            np.pad(one, ((0, 0), (0, wide - one.shape[-1])), constant_values=np.nan) for one in (known, values)
-        )
-        self.columns["multipliers"] = known
-        return values
 
     def plain(self, rows: Array, progress: Progress | None) -> bool:
         """Find points by array expressions and tell whether the work was stopped."""

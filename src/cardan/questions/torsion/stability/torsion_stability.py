@@ -36,7 +36,7 @@ from cardan.questions.torsion.steady.torsion_response import (
     parted,
 )
 from cardan.questions.torsion.steady.two_frequencies import grouped
-from cardan.questions.torsion.steady.two_frequency_stability import MANY, with_torques
+from cardan.questions.torsion.steady.two_frequency_stability import with_torques
 from cardan.texts import _
 from cardan.units import deg
 
@@ -68,6 +68,9 @@ which they are apart at least, and modes they may meet."""
 
 AROUND, SLOWEST = 0.1, 0.05
 """Share by which speeds are looked at beyond those in use, and of the highest below which none is."""
+
+MANY = 1000
+"""Points of a map at most at which torques that do not repeat within two turns count."""
 
 ALONE = 0.2
 """Share of the work on points after which torques that do not repeat are counted, where there are some."""
@@ -224,8 +227,9 @@ def stability(
             continue
         share = PROVING if variants.speeding is not None else 1.0
         told = within(progress, share * first / count, share * last / count)
-        model, speed, loose = variants.at(np.unravel_index(rows, shape) if shape else (), len(rows))
-        part, stopped = _judged(model, speed, told, loose if count <= MANY else (), alone=count <= TOLD)
+        at = variants.at(np.unravel_index(rows, shape) if shape else (), len(rows), together=count <= MANY)
+        model, speed, loose = at
+        part, stopped = _judged(model, speed, told, loose, alone=count <= TOLD)
         parts.append(part)
         if progress is not None and not stopped:
             stopped = progress(share * last / count) == "stop" and last < count
@@ -533,10 +537,12 @@ class _Variants:
         every = np.arange(int(np.prod(shape, dtype=int))).reshape(shape)
         return every.reshape(-1) if self.speeding is None else np.moveaxis(every, self.speeding, -1).reshape(-1)
 
-    def at(self, index: Sequence[Array], count: int) -> tuple[TorsionalModel, Array, tuple[Torque, ...]]:
+    def at(
+        self, index: Sequence[Array], count: int, *, together: bool
+    ) -> tuple[TorsionalModel, Array, tuple[Torque, ...]]:
         """Return the models (b,) and speeds (b,) of points by their places on the axes, and torques that do not repeat.
 
-        None of these where the points have others than each other.
+        together: whether these are asked for; none where the points have others than each other.
         """
         column = np.zeros(count, dtype=int) if self.speeding is None else index[self.speeding]
         speed = self.speeds[column]
@@ -552,12 +558,13 @@ class _Variants:
                 largest = float(self.axes[self.bending][1][key[self.others.index(self.bending)]])
                 model = _bent(drive, model, largest * deg)
             steady, loose = parted(model)
-            for kept, torques in ((found, steady.torques), (beside, loose)):
+            for kept, torques in ((found, steady.torques), *([(beside, loose)] if together and loose else [])):
                 own = replace(steady, torques=torques)
                 kept.append(some_of(own, (len(rows),), np.arange(len(rows)), moments=False))
             order.append(rows)
         back = np.argsort(np.concatenate(order), kind="stable")
-        alike = len({tuple((torque.station, torque.law.order) for torque in one.torques) for one in beside}) == 1
+        kinds = {tuple((torque.station, torque.law.order) for torque in one.torques) for one in beside}
+        alike = len(kinds) == 1 and len(beside) == len(found)
         whole = some_of(chained(found), (count,), back, moments=False)
         loose = some_of(chained(beside), (count,), back, moments=False).torques if alike else ()
         return whole, speed, loose

@@ -253,11 +253,8 @@ def replaced(known: Floquet, rows: Array, others: Floquet, own: Array) -> Floque
 
     def put(values: Array, new: Array) -> Array:
         flat = np.array(values).reshape(known.verdict.size, *values.shape[known.verdict.ndim :])
-        if flat.dtype.kind == "c":  # multipliers, of which one may have more than the other
-            wide = max(flat.shape[-1], new.shape[-1])
-            flat, new = (
-                np.pad(one, ((0, 0), (0, wide - one.shape[-1])), constant_values=np.nan) for one in (flat, new)
-            )
+        if flat.dtype.kind == "c":
+            flat, new = as_wide(flat, new)
         flat[rows] = new[own]
         return flat
 
@@ -269,15 +266,21 @@ def replaced(known: Floquet, rows: Array, others: Floquet, own: Array) -> Floque
     return shaped(replace(known, zone=zone, **flat), known.verdict.shape)
 
 
+def as_wide(one: Array, other: Array) -> tuple[Array, Array]:
+    """Return multipliers (a, m) and (b, k) of motions, of which one may have more than the other: nan at the end."""
+    wide = max(one.shape[-1], other.shape[-1])
+    first, second = (
+        np.pad(each, ((0, 0), (0, wide - each.shape[-1])), constant_values=np.nan) for each in (one, other)
+    )
+    return first, second
+
+
 def joined(one: Floquet, other: Floquet, order: Array) -> Floquet:
     """Return what is said of motions (a,) and of others (b,) in an order of all of them, array of int (a + b,)."""
-    wide = max(found.multipliers.shape[-1] for found in (one, other))
 
     def both(values: Array, others: Array) -> Array:
         if values.dtype.kind == "c":
-            values, others = (
-                np.pad(each, ((0, 0), (0, wide - each.shape[-1])), constant_values=np.nan) for each in (values, others)
-            )
+            values, others = as_wide(values, others)
         whole: Array = np.concatenate([values, others])[order]
         return whole
 

@@ -36,9 +36,6 @@ from .run_stability import (
 from .steady import Progress
 from .two_frequencies import Moving, grouped, moving, others_of
 
-MANY = 1000
-"""Points at most that are judged with both frequencies: each takes some hundredths of a second."""
-
 CHUNK = 32
 """Motions judged at once: they spread over as many phases of the torques."""
 
@@ -85,14 +82,13 @@ def with_torques(
     """Return what becomes of disturbances with torques that do not repeat, and where that is known, array (...).
 
     orbit (...), known (...): motions without these torques and their stability, which stays where their motion with
-    them is not known: with play that opens, with dry friction or springs that bend, with torques of several orders that
-    are no multiples of one, and at more points than `MANY`.
+    them is not known: with play that opens, with dry friction or springs that bend, and with torques of several orders
+    that are no multiples of one. A point takes some hundredths of a second.
     progress: told the share done; when it answers "stop", what was not done stays as without these torques.
     """
-    count, groups = orbit.count, list(grouped(loose))
-    exact = np.zeros(count, dtype=bool)
-    if len(groups) != 1 or orbit.model.special or count > MANY or not orbit.turning.coordinates:
-        return known, exact.reshape(orbit.angle_error)
+    groups = list(grouped(loose))
+    if len(groups) != 1 or orbit.model.special or not orbit.turning.coordinates:
+        return _put(known, orbit, {})
     ((base, group),) = groups
     rows = np.flatnonzero(known.verdict.reshape(-1) != Verdict.UNKNOWN)
     rows = rows[~np.isin(rows, list(orbit.pieces))]
