@@ -11,13 +11,13 @@ from cardan.maths.periodic.torus import samples_of, torus_balance, torus_phases
 RATIO, OMEGA = np.sqrt(3.0), 1.7
 
 
-def equation(harmonics, cubic, wave):
-    """Return the balance of x'' + 0.2 x' + (1 + wave cos z) x + cubic x³ = cos z + 0.7 sin θ, z = ωt, θ = √3 z."""
+def equation(harmonics, cubic, wave, first=1.0, second=0.7):
+    """Return the balance of x'' + 0.2 x' + (1 + wave cos z) x + cubic x³ = first cos z + second sin θ, z = ωt, θ = √3 z."""
     theta = torus_phases(samples_of(harmonics))[1]
 
     def at(rows, z, x, v, a):
         spring = 1.0 + wave * np.cos(z)[:, None]
-        forced = (np.cos(z) + 0.7 * np.sin(theta))[:, None]
+        forced = (first * np.cos(z) + second * np.sin(theta))[:, None]
         one = np.ones_like(x)
         return Linearised(
             balance=a + 0.2 * v + spring * x + cubic * x**3 - forced,
@@ -51,3 +51,20 @@ def test_what_is_nonlinear_and_swings_is_what_time_steps_find() -> None:
     turn = np.exp(1j * OMEGA * times[:, None, None] * (m[:, None] + RATIO * n))
     np.testing.assert_allclose(np.sum(turn * found.coefficient[0, 0], axis=(1, 2)).real, wanted, atol=1e-6)
     assert found.found.all()
+
+
+def test_motions_are_followed_round_a_resonance_that_bends_over() -> None:
+    """The second frequency goes from 1.1 to 2.4 times that of the small oscillation, and the spring hardens."""
+    harmonics, omega = (5, 7), np.linspace(1.1, 2.4, 40) / RATIO
+    whole, alone = (equation(harmonics, 0.15, 0.2, 0.2, second) for second in (1.0, 0.0))
+    plain, found = (
+        torus_balance(whole, omega, 1, ratio=RATIO, harmonics=harmonics, alone=one) for one in (None, alone)
+    )
+    assert found.found.all()
+    assert not plain.found.all()
+    at = np.linspace(0.0, 60.0, 50)
+    x, v, a = (one[:, 0, :, 0] for one in found.along(at, np.zeros(1)))
+    rate = omega[:, None]
+    forced = 0.2 * np.cos(at) + np.sin(RATIO * at)
+    left = rate**2 * a + 0.2 * rate * v + (1.0 + 0.2 * np.cos(at)) * x + 0.15 * x**3 - forced
+    assert np.max(np.abs(left)) < 0.02 * np.max(np.abs(rate**2 * a))

@@ -7,7 +7,7 @@ difference of two parts.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,6 +23,16 @@ SETTLED = 1e-9
 
 WILD = 1e3
 """Times the size of the forcing balance from which a motion counts as lost."""
+
+FIRST, LONGEST, SHORTEST = 0.2, 0.5, 1e-4
+"""Steps along a path of motions: the first, the longest, and the shortest after which it is given up; 1 is about as far
+as the second frequency alone moves what is linear."""
+
+ALONG, ENOUGH, QUICK = 80, 6, 3
+"""Steps of a path at most, Newton steps of each, and how few of them let the next be longer."""
+
+NEAR = 1e-3
+"""Newton step, over the motion, after which a point counts as on the path."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -79,6 +89,7 @@ def torus_balance(
     harmonics: tuple[int, int],
     free: bool = False,
     start: Array | None = None,
+    alone: Equation | None = None,
 ) -> Torus:
     """Return motions under two frequencies.
 
@@ -86,38 +97,160 @@ def torus_balance(
     frequency (B,) [rad/s]: rate of z; ratio: that of θ over it; harmonics: H of z and G of θ.
     free: whether a motion may be shifted in time, as of `harmonic_balance`.
     start (B, R, h+1), complex: motions Re Σ c_k e^(ikz) to begin with.
+    alone: the equation without the second frequency, in whose size both are linear. Where Newton's steps do not settle,
+    motions are then followed from those without it as it grows, by the length of their path, which may turn back where
+    a resonance bends over: H. B. Keller, in Applications of Bifurcation Theory (1977).
     """
     omega = np.atleast_1d(np.asarray(frequency, dtype=float))
     high, other = harmonics
     shape, samples = (2 * high + 1, 2 * other + 1), samples_of(harmonics)
     count = len(omega)
-    known = np.zeros((count, coordinates, *shape), dtype=complex)
-    if start is not None:
-        kept = min(high, start.shape[-1] - 1)
-        known[..., 0, 0] = start[..., 0].real
-        for k in range(1, kept + 1):
-            known[..., k, 0], known[..., -k, 0] = 0.5 * start[..., k], 0.5 * start[..., k].conj()
+    whole = (count, coordinates, *shape)
+    known = np.zeros(whole, dtype=complex) if start is None else _known(start, whole)
     found = Torus(coefficient=known, ratio=ratio, force=np.zeros(count), found=np.zeros(count, dtype=bool))
-    phase = torus_phases(samples)[0]
-    force, good = found.force, found.found
-    going = np.arange(count)
+    system = _System(equation, omega, found.order, samples, harmonics, free)
+    _settle(system, found, np.arange(count))
+    lost = np.flatnonzero(~found.found)
+    if alone is not None and lost.size:
+        own = replace(system, equation=alone)
+        begun = Torus(
+            coefficient=np.zeros(whole, dtype=complex) if start is None else _known(start, whole),
+            ratio=ratio,
+            force=np.zeros(count),
+            found=np.zeros(count, dtype=bool),
+        )
+        _settle(own, begun, lost)
+        for row in lost[begun.found[lost]].tolist():
+            near = _Path(own, system, row).followed(begun.coefficient[row], begun.force[row])
+            if near is not None:
+                known[row], found.force[row] = near
+                _settle(system, found, np.asarray([row]))
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class _System:
+    """Equations for the parts of motions."""
+
+    equation: Equation
+    omega: Array
+    order: Array
+    samples: tuple[int, int]
+    harmonics: tuple[int, int]
+    free: bool
+
+    def balance(self, rows: Array, coefficient: Array, force: Array) -> tuple[Linearised, Array]:
+        """Return the balance of motions at the samples, and its parts (b, R, K)."""
+        x, v, a = _sampled(coefficient, self.order, self.samples)
+        rate = self.omega[rows, None, None]
+        here = self.equation(rows, torus_phases(self.samples)[0], x, rate * v, rate**2 * a)
+        left = _parts(here.balance.swapaxes(-1, -2), self.samples, self.harmonics)
+        left[:, 0, 0] -= force
+        return here, left
+
+    def solved(self, here: Linearised, rows: Array, left: Array) -> tuple[Array, Array]:
+        """Return the steps of the parts (b, R, K) and of the forces (b,) that undo a balance to first order."""
+        return _steps(here, left, self.omega[rows], self.order, self.samples, self.harmonics, free=self.free)
+
+
+def _known(start: Array, shape: tuple[int, ...]) -> Array:
+    """Return motions under the first frequency alone, Re Σ c_k e^(ikz), as parts of both, array (B, R, 2H+1, 2G+1)."""
+    known = np.zeros(shape, dtype=complex)
+    known[..., 0, 0] = start[..., 0].real
+    for k in range(1, min(shape[-2] // 2, start.shape[-1] - 1) + 1):
+        known[..., k, 0], known[..., -k, 0] = 0.5 * start[..., k], 0.5 * start[..., k].conj()
+    return known
+
+
+def _settle(system: _System, found: Torus, going: Array) -> None:
+    """Bring some of the motions to balance where Newton's steps do, by their rows (b,) of int."""
+    known, force = found.coefficient, found.force
     for _round in range(ROUNDS):
-        x, v, a = _sampled(known[going], found.order, samples)
-        rate = omega[going, None, None]
-        here = equation(going, phase, x, rate * v, rate**2 * a)
-        left = _parts(here.balance.swapaxes(-1, -2), samples, harmonics)
-        left[:, 0, 0] -= force[going]
-        step, pushed = _steps(here, left, omega[going], found.order, samples, harmonics, free=free)
+        here, left = system.balance(going, known[going], force[going])
+        step, pushed = system.solved(here, going, left)
         moved, size = (np.max(np.abs(one.reshape(len(going), -1)), axis=-1) for one in (step, known[going]))
         lost = ~np.isfinite(moved) | (moved > WILD)
-        known[going[~lost]] -= step[~lost].reshape(-1, coordinates, *shape)
+        known[going[~lost]] -= step[~lost].reshape(-1, *known.shape[1:])
         force[going[~lost]] -= pushed[~lost]
         settled = ~lost & (moved <= SETTLED * size + 1e-13)
-        good[going[settled]] = True
+        found.found[going[settled]] = True
         going = going[~settled & ~lost]
         if not going.size:
             break
-    return found
+
+
+class _Path:
+    """Motions of one row between those without the second frequency and with it: parts, force and share (n + 2,)."""
+
+    def __init__(self, alone: _System, whole: _System, row: int) -> None:
+        self.alone, self.whole, self.rows = alone, whole, np.asarray([row])
+        self.shape: tuple[int, ...] = ()
+        self.weight = 1.0
+
+    def followed(self, coefficient: Array, force: float) -> tuple[Array, float] | None:
+        """Return parts and force near a motion with the whole of it, from one without; None where no path leads there.
+
+        coefficient (R, 2H+1, 2G+1).
+        """
+        self.shape = coefficient.shape
+        state = np.concatenate([coefficient.ravel(), [force, 0.0]])
+        slope = self._step(state)[1]
+        self.weight = 1.0 / max(float(np.vdot(slope, slope).real), 1e-300)
+        ahead, length = self._ahead(slope), FIRST
+        for _step in range(ALONG):
+            point, slope, taken = self._corrected(state + length * ahead, ahead)
+            if taken > ENOUGH:
+                length *= 0.5
+                if length < SHORTEST:
+                    return None
+                continue
+            if point[-1].real >= 1.0:
+                near = state + (1.0 - state[-1].real) / (point[-1].real - state[-1].real) * (point - state)
+                return near[:-2].reshape(self.shape), float(near[-2].real)
+            fresh = self._ahead(slope)
+            state, ahead = point, fresh if self._product(fresh, ahead) >= 0.0 else -fresh
+            length = min(LONGEST, 1.5 * length) if taken <= QUICK else length
+        return None
+
+    def _step(self, state: Array) -> tuple[Array, Array]:
+        """Return what is off the balance and by how much that grows with the share, both as steps (n + 1,) undo it."""
+        parts, force, share = state[:-2].reshape(1, *self.shape), state[-2:-1].real, float(state[-1].real)
+        (here, left), (other, far) = (one.balance(self.rows, parts, force) for one in (self.alone, self.whole))
+        mixed = _mixed(here, other, share)
+        steps = (self.whole.solved(mixed, self.rows, one) for one in (left + share * (far - left), far - left))
+        step, slope = (np.append(moved.ravel(), pushed) for moved, pushed in steps)
+        return step, slope
+
+    def _corrected(self, point: Array, ahead: Array) -> tuple[Array, Array, int]:
+        """Return a point brought to the path square to its direction, the slope there, and the Newton steps it took.
+
+        These are more than `ENOUGH` where it is not reached.
+        """
+        for taken in range(1, ENOUGH + 1):
+            step, slope = self._step(point)
+            along = self.weight * np.vdot(ahead[:-1], step).real
+            share = along / (ahead[-1].real - self.weight * np.vdot(ahead[:-1], slope).real)
+            point = point - np.append(step + slope * share, -share)
+            moved = float(np.max(np.abs(step)))
+            if not moved <= WILD:
+                break
+            if moved <= NEAR * float(np.max(np.abs(point[:-2]))):
+                return point, slope, taken
+        return point, slope, ENOUGH + 1
+
+    def _ahead(self, slope: Array) -> Array:
+        """Return the direction of the path, of length 1, array (n + 2,)."""
+        found = np.append(-slope, 1.0)
+        return found / np.sqrt(self._product(found, found))
+
+    def _product(self, one: Array, other: Array) -> float:
+        return float((self.weight * np.vdot(one[:-1], other[:-1]) + one[-1].conj() * other[-1]).real)
+
+
+def _mixed(one: Linearised, other: Linearised, share: float) -> Linearised:
+    """Return what is a share of the way from one balance to another."""
+    pairs = {name: (getattr(one, name), getattr(other, name)) for name in ("balance", "mass", "damping", "stiffness")}
+    return Linearised(**{name: begin + share * (end - begin) for name, (begin, end) in pairs.items()})
 
 
 def _sampled(coefficient: Array, order: Array, samples: tuple[int, int]) -> tuple[Array, Array, Array]:

@@ -184,6 +184,14 @@ def test_many_speeds_and_free_drives_have_them_too() -> None:
     np.testing.assert_allclose(free.swing, torsion_response(three_joints()).swing, rtol=1e-3)
 
 
+@pytest.mark.slow
+def test_where_a_resonance_leans_over_the_motion_is_followed() -> None:
+    """The side band of order 1.315 meets mode 1 below 550 rpm and bends: Newton's steps from the joints alone fail."""
+    found = torsion_response(three_joints(), speed=np.asarray([536.0, 542.0, 546.0, 550.0]) * rpm)
+    assert found.bands[0].found.all()
+    assert np.all(np.diff(np.max(found.swing, axis=-1)) < 0.0)
+
+
 def test_orders_of_one_engine_have_one_phase() -> None:
     orders = (3.315, 1.6575, 2.2, 6.63)
     torques = tuple(Torque(station=0, law=Swinging(amplitude=1.0, frequency=order)) for order in orders)

@@ -247,6 +247,7 @@ def moving(
         harmonics=harmonics,
         free=turning.model.free,
         start=begin,
+        alone=_Driven(turning, base, (), theta),
     )
     bands = _read(torus, turning, whole, base, harmonics, there & torus.found)
     return Moving(turning=turning, torus=torus, base=base, loose=own, bands=bands)
