@@ -12,7 +12,10 @@ RATIO, OMEGA = np.sqrt(3.0), 1.7
 
 
 def equation(harmonics, cubic, wave, first=1.0, second=0.7):
-    """Return the balance of x'' + 0.2 x' + (1 + wave cos z) x + cubic x³ = first cos z + second sin θ, z = ωt, θ = √3 z."""
+    """Return the balance of x'' + 0.2 x' + (1 + wave cos z) x + cubic x³ = first cos z + second sin θ.
+
+    z = ωt, θ = √3 z.
+    """
     theta = torus_phases(samples_of(harmonics))[1]
 
     def at(rows, z, x, v, a):
