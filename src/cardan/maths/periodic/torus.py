@@ -7,6 +7,7 @@ difference of two parts.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -43,6 +44,11 @@ class Torus:
     ratio: float  # rate of θ over that of z
     force: Array  # (B,): constant force on the first coordinate that keeps a free motion at its frequency
     found: Array  # (B,) of bool
+
+    @property
+    def harmonics(self) -> tuple[int, int]:
+        """H of z and G of θ."""
+        return self.coefficient.shape[-2] // 2, self.coefficient.shape[-1] // 2
 
     @property
     def order(self) -> Array:
@@ -89,7 +95,9 @@ def torus_balance(
     harmonics: tuple[int, int],
     free: bool = False,
     start: Array | None = None,
+    near: Array | None = None,
     alone: Equation | None = None,
+    rows: Array | None = None,
 ) -> Torus:
     """Return motions under two frequencies.
 
@@ -97,34 +105,35 @@ def torus_balance(
     frequency (B,) [rad/s]: rate of z; ratio: that of θ over it; harmonics: H of z and G of θ.
     free: whether a motion may be shifted in time, as of `harmonic_balance`.
     start (B, R, h+1), complex: motions Re Σ c_k e^(ikz) to begin with.
+    near (B, R, 2h+1, 2g+1), complex: parts of both to begin with instead; nan where there are none.
     alone: the equation without the second frequency, in whose size both are linear. Where Newton's steps do not settle,
     motions are then followed from those without it as it grows, by the length of their path, which may turn back where
     a resonance bends over: H. B. Keller, in Applications of Bifurcation Theory (1977).
+    rows (b,) of int: which motions are sought; all by default.
     """
     omega = np.atleast_1d(np.asarray(frequency, dtype=float))
     high, other = harmonics
     shape, samples = (2 * high + 1, 2 * other + 1), samples_of(harmonics)
     count = len(omega)
     whole = (count, coordinates, *shape)
-    known = np.zeros(whole, dtype=complex) if start is None else _known(start, whole)
+    begin = np.zeros(whole, dtype=complex) if start is None else _known(start, whole)
+    known = begin.copy()
+    if near is not None:
+        taken = np.isfinite(near).all(axis=(1, 2, 3))
+        known[taken] = _resized(near[taken], shape)
     found = Torus(coefficient=known, ratio=ratio, force=np.zeros(count), found=np.zeros(count, dtype=bool))
     system = _System(equation, omega, found.order, samples, harmonics, free)
-    _settle(system, found, np.arange(count))
-    lost = np.flatnonzero(~found.found)
+    sought = np.arange(count) if rows is None else rows
+    _settle(system, found, sought)
+    lost = sought[~found.found[sought]]
     if alone is not None and lost.size:
         own = replace(system, equation=alone)
-        begun = Torus(
-            coefficient=np.zeros(whole, dtype=complex) if start is None else _known(start, whole),
-            ratio=ratio,
-            force=np.zeros(count),
-            found=np.zeros(count, dtype=bool),
-        )
+        begun = replace(found, coefficient=begin, force=np.zeros(count), found=np.zeros(count, dtype=bool))
         _settle(own, begun, lost)
-        for row in lost[begun.found[lost]].tolist():
-            near = _Path(own, system, row).followed(begun.coefficient[row], begun.force[row])
-            if near is not None:
-                known[row], found.force[row] = near
-                _settle(system, found, np.asarray([row]))
+        lost = lost[begun.found[lost]]
+        ahead, force, there = _Path(own, system, lost).followed(begun.coefficient[lost], begun.force[lost])
+        known[lost[there]], found.force[lost[there]] = ahead[there], force[there]
+        _settle(system, found, lost[there])
     return found
 
 
@@ -148,9 +157,9 @@ class _System:
         left[:, 0, 0] -= force
         return here, left
 
-    def solved(self, here: Linearised, rows: Array, left: Array) -> tuple[Array, Array]:
-        """Return the steps of the parts (b, R, K) and of the forces (b,) that undo a balance to first order."""
-        return _steps(here, left, self.omega[rows], self.order, self.samples, self.harmonics, free=self.free)
+    def solved(self, here: Linearised, rows: Array, *lefts: Array) -> list[tuple[Array, Array]]:
+        """Return the steps of the parts (b, R, K) and of the forces (b,) that undo balances to first order."""
+        return _steps(here, lefts, self.omega[rows], self.order, self.samples, self.harmonics, free=self.free)
 
 
 def _known(start: Array, shape: tuple[int, ...]) -> Array:
@@ -162,12 +171,20 @@ def _known(start: Array, shape: tuple[int, ...]) -> Array:
     return known
 
 
+def _resized(parts: Array, shape: tuple[int, int]) -> Array:
+    """Return parts of both with more or fewer harmonics, array (b, R, 2H+1, 2G+1)."""
+    found = np.zeros((*parts.shape[:-2], *shape), dtype=complex)
+    m, n = (np.arange(-(k := min(old, new) // 2), k + 1) for old, new in zip(parts.shape[-2:], shape, strict=True))
+    found[..., m[:, None], n] = parts[..., m[:, None], n]
+    return found
+
+
 def _settle(system: _System, found: Torus, going: Array) -> None:
     """Bring some of the motions to balance where Newton's steps do, by their rows (b,) of int."""
     known, force = found.coefficient, found.force
-    for _round in range(ROUNDS):
+    for _round in range(ROUNDS if going.size else 0):
         here, left = system.balance(going, known[going], force[going])
-        step, pushed = system.solved(here, going, left)
+        ((step, pushed),) = system.solved(here, going, left)
         moved, size = (np.max(np.abs(one.reshape(len(going), -1)), axis=-1) for one in (step, known[going]))
         lost = ~np.isfinite(moved) | (moved > WILD)
         known[going[~lost]] -= step[~lost].reshape(-1, *known.shape[1:])
@@ -180,77 +197,98 @@ def _settle(system: _System, found: Torus, going: Array) -> None:
 
 
 class _Path:
-    """Motions of one row between those without the second frequency and with it: parts, force and share (n + 2,)."""
+    """Motions of rows (b,) as the second frequency grows from nothing: parts, force and share of it, (b, n + 2)."""
 
-    def __init__(self, alone: _System, whole: _System, row: int) -> None:
-        self.alone, self.whole, self.rows = alone, whole, np.asarray([row])
+    def __init__(self, alone: _System, whole: _System, rows: Array) -> None:
+        self.alone, self.whole, self.rows = alone, whole, rows
         self.shape: tuple[int, ...] = ()
-        self.weight = 1.0
+        self.weight = np.ones(len(rows))
 
-    def followed(self, coefficient: Array, force: float) -> tuple[Array, float] | None:
-        """Return parts and force near a motion with the whole of it, from one without; None where no path leads there.
+    def followed(self, coefficient: Array, force: Array) -> tuple[Array, Array, Array]:
+        """Return parts and forces near motions with the whole of it, from those without, and whether a path led there.
 
-        coefficient (R, 2H+1, 2G+1).
+        coefficient (b, R, 2H+1, 2G+1); force (b,).
         """
-        self.shape = coefficient.shape
-        state = np.concatenate([coefficient.ravel(), [force, 0.0]])
-        slope = self._step(state)[1]
-        self.weight = 1.0 / max(float(np.vdot(slope, slope).real), 1e-300)
-        ahead, length = self._ahead(slope), FIRST
+        self.shape = coefficient.shape[1:]
+        count = len(self.rows)
+        state = np.concatenate([coefficient.reshape(count, -1), force[:, None], np.zeros((count, 1))], axis=-1)
+        there, going = np.zeros(count, dtype=bool), np.arange(count)
+        if not count:
+            return coefficient, force, there
+        slope = self._step(going, state)[1]
+        self.weight = 1.0 / np.maximum(np.sum(np.abs(slope) ** 2, axis=-1), 1e-300)
+        ahead, length = self._ahead(going, slope), np.full(count, FIRST)
         for _step in range(ALONG):
-            point, slope, taken = self._corrected(state + length * ahead, ahead)
-            if taken > ENOUGH:
-                length *= 0.5
-                if length < SHORTEST:
-                    return None
-                continue
-            if point[-1].real >= 1.0:
-                near = state + (1.0 - state[-1].real) / (point[-1].real - state[-1].real) * (point - state)
-                return near[:-2].reshape(self.shape), float(near[-2].real)
-            fresh = self._ahead(slope)
-            state, ahead = point, fresh if self._product(fresh, ahead) >= 0.0 else -fresh
-            length = min(LONGEST, 1.5 * length) if taken <= QUICK else length
-        return None
+            point, slope, taken = self._corrected(
+                going, state[going] + length[going, None] * ahead[going], ahead[going]
+            )
+            length[going[taken > ENOUGH]] *= 0.5
+            good = taken <= ENOUGH
+            some, point, slope, taken = going[good], point[good], slope[good], taken[good]
+            past = point[:, -1].real >= 1.0
+            share = (1.0 - state[some, -1].real) / np.where(past, point[:, -1].real - state[some, -1].real, 1.0)
+            fresh = self._ahead(some, slope)
+            onward = self._product(some, fresh, ahead[some]) >= 0.0
+            state[some] = np.where(past[:, None], state[some] + share[:, None] * (point - state[some]), point)
+            ahead[some] = np.where(onward[:, None], fresh, -fresh)
+            length[some] = np.where(taken <= QUICK, np.minimum(LONGEST, 1.5 * length[some]), length[some])
+            there[some[past]] = True
+            going = going[~there[going] & (length[going] >= SHORTEST)]
+            if not going.size:
+                break
+        return state[:, :-2].reshape(coefficient.shape), state[:, -2].real, there
 
-    def _step(self, state: Array) -> tuple[Array, Array]:
-        """Return what is off the balance and by how much that grows with the share, both as steps (n + 1,) undo it."""
-        parts, force, share = state[:-2].reshape(1, *self.shape), state[-2:-1].real, float(state[-1].real)
-        (here, left), (other, far) = (one.balance(self.rows, parts, force) for one in (self.alone, self.whole))
-        mixed = _mixed(here, other, share)
-        steps = (self.whole.solved(mixed, self.rows, one) for one in (left + share * (far - left), far - left))
-        step, slope = (np.append(moved.ravel(), pushed) for moved, pushed in steps)
+    def _step(self, which: Array, state: Array) -> tuple[Array, Array]:
+        """Return what is off the balance and how that grows with the share, as the steps (b, n + 1) that undo both."""
+        rows, share = self.rows[which], state[:, -1].real
+        parts, force = state[:, :-2].reshape(-1, *self.shape), state[:, -2].real
+        (here, left), (other, far) = (one.balance(rows, parts, force) for one in (self.alone, self.whole))
+        off = left + share[:, None, None] * (far - left)
+        steps = self.whole.solved(_mixed(here, other, share), rows, off, far - left)
+        step, slope = (
+            np.concatenate([moved.reshape(len(rows), -1), pushed[:, None]], axis=-1) for moved, pushed in steps
+        )
         return step, slope
 
-    def _corrected(self, point: Array, ahead: Array) -> tuple[Array, Array, int]:
-        """Return a point brought to the path square to its direction, the slope there, and the Newton steps it took.
+    def _corrected(self, which: Array, point: Array, ahead: Array) -> tuple[Array, Array, Array]:
+        """Return points brought to their paths square to a direction, the slopes there, and the Newton steps it took.
 
-        These are more than `ENOUGH` where it is not reached.
+        These are more than `ENOUGH` where a path is not reached.
         """
-        for taken in range(1, ENOUGH + 1):
-            step, slope = self._step(point)
-            along = self.weight * np.vdot(ahead[:-1], step).real
-            share = along / (ahead[-1].real - self.weight * np.vdot(ahead[:-1], slope).real)
-            point = point - np.append(step + slope * share, -share)
-            moved = float(np.max(np.abs(step)))
-            if not moved <= WILD:
+        point, slopes = point.copy(), np.zeros_like(point[:, :-1])
+        taken, going = np.full(len(which), ENOUGH + 1), np.arange(len(which))
+        for count in range(1, ENOUGH + 1):
+            step, slope = self._step(which[going], point[going])
+            weight, lean = self.weight[which[going]], ahead[going]
+            share = weight * np.sum(lean[:, :-1].conj() * step, axis=-1).real
+            share = share / (lean[:, -1].real - weight * np.sum(lean[:, :-1].conj() * slope, axis=-1).real)
+            point[going] -= np.concatenate([step + slope * share[:, None], -share[:, None]], axis=-1)
+            slopes[going] = slope
+            moved, size = (np.max(np.abs(one), axis=-1) for one in (step, point[going, :-2]))
+            taken[going[moved <= NEAR * size]] = count
+            going = going[(moved > NEAR * size) & (moved <= WILD)]
+            if not going.size:
                 break
-            if moved <= NEAR * float(np.max(np.abs(point[:-2]))):
-                return point, slope, taken
-        return point, slope, ENOUGH + 1
+        return point, slopes, taken
 
-    def _ahead(self, slope: Array) -> Array:
-        """Return the direction of the path, of length 1, array (n + 2,)."""
-        found = np.append(-slope, 1.0)
-        return found / np.sqrt(self._product(found, found))
+    def _ahead(self, which: Array, slope: Array) -> Array:
+        """Return the directions of paths, of length 1, array (b, n + 2)."""
+        found = np.concatenate([-slope, np.ones((len(slope), 1))], axis=-1)
+        return found / np.sqrt(self._product(which, found, found))[:, None]
 
-    def _product(self, one: Array, other: Array) -> float:
-        return float((self.weight * np.vdot(one[:-1], other[:-1]) + one[-1].conj() * other[-1]).real)
+    def _product(self, which: Array, one: Array, other: Array) -> Array:
+        both = one.conj() * other
+        found: Array = (self.weight[which] * np.sum(both[:, :-1], axis=-1) + both[:, -1]).real
+        return found
 
 
-def _mixed(one: Linearised, other: Linearised, share: float) -> Linearised:
-    """Return what is a share of the way from one balance to another."""
-    pairs = {name: (getattr(one, name), getattr(other, name)) for name in ("balance", "mass", "damping", "stiffness")}
-    return Linearised(**{name: begin + share * (end - begin) for name, (begin, end) in pairs.items()})
+def _mixed(one: Linearised, other: Linearised, share: Array) -> Linearised:
+    """Return what is a share (b,) of the way from one balance to another."""
+    found = {}
+    for name in ("balance", "mass", "damping", "stiffness"):
+        begin, end = getattr(one, name), getattr(other, name)
+        found[name] = begin + share.reshape(-1, *[1] * (begin.ndim - 1)) * (end - begin)
+    return Linearised(**found)
 
 
 def _sampled(coefficient: Array, order: Array, samples: tuple[int, int]) -> tuple[Array, Array, Array]:
@@ -274,37 +312,69 @@ def _parts(values: Array, samples: tuple[int, int], harmonics: tuple[int, int]) 
 
 def _steps(
     here: Linearised,
-    left: Array,
+    lefts: Sequence[Array],
     omega: Array,
     order: Array,
     samples: tuple[int, int],
     harmonics: tuple[int, int],
     *,
     free: bool,
-) -> tuple[Array, Array]:
-    """Return Newton's steps (b, R, K) and those of the forces (b,)."""
+) -> list[tuple[Array, Array]]:
+    """Return Newton's steps (b, R, K) and those of the forces (b,) for balances.
+
+    A motion is real, so that the parts of one half of the pairs (m, n) give the others: their real and imaginary parts
+    are the unknowns.
+    """
     m, n = (one.reshape(-1) for one in np.meshgrid(*(np.fft.fftfreq(c, 1.0 / c) for c in order.shape), indexing="ij"))
-    by = ((m[:, None] - m).astype(int), (n[:, None] - n).astype(int))
-    turning = omega[:, None] * order.reshape(-1)
+    half = np.flatnonzero((n > 0.0) | ((n == 0.0) & (m >= 0.0)))  # (0, 0) comes first
+    away = ((m[half, None] - m[half]).astype(int), (n[half, None] - n[half]).astype(int))
+    over = ((m[half, None] + m[half]).astype(int), (n[half, None] + n[half]).astype(int))
+    turning = omega[:, None] * order.reshape(-1)[half]
     coupled = np.any((here.damping != 0.0) | (here.stiffness != 0.0), axis=(0, 1))
 
-    def spread(values: Array) -> Array:
-        waves = np.fft.fft2(values.reshape(-1, *samples)) / (samples[0] * samples[1])
-        return np.ascontiguousarray(waves[:, by[0], by[1]])  # chosen so, speeds would lie innermost
+    def waves(values: Array) -> Array:
+        found: Array = np.fft.fft2(values.reshape(-1, *samples)) / (samples[0] * samples[1])
+        return found
+
+    def spread(parts: list[Array], by: tuple[Array, Array], rate: Array) -> Array:
+        chosen = [np.ascontiguousarray(one[:, by[0], by[1]]) for one in parts]  # else speeds would lie innermost
+        found = chosen[0] + chosen[1] * (1j * rate[:, None])
+        return found if len(parts) == 2 else found - chosen[2] * rate[:, None] ** 2
 
     blocks: dict[tuple[int, int], Array] = {}
     for r, s in np.argwhere(coupled | np.eye(len(coupled), dtype=bool)).tolist():
-        block = spread(here.stiffness[:, :, r, s]) + spread(here.damping[:, :, r, s]) * (1j * turning[:, None])
-        if r == s:
-            block = block - spread(here.mass[:, :, r]) * turning[:, None] ** 2
-        blocks[r, s] = block
+        parts = [waves(one[:, :, r, s]) for one in (here.stiffness, here.damping)]
+        parts += [waves(here.mass[:, :, r])] if r == s else []
+        blocks[r, s] = _real(spread(parts, away, turning), spread(parts, over, -turning))
     if free:
         for (_r, s), block in blocks.items():
             if s == 0:
                 block[..., :, 0] = 0.0
         blocks[0, 0][..., 0, 0] = -1.0
-    step = solve_blocks(blocks, left)
-    pushed = step[:, 0, 0].real.copy() if free else np.zeros(len(step))
-    if free:
-        step[:, 0, 0] = 0.0
-    return step, pushed
+    found = []
+    minus = {place: k for k, place in enumerate(zip(m.tolist(), n.tolist(), strict=True))}
+    other = [minus[-a, -b] for a, b in zip(m[half].tolist(), n[half].tolist(), strict=True)]
+    for left in lefts:
+        own = left[..., half]
+        solved = solve_blocks(blocks, np.concatenate([own.real, own.imag[..., 1:]], axis=-1))
+        step = np.zeros_like(left)
+        waved = solved[..., : len(half)] + 1j * np.pad(solved[..., len(half) :], ((0, 0), (0, 0), (1, 0)))
+        step[..., other] = waved.conj()
+        step[..., half] = waved
+        pushed = step[:, 0, 0].real.copy() if free else np.zeros(len(step))
+        if free:
+            step[:, 0, 0] = 0.0
+        found.append((step, pushed))
+    return found
+
+
+def _real(away: Array, over: Array) -> Array:
+    """Return by how much real and imaginary parts of balances follow those of motions, array (b, 2h-1, 2h-1).
+
+    away, over (b, h, h): what the parts of one half do to these, and those of the other, which are their conjugates.
+    """
+    over = over.copy()
+    over[..., 0] = 0.0  # the mean is its own conjugate
+    top = np.concatenate([(away + over).real, (over - away).imag[..., 1:]], axis=-1)
+    low = np.concatenate([(away + over).imag[:, 1:], (away - over).real[:, 1:, 1:]], axis=-1)
+    return np.concatenate([top, low], axis=-2)

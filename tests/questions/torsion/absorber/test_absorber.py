@@ -279,7 +279,7 @@ def test_a_search_judges_by_the_damping_that_stability_judges_by(loss: float) ->
     run = two.swings(np.stack([speed, speed]))
     grown = growth(run, np.stack([speed, speed]), two.omega, np.ones(2, dtype=bool))
     one = lines([made], OWN)
-    unstable = unstable_speeds(one.swings(speed[None]), one.omega, speed)
+    unstable, _together = unstable_speeds(one.swings(speed[None]), one.omega, speed)
     assert unstable.tolist() == speed[told.verdict == Verdict.UNSTABLE].tolist()
     assert bool(unstable.size) == (loss < 0.0217)  # m = α²/2 of Mathieu's equation
     most = float(np.max(np.maximum(told.growth_rate, 0.0) * run.orbit.period / speed))

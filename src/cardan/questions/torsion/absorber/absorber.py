@@ -16,11 +16,13 @@ from cardan.formulas.absorbers import den_hartog, h_infinity, viscous_optimum
 from cardan.formulas.pendulum import tuned_length
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torsional_balance import places
+from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_modes import StraightModes, straight_modes
 from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
 from cardan.questions.torsion.stability.torsion_stability import proved_in_band
-from cardan.questions.torsion.steady.alternating_torque import TorqueSwings
+from cardan.questions.torsion.steady.alternating_torque import TorqueSwings, exactly, exactly_where_high
 from cardan.questions.torsion.steady.torsion_response import Progress
+from cardan.questions.torsion.steady.two_frequencies import extreme, grouped, motions, sampled
 from cardan.texts import _
 
 from .absorber_search import Host, Setting, Settings, Task, highest, host_named, hosts, rounded
@@ -58,20 +60,22 @@ class Curves:
         rough = np.unique(np.append(fine_speeds(band, (bare, last)), serves))
         closer = [rough]
         for k, line in enumerate((bare, first, last)):
-            peak = np.max(line.swings(rough[None]).swing[:, task.elements], axis=-1)
-            closer.append(about_peaks(rough, peak))
+            found = exactly_where_high(line.swings(rough[None]), 1, task.elements)
+            closer.append(about_peaks(rough, np.max(found.swing[:, task.elements], axis=-1)))
             watch(0.1 * (k + 1))
         self.speed = np.unique(np.concatenate(closer))
-        runs = []
+        runs, exact = [], []
         for k, line in enumerate((bare, first, last)):
-            runs.append(line.swings(self.speed[None]))
+            found, known = exactly(line.swings(self.speed[None]))
+            runs.append(found)
+            exact.append(bool(np.all(known)))
             watch(0.3 + 0.1 * (k + 1))
         self.before, self.closed, self.after = (one.swing[:, bare.elements] for one in runs)
         self.torque = runs[2].swing[:, element]
         self.twist, self.heat = self._swing(runs[2], last, element, best)
-        self.unstable = tuple(
-            unstable_speeds(one, line.omega, self.speed) for one, line in ((runs[0], bare), (runs[2], last))
-        )
+        judged = [unstable_speeds(one, line.omega, self.speed) for one, line in ((runs[0], bare), (runs[2], last))]
+        self.unstable = tuple(speeds for speeds, _together in judged)
+        self.exact, self.together = all(exact), all(together for _speeds, together in judged)
         watch(1.0)
 
     def peaked(self, setting: Setting, swing: Array) -> Setting:
@@ -84,16 +88,30 @@ class Curves:
         """Return how far the absorber swings against its station, and what its damper turns to heat, arrays (s,)."""
         orbit, rows = found.orbit, np.arange(found.orbit.count)
         q, rate, _acceleration = orbit.of(rows, orbit.period * np.arange(SAMPLES) / SAMPLES)
-        drives = orbit.drives(rows)
-        place = places(drives, q)
-        host, tail = drives.elements[element]
-        speed = place.first * rate[..., list(drives.coordinate)]
-        angle = place.angle[..., tail] - place.angle[..., host]
-        heat = np.mean(setting.damping * (speed[..., tail] - speed[..., host]) ** 2, axis=-1)
-        swing = 0.5 * np.ptp(angle, axis=-1)
+        twist, slip = _against(orbit.drives(rows), q, rate, element)
+        alone = (np.max(twist, axis=-1), np.min(twist, axis=-1), np.mean(slip**2, axis=-1))
+        high, low, square = (one.copy() for one in alone)
+        for base, group in grouped(found.loose):
+            for some, motion in motions(orbit, base, group, rows):
+                here = np.arange(len(some))
+                shape, q, rate = sampled(motion.turning, motion.torus)
+                twist, slip = _against(motion.turning.drives(here), q, rate, element)
+                table, known = twist.reshape(len(some), 1, *shape), motion.bands.found
+                own = (extreme(table, 1.0)[:, 0], extreme(table, -1.0)[:, 0], np.mean(slip**2, axis=-1))
+                for whole, value, before in zip((high, low, square), own, alone, strict=True):
+                    whole[some[known]] += (value - before[some])[known]
+        swing = 0.5 * (high - low)
         if setting.arm is not None:
             swing = swing * (self.task.radius + setting.arm) / setting.arm
-        return swing, heat
+        return swing, setting.damping * square
+
+
+def _against(drives: TorsionalModel, q: Array, rate: Array, element: int) -> tuple[Array, Array]:
+    """Return the angle of the tail of an element against its host, and its rate, arrays (b, S)."""
+    place = places(drives, q)
+    host, tail = drives.elements[element]
+    speed = place.first * rate[..., list(drives.coordinate)]
+    return place.angle[..., tail] - place.angle[..., host], speed[..., tail] - speed[..., host]
 
 
 RATIO = 0.1
@@ -156,6 +174,9 @@ class Absorber:
         about its pivot), power that its damper turns to heat.
     unstable_before, unstable_after : arrays (k,) [rad/s]
         Speeds, of those looked at, at which a small disturbance grows.
+    exact, together : bool
+        Whether torques and stability count orders that do not repeat within two turns by the motion with them at all
+        speeds looked at; torques do so to first order elsewhere, and stability does not.
     proof : ProvedSpeeds or None
         Where in the band the drive with it is unstable, and whether that is proved to be all; None for a single speed.
     tuned_speed : float or None [rad/s]
@@ -201,6 +222,8 @@ class Absorber:
     cancelled: bool
     play: bool
     assumed: tuple[str, ...]
+    exact: bool = True
+    together: bool = True
     proof: ProvedSpeeds | None = None
 
     @property
@@ -396,6 +419,8 @@ def absorber(
         heat=curves.heat,
         unstable_before=curves.unstable[0],
         unstable_after=curves.unstable[1],
+        exact=curves.exact,
+        together=curves.together,
         tuned_speed=serves,
         evaluations=search.asked,
         converged=search.converged,

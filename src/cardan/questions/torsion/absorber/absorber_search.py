@@ -18,7 +18,7 @@ from cardan.questions.torsion.model.shaft_line import ShaftLine, shaft_line
 from cardan.questions.torsion.model.torsional_layouts import chosen
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
-from cardan.questions.torsion.steady.alternating_torque import torque_swings
+from cardan.questions.torsion.steady.alternating_torque import exactly_where_high, torque_swings
 from cardan.texts import _
 from cardan.units import nearest
 
@@ -131,6 +131,7 @@ class Settings:
     def swings(self, places: Array, speed: Array) -> Array:
         """Return the swings of the judged torques, array (D, S, E) [N·m]."""
         found = torque_swings(self._models(places, speed), np.tile(speed, len(places)))
+        found = exactly_where_high(found, len(places), self.task.elements)
         swing = found.swing[:, self.task.elements]
         return np.where(np.isfinite(swing), swing, self.lost).reshape(len(places), len(speed), -1)
 

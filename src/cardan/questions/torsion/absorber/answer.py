@@ -17,7 +17,7 @@ from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.assumed import yokes_estimated
-from cardan.questions.torsion.model.answer import counted_to_first_order, friction_left_out, lacking
+from cardan.questions.torsion.model.answer import friction_left_out, lacking, nonsynchronous
 from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
 from cardan.texts import _
 from cardan.units import deg
@@ -255,7 +255,7 @@ def _facts(result: Absorber) -> dict[str, Any]:
         "largest_power_loss": Quantity(float(max(result.heat)), "power"),
         "unstable_before": Quantity(result.unstable_before, "angular_speed"),
         "unstable_after": Quantity(result.unstable_after, "angular_speed"),
-        **proof_facts(result.proof),
+        **proof_facts(result),
         "evaluations": result.evaluations,
         "converged": result.converged,
         "cancelled": result.cancelled,
@@ -357,7 +357,7 @@ def cautions(found: Any) -> Iterator[Remark]:
     if found.play:
         text = _("Backlash counts as closed here; cardan torsion response tells whether the torque changes its sign.")
         yield Remark(text=text, tone="warning")
-    yield from counted_to_first_order(found.drive)
+    yield from _nonsynchronous(found)
     behind = [one.to_next for one in found.drive.stations if one.to_next is not None]
     if any(one.twists or one.friction for one in behind):
         text = _(
@@ -385,15 +385,37 @@ def unstable(found: Any) -> bool:
     return len(found.unstable_after) > 0 or (found.proof is not None and len(found.proof.lowest) > 0)
 
 
-def proof_facts(proof: ProvedSpeeds | None) -> dict[str, Any]:
-    """Return what a program is told of the proof of an absorber or a design."""
+def proof_facts(found: Any) -> dict[str, Any]:
+    """Return what a program is told of the proof of an absorber or a design, which leaves out such orders."""
+    proof: ProvedSpeeds | None = found.proof
     if proof is None:
         return {"stability_proved": None, "unstable_from": Quantity([], "angular_speed")}
+    whole = proof.proved and proof.looked_at and nonsynchronous(found.drive) is None
     return {
-        "stability_proved": proof.proved and proof.looked_at,
+        "stability_proved": whole,
         "unstable_from": Quantity(proof.lowest, "angular_speed"),
         "unstable_to": Quantity(proof.highest, "angular_speed"),
     }
+
+
+def _nonsynchronous(found: Any) -> Iterator[Remark]:
+    """Yield how the orders count that no two turns hold a whole number of times, if there are any."""
+    orders = nonsynchronous(found.drive)
+    if orders is None:
+        return
+    text = _(
+        "Orders that do not repeat within two turns ({orders}) count by the motion with them, and stability at single "
+        "speeds is that of this motion."
+    )
+    if not found.exact:
+        text = _(
+            "Orders that do not repeat within two turns ({orders}) count to first order at some speeds, as no motion "
+            "with them is known there; elsewhere by that motion."
+        )
+    yield Remark(text=say(text, orders=orders))
+    if not found.together:
+        text = _("Stability is judged without these orders where how disturbances of that motion grow is not known.")
+        yield Remark(text=text)
 
 
 def _stability(found: Any) -> Iterator[Remark]:
@@ -409,7 +431,7 @@ def _stability(found: Any) -> Iterator[Remark]:
             "Warning: not stable everywhere in the band: parametric instability at {speeds}; see cardan torsion "
             "stability."
         )
-        if proved:
+        if proved and nonsynchronous(found.drive) is None:
             text = _(
                 "Warning: not stable everywhere in the band: parametric instability at {speeds}, and proved nowhere "
                 "else; see cardan torsion stability."
@@ -417,6 +439,14 @@ def _stability(found: Any) -> Iterator[Remark]:
         yield Remark(text=say(text, speeds=Joined(where)), tone="warning")
         return
     if proof is None:
+        return
+    orders = nonsynchronous(found.drive)
+    if proved and orders is not None:
+        text = _(
+            "Stable throughout the band: proved without the orders that do not repeat within two turns ({orders}); "
+            "with them at the speeds looked at."
+        )
+        yield Remark(text=say(text, orders=orders), tone="good" if found.together else "plain")
         return
     if proved:
         text = _("Stable throughout the band: proved.")

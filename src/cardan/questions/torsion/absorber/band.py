@@ -24,6 +24,7 @@ from cardan.questions.torsion.stability.stability_kernel import vibration_growth
 from cardan.questions.torsion.steady.alternating_torque import TorqueSwings, torque_swings
 from cardan.questions.torsion.steady.orbit import straight_frequencies
 from cardan.questions.torsion.steady.torsion_response import Progress, loaded_model, zone_order
+from cardan.questions.torsion.steady.two_frequency_stability import growth_with_torques, meetings
 from cardan.texts import _
 
 # The design whose torques swing least over a band of speeds: peaks between the speeds looked at are met on the way.
@@ -333,11 +334,14 @@ def growth(found: TorqueSwings, speed: Array, omega: Array, asked: Array) -> Arr
     """Return how fast disturbances grow in drives, the largest growth of any speed asked: array (D,) [per period].
 
     Looked at amid the zones of parametric resonance, and at the speed of the largest torque: not at every speed.
-    found (D·S,), speed (D, S) [rad/s]; omega (D, m) [rad/s]: natural frequencies; asked (D,) of bool.
+    found (D·S,): its torques that do not repeat count; speed (D, S) [rad/s]; omega (D, m) [rad/s]: natural frequencies;
+    asked (D,) of bool.
     Returns: ln of the largest multiplier; 0 where nothing grows, and for drives not asked.
     """
     count, width = speed.shape
     zones = zone_speeds(omega)
+    if found.loose:
+        zones = np.concatenate([meetings(omega, found.loose), zones], axis=-1)
     inside = (zones >= speed[:, :1]) & (zones <= speed[:, -1:])
     largest = np.argmax(np.nan_to_num(np.max(found.swing, axis=-1)).reshape(count, width), axis=-1)
     rows: set[int] = set()
@@ -347,9 +351,18 @@ def growth(found: TorqueSwings, speed: Array, omega: Array, asked: Array) -> Arr
     judged = np.asarray(sorted(row for row in rows if found.found.reshape(-1)[row]), dtype=int)
     worst = np.zeros(count)
     if judged.size:
-        grown = vibration_growth(found.orbit, judged)
+        grown = _grown(found, judged)[0]
         np.maximum.at(worst, judged // width, np.where(grown > GROWS, grown, 0.0))
     return worst
+
+
+def _grown(found: TorqueSwings, rows: Array) -> tuple[Array, bool]:
+    """Return by how much disturbances of some motions grow in a period, and whether all torques count in that."""
+    alone = vibration_growth(found.orbit, rows)
+    if not found.loose:
+        return alone, True
+    whole = growth_with_torques(found.orbit, rows, found.loose)
+    return np.where(np.isnan(whole), alone, whole), bool(np.all(np.isfinite(whole)))
 
 
 def element_problems(line: Lines, elements: Sequence[int] | None) -> Iterator[Problem]:
@@ -398,15 +411,19 @@ def fine_speeds(band: tuple[float, float], runs: Sequence[Lines]) -> Array:
     return band_speeds(*band, omega, excited(drive, drive.duty), count=FINE, beside=FINER)[0]
 
 
-def unstable_speeds(found: TorqueSwings, omega: Array, speed: Array) -> Array:
+def unstable_speeds(found: TorqueSwings, omega: Array, speed: Array) -> tuple[Array, bool]:
     """Return the speeds at which a disturbance grows: looked at evenly, and amid the zones of resonance.
 
     found (S,); omega (1, m) [rad/s]: natural frequencies; speed (S,) [rad/s]: rising.
+    Returns them, array (k,) [rad/s], and whether torques that do not repeat count at all that were looked at.
     """
     zones, low, high = zone_speeds(omega)[0], speed[0], speed[-1]
+    if found.loose:
+        zones = np.append(zones, meetings(omega[0], found.loose))
     wanted = np.append(np.linspace(low, high, SPREAD), zones[(zones > low) & (zones < high)])
     rows = np.unique([int(np.argmin(np.abs(speed - one))) for one in wanted])
     rows = rows[found.found[rows]]
-    grown = vibration_growth(found.orbit, rows) if rows.size else np.zeros(0)
-    unstable: Array = speed[rows][grown > GROWS]
-    return unstable
+    if not rows.size:
+        return np.zeros(0), not found.loose
+    grown, together = _grown(found, rows)
+    return speed[rows][grown > GROWS], together

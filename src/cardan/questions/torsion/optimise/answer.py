@@ -92,7 +92,8 @@ def _elsewhere(drive: Drive) -> Iterator[Remark]:
 def _sentence(result: OptimisedTorsion) -> tuple[Tone, Say]:
     values = {"after": torque(result.peak_after.torque), "band": band(result.speed)}
     drawn = result.worst_after is None
-    if drawn and result.reduction > LITTLE and not len(result.unstable_before):
+    cured = len(result.unstable_before) and not len(result.unstable_after)
+    if drawn and result.reduction > LITTLE and not cured:
         text = _("nothing that may change makes it vibrate much less; largest alternating torque ±{after}, {band}.")
         return "warning", say(text, **values)
     if result.worst_before is not None and result.worst_after is not None:
@@ -329,7 +330,7 @@ def _facts(result: OptimisedTorsion) -> dict[str, Any]:
         "elements": list(result.elements),
         "unstable_before": Quantity(result.unstable_before, "angular_speed"),
         "unstable_after": Quantity(result.unstable_after, "angular_speed"),
-        **proof_facts(result.proof),
+        **proof_facts(result),
         "modes_before": [_rule(one) for one in result.rules_before],
         "modes_after": [_rule(one) for one in result.rules_after],
         "why": list(reasons(result)),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import floor, isfinite
 
 import numpy as np
@@ -24,7 +24,8 @@ from cardan.questions.torsion.absorber.band import (
     train_at,
 )
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
-from cardan.questions.torsion.steady.alternating_torque import TorqueSwings
+from cardan.questions.torsion.steady.alternating_torque import TorqueSwings, exactly_where_high
+from cardan.questions.torsion.steady.torsion_response import parted
 from cardan.texts import _
 
 from .spread import Spread, corners, drive_off
@@ -168,6 +169,11 @@ class Designs:
         check_swings(self.peak)
 
     @property
+    def nonsynchronous(self) -> bool:
+        """Whether the drive has torques that do not repeat within two turns."""
+        return bool(parted(self.built.trains[0].model)[1])
+
+    @property
     def start(self) -> Array:
         """The drive as built, as far as it lies in the ranges, array (v,)."""
         return np.asarray([one.share(one.built) for one in self.free])
@@ -229,21 +235,25 @@ class Designs:
         peak: Array = np.max(whole.reshape(count, -1), axis=-1)
         return peak
 
-    def cost(self, places: Array, beat: Array) -> Array:
+    def cost(self, places: Array, beat: Array, *, closely: bool = False) -> Array:
         """Return the largest swing of designs over the band, array (D,) [N·m]; unstable ones beyond all others.
 
         With tolerances that at the worst of their corners. Stability and limits are asked for only where a design would
         beat the cost it competes with.
+        closely: whether torques that do not repeat count beyond first order, and for the stability.
         """
         every = np.full((len(places), len(self.sides)), np.inf)
         self.asked += len(places)
         for (rows, which), line in self.groups(places):
             speed = self.speeds(line)
             found = line.swings(speed)
+            if closely:
+                found = exactly_where_high(found, len(rows), self.elements)
             peak = self._peaks(found, len(rows), self.peak)
             better = peak < beat[rows]
             if np.any(better):
-                grown = np.where(better, growth(found, speed, line.omega, better), 0.0)
+                judged = found if closely else replace(found, loose=())
+                grown = np.where(better, growth(judged, speed, line.omega, better), 0.0)
                 peak = np.where(grown > 0.0, WORST * self.peak * (1.0 + grown), peak)
             every[rows, which] = peak
         cost: Array = np.max(every, axis=-1)
@@ -265,7 +275,8 @@ class Designs:
         shape = len(places), len(self.sides), len(speed), len(self.elements)
         whole = np.full(shape, LOST * self.peak)
         for (rows, which), line in self.groups(places):
-            found = line.swings(np.broadcast_to(speed, (len(rows), len(speed)))).swing[:, self.elements]
-            swing = found.reshape(len(rows), len(speed), -1)
+            found = line.swings(np.broadcast_to(speed, (len(rows), len(speed))))
+            found = exactly_where_high(found, len(rows), self.elements)
+            swing = found.swing[:, self.elements].reshape(len(rows), len(speed), -1)
             whole[rows, which] = np.where(np.isfinite(swing), swing, LOST * self.peak)
         return np.moveaxis(whole, 1, -1).reshape(len(places), len(speed), -1)

@@ -36,6 +36,7 @@ from cardan.questions.torsion.absorber.band import (
 )
 from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
 from cardan.questions.torsion.stability.torsion_stability import proved_in_band
+from cardan.questions.torsion.steady.alternating_torque import exactly, exactly_where_high
 from cardan.questions.torsion.steady.torsion_response import Progress
 from cardan.texts import _
 
@@ -93,6 +94,9 @@ class OptimisedTorsion:
         Tolerances for which it was searched.
     worst_before, worst_after : Worst or None
         The worst within them as built and with the best values; None without tolerances.
+    exact, together : bool
+        Whether torques and stability count orders that do not repeat within two turns by the motion with them at all
+        speeds looked at; torques do so to first order elsewhere, and stability does not.
     proof : ProvedSpeeds or None
         Where in the band the drive with the best values is unstable, and whether that is proved to be all; None for a
         single speed.
@@ -128,6 +132,8 @@ class OptimisedTorsion:
     worst_before: Worst | None = None
     worst_after: Worst | None = None
     limited: tuple[float, float] | None = None
+    exact: bool = True
+    together: bool = True
     proof: ProvedSpeeds | None = None
 
     @property
@@ -252,6 +258,8 @@ def optimise_torsion(
         worst_before=None if worst is None else worst[0],
         worst_after=None if worst is None else worst[1],
         limited=limited,
+        exact=curves.exact,
+        together=curves.together,
         proof=proved_in_band(chosen, float(curves.speed[0]), float(curves.speed[-1])),
     )
 
@@ -346,7 +354,7 @@ def worst_of(designs: Designs, drive: Drive, *, sides: Sequence[Array] | None = 
     found = Worst(torque=0.0, speed=designs.middle, element=0, sides=(0.0,) * len(designs.off), unstable=False)
     for (_rows, which), line in designs.builds([drive], places):
         speed = band_speeds(*designs.band, line.omega, designs.orders, count=FINE, beside=FINER)
-        run = line.swings(speed)
+        run = exactly_where_high(line.swings(speed), len(which), designs.elements)
         grown = growth(run, speed, line.omega, np.ones(len(which), dtype=bool))
         table = run.swing.reshape(*speed.shape, -1)
         peaks = [highest(one, at, designs.elements) for one, at in zip(table, speed, strict=True)]
@@ -421,6 +429,8 @@ def _refined(designs: Designs, start: Array, least: float, progress: Progress) -
     """Return a better place near one of a cost, values with steps kept; the same where none is better and stable."""
     loose = np.asarray([one.step is None for one in designs.free])
     drive = designs.drive_at(start)
+    if designs.nonsynchronous:  # which the search everywhere counts to first order
+        least = float(designs.cost(start[None], np.full(1, np.inf), closely=True)[0])
     if not loose.any() or drive is None:
         return start, least
 
@@ -445,7 +455,7 @@ def _refined(designs: Designs, start: Array, least: float, progress: Progress) -
     if not search.best.size:
         return start, least
     better = whole(search.best[None])
-    cost = float(designs.cost(better, np.full(1, least))[0])
+    cost = float(designs.cost(better, np.full(1, least), closely=designs.nonsynchronous)[0])
     return (better[0], cost) if cost < least else (start, least)
 
 
@@ -457,13 +467,16 @@ class Curves:
         rough = fine_speeds(designs.band, both)
         closer = [rough]
         for line in both:
-            peak = np.max(line.swings(rough[None]).swing[:, designs.elements], axis=-1)
-            closer.append(about_peaks(rough, peak))
+            found = exactly_where_high(line.swings(rough[None]), 1, designs.elements)
+            closer.append(about_peaks(rough, np.max(found.swing[:, designs.elements], axis=-1)))
         self.speed = np.unique(np.concatenate(closer))
-        runs = [line.swings(self.speed[None]) for line in both]
+        runs, known = zip(*(exactly(line.swings(self.speed[None])) for line in both), strict=True)
         self.swing = [found.swing[:, line.elements] for found, line in zip(runs, both, strict=True)]
         self.peaks = [_peak(one, self.speed, designs.elements) for one in self.swing]
-        self.unstable = [unstable_speeds(found, line.omega, self.speed) for found, line in zip(runs, both, strict=True)]
+        judged = [unstable_speeds(found, line.omega, self.speed) for found, line in zip(runs, both, strict=True)]
+        self.unstable = [speeds for speeds, _together in judged]
+        self.exact = bool(np.all(np.concatenate(known)))
+        self.together = all(together for _speeds, together in judged)
         self.lost = [int(np.sum(~found.found)) for found in runs]
 
     @property

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 
@@ -35,8 +35,7 @@ from cardan.questions.torsion.steady.torsion_response import (
     order_jumps,
     parted,
 )
-from cardan.questions.torsion.steady.two_frequencies import grouped
-from cardan.questions.torsion.steady.two_frequency_stability import with_torques
+from cardan.questions.torsion.steady.two_frequency_stability import meetings, with_torques
 from cardan.texts import _
 from cardan.units import deg
 
@@ -62,9 +61,9 @@ CLOSER, PARTS, EDGE = 4, 6, 0.002
 """How often edges between such speeds are looked at closer, into how many parts each gap is divided, and the share of
 the speed to which they are known then."""
 
-EVEN, NARROW, LOWEST = 9, 0.02, 3
-"""Speeds of a range at most, evenly spread, at which torques that do not repeat are counted, the share of the speed by
-which they are apart at least, and modes they may meet."""
+EVEN, NARROW = 9, 0.02
+"""Speeds of a range at most, evenly spread, at which torques that do not repeat are counted, and the share of the speed
+by which they are apart at least."""
 
 AROUND, SLOWEST = 0.1, 0.05
 """Share by which speeds are looked at beyond those in use, and of the highest below which none is."""
@@ -272,18 +271,38 @@ def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     between = (low, high) if sense > 0.0 else (-high, -low)
     proof = _proved(drive, between, train, pieces, LITTLE, None)
 
-    def told(speeds: Array) -> Floquet:
-        model, loose = parted(loaded_model(drive, drive.duty, sense * speeds, pieces=pieces)[1])
-        return judged(model, sense * speeds, loose)
+    return _looked_at(
+        proof, drive, train, speed_ranges(drive.duty), held_speeds(drive.duty), sense=sense, pieces=pieces
+    )
 
-    held = np.asarray(held_speeds(drive.duty))
+
+def _looked_at(
+    proof: ProvedSpeeds,
+    drive: Drive,
+    train: TorsionalTrain,
+    ranges: Iterable[tuple[float, float]],
+    held: Sequence[float] = (),
+    *,
+    sense: float = 1.0,
+    pieces: int = 1,
+) -> ProvedSpeeds:
+    """Return a proof with single speeds [rad/s] that are judged by themselves, with torques that do not repeat.
+
+    ranges: between whose ends such torques are counted; held: further speeds; sense: in which the drive turns.
+    """
     loose = parted(train.model)[1]
-    for first, last in speed_ranges(drive.duty) if loose and not several_looked_for(train.model) else ():
-        inside = held[(first <= held) & (held <= last)]
-        speeds = np.union1d(inside, _between(max(first, low), last, train.model, loose))
+
+    def told(speeds: Array) -> Floquet:
+        model, others = parted(loaded_model(drive, drive.duty, sense * speeds, pieces=pieces)[1])
+        return judged(model, sense * speeds, others)
+
+    left = np.asarray(held)
+    for first, last in ranges if loose and not several_looked_for(train.model) else ():
+        inside = left[(first <= left) & (left <= last)]
+        speeds = np.union1d(inside, _between(max(first, proof.looked[0]), last, train.model, loose))
         proof = proof.judged_at(*_edged(told, speeds))
-        held = np.setdiff1d(held, inside)
-    for one in held:
+        left = np.setdiff1d(left, inside)
+    for one in left:
         proof = proof.judged_at(told(one[None]), one[None])
     return proof
 
@@ -304,10 +323,7 @@ def _edged(told: Callable[[Array], Floquet], speeds: Array) -> tuple[Floquet, Ar
 
 def _between(low: float, high: float, model: TorsionalModel, loose: tuple[Torque, ...]) -> Array:
     """Return the speeds of a range at which torques that do not repeat are counted, rising, array (s,) [rad/s]."""
-    omega = straight_modes(replace(model, torques=())).omega[:LOWEST]
-    sums = 0.5 * (omega[:, None] + omega).reshape(-1)
-    orders = np.asarray([one for one, _group in grouped(loose)])
-    meeting = (2.0 * sums[:, None] / np.abs(orders[:, None] + (0.0, -2.0, 2.0)).reshape(-1)).reshape(-1)
+    meeting = meetings(straight_modes(replace(model, torques=())).omega, loose)
     count = int(np.clip(np.ceil((high - low) / (NARROW * high)), 1, EVEN - 1)) + 1
     every = np.concatenate([np.linspace(low, high, count), meeting[(low < meeting) & (meeting < high)]])
     return np.unique(every.round(6))
@@ -316,11 +332,13 @@ def _between(low: float, high: float, model: TorsionalModel, loose: tuple[Torque
 def proved_in_band(drive: Drive, low: float, high: float) -> ProvedSpeeds | None:
     """Return the unstable ranges of a drive between two speeds [rad/s]; None of a single speed.
 
+    With torques of orders that do not repeat single speeds between them are judged by themselves too.
     Raises InputError: what the torsional model misses, each with the key to add.
     """
     if not 0.0 < low < high:
         return None
-    return _proved(drive, (low, high), torsional_train(drive, drive.duty, speed=low), 1, LITTLE, None)
+    train = torsional_train(drive, drive.duty, speed=low)
+    return _looked_at(_proved(drive, (low, high), train, 1, LITTLE, None), drive, train, [(low, high)])
 
 
 def _proved(

@@ -21,7 +21,7 @@ from cardan.texts import _
 from .orbit import Orbit, at_rest
 from .steady import Progress, periodic_response
 from .torsion_response import parted
-from .two_frequencies import envelope, of_drives
+from .two_frequencies import envelope, grouped, motions, of_drives
 
 FEW, MOST = 4, 24
 """Harmonics of half a turn to begin with, and at most."""
@@ -38,6 +38,9 @@ BANDS = 6
 CHUNK = 512
 """Motions found at once."""
 
+HIGH, ROUNDS = 0.7, 4
+"""Share of the largest torque of a drive from which others are told exactly, and how often those are sought."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TorqueSwings:
@@ -45,6 +48,7 @@ class TorqueSwings:
 
     orbit: Orbit  # (...): the motions; nan where none was found
     swing: Array  # (..., E) [N·m]: half of highest less lowest torque of every element; nan where no motion was found
+    loose: tuple[Torque, ...] = ()  # torques of orders that no two turns hold: in the swings, not in the motions
 
     @property
     def found(self) -> Array:
@@ -72,9 +76,53 @@ def torque_swings(model: TorsionalModel, speed: ArrayLike, *, progress: Progress
         steady = replace(steady, input_speed=omega)
     if np.any(steady.backlash > 0.0):
         found = periodic_response(steady, speed=omega, progress=progress)
-        return TorqueSwings(orbit=found.orbit, swing=0.5 * found.peak_to_peak + _beside(steady, loose, omega))
+        swing = 0.5 * found.peak_to_peak + _beside(steady, loose, omega)
+        return TorqueSwings(orbit=found.orbit, swing=swing, loose=loose)
     orbit, swing = _quick(steady, loose, outer, omega, progress)
-    return TorqueSwings(orbit=orbit, swing=swing)
+    return TorqueSwings(orbit=orbit, swing=swing, loose=loose)
+
+
+def exactly(found: TorqueSwings, rows: Array | None = None, *, follow: bool = True) -> tuple[TorqueSwings, Array]:
+    """Return the same with torques of other orders exact, and at which motions they are, array of bool (b,).
+
+    rows (b,) of int: which motions, counted through the leading axes; all by default. Where no motion with them is
+    known, as with open backlash, they stay to first order. Orders of which none is a multiple of another add up.
+    follow: see `cardan.questions.torsion.steady.two_frequencies.motions`.
+    """
+    orbit = found.orbit
+    wanted = np.arange(orbit.count) if rows is None else rows
+    groups = list(grouped(found.loose))
+    if not groups or not wanted.size:
+        return found, np.full(len(wanted), not groups)
+    low, high, known = np.zeros(()), np.zeros(()), np.ones(len(wanted), dtype=bool)
+    for base, group in groups:
+        bands = [motion.bands for _rows, motion in motions(orbit, base, group, wanted, follow=follow)]
+        low = low + np.concatenate([one.lowest for one in bands])
+        high = high + np.concatenate([one.highest for one in bands])
+        known &= np.concatenate([one.found for one in bands])
+    if len(groups) > 1:  # each of them with the joints
+        coefficient = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])[wanted]
+        lowest, highest = _extremes(orbit.turning.part(wanted), coefficient, ())
+        low, high = low - (len(groups) - 1) * lowest, high - (len(groups) - 1) * highest
+    swing = found.swing.reshape(orbit.count, -1).copy()
+    swing[wanted[known]] = 0.5 * (high - low)[known]
+    return replace(found, swing=swing.reshape(found.swing.shape)), known
+
+
+def exactly_where_high(found: TorqueSwings, drives: int, elements: Array) -> TorqueSwings:
+    """Return swings of drives at speeds, (drives·S,), with torques of other orders exact near the largest of each.
+
+    elements: those that count. Motions that Newton's steps miss stay to first order: in a search it is not worth more.
+    """
+    done = np.zeros((drives, found.orbit.count // drives), dtype=bool)
+    for _round in range(ROUNDS if found.loose else 0):
+        swing = np.max(np.nan_to_num(found.swing[:, elements], nan=-1.0), axis=-1).reshape(done.shape)
+        high = ~done & (swing >= HIGH * np.max(swing, axis=-1, keepdims=True))
+        if not np.any(high):
+            break
+        found = exactly(found, np.flatnonzero(high), follow=False)[0]
+        done |= high
+    return found
 
 
 def _quick(
@@ -104,7 +152,8 @@ def _quick(
         whole[rows] = 0.0
         whole[rows, :, : found.shape[-1]] = found
         force[rows] = np.where(lost, np.nan, waves.force)
-        swing[rows] = np.where(lost[:, None], np.nan, _read(part, found, of_drives(model, outer, rows, loose)))
+        low, high = _extremes(part, found, of_drives(model, outer, rows, loose))
+        swing[rows] = np.where(lost[:, None], np.nan, 0.5 * (high - low))
         if progress is not None and progress((int(rows[-1]) + 1) / count) == "stop":
             break
     orbit = Orbit(
@@ -117,8 +166,8 @@ def _quick(
     return orbit, swing.reshape(*outer, -1)
 
 
-def _read(part: Turning, coefficient: Array, loose: tuple[Torque, ...]) -> Array:
-    """Return how far the torques of motions swing, array (b, E).
+def _extremes(part: Turning, coefficient: Array, loose: tuple[Torque, ...]) -> tuple[Array, Array]:
+    """Return the lowest and the highest torque of every element in motions, arrays (b, E).
 
     loose: torques of other orders, ready for moments in a second axis.
     """
@@ -137,12 +186,9 @@ def _read(part: Turning, coefficient: Array, loose: tuple[Torque, ...]) -> Array
     curves = element_torques(drives, *motion[:2]).swapaxes(1, 2)
     if loose:
         fall, rise = envelope(side_waves(drives, motion, part.speed, part.period, loose, own), loose)
-        both: Array = 0.5 * (_top(curves + rise) + _top(fall - curves))
-        return both
+        return -_top(fall - curves), _top(curves + rise)
     torque = sampled_series(curves)
-    low, high = extremes(torque[..., : harmonics + 4])
-    found: Array = 0.5 * (high - low)
-    return found
+    return extremes(torque[..., : harmonics + 4])
 
 
 def _top(values: Array) -> Array:

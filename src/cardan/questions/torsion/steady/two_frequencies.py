@@ -85,16 +85,17 @@ def _order(torque: Torque) -> float:
     return float(torque.law.frequency)
 
 
-def side_bands(orbit: Orbit, base: float, loose: tuple[Torque, ...]) -> SideBands:
+def side_bands(orbit: Orbit, base: float, loose: tuple[Torque, ...], rows: Array | None = None) -> SideBands:
     """Return how torques vibrate about steady motions under torques of other orders.
 
     orbit (...): the motions without these torques; base: order of which theirs are multiples.
-    Returns: speeds counted through the leading axes.
+    rows (b,) of int: which motions, counted through the leading axes; all by default.
+    Returns: motions in one axis.
     """
-    least, most = others_of(orbit, base, loose)
-    parts = [_solved(orbit, rows, base, loose, least, most) for rows in _chunks(orbit.count)]
+    wanted = np.arange(orbit.count) if rows is None else rows
+    parts = [motion.bands for _some, motion in motions(orbit, base, loose, wanted)]
     order = np.unique(np.concatenate([part.order for part in parts]).round(9))
-    amplitude = np.zeros((orbit.count, len(orbit.model.elements), len(order)), dtype=complex)
+    amplitude = np.zeros((len(wanted), len(orbit.model.elements), len(order)), dtype=complex)
     begin = 0
     for part in parts:
         columns = np.searchsorted(order, part.order.round(9))
@@ -106,6 +107,23 @@ def side_bands(orbit: Orbit, base: float, loose: tuple[Torque, ...]) -> SideBand
         amplitude=amplitude,
         **{name: np.concatenate([getattr(one, name) for one in parts]) for name in ("lowest", "highest", "found")},
     )
+
+
+def motions(
+    orbit: Orbit, base: float, loose: tuple[Torque, ...], rows: Array, *, follow: bool = True
+) -> Iterator[tuple[Array, Moving]]:
+    """Yield motions under both by their rows, some of (b,) at a time.
+
+    follow: whether those that Newton's steps miss are followed as the torques grow, some tenths of a second each.
+    """
+    least, most = others_of(orbit, base, loose)
+    for first in range(0, len(rows), CHUNK):
+        some = rows[first : first + CHUNK]
+        found = moving(orbit, some, base, loose, least, follow=follow)
+        own = np.max(np.abs(found.torus.coefficient), axis=(1, 2))[:, 1 : least + 1]
+        if least < most and np.any(own[:, -1] > SMALL * np.max(own, axis=-1)):
+            found = moving(orbit, some, base, loose, most, near=found.near, follow=follow)
+        yield some, found
 
 
 def others_of(orbit: Orbit, base: float, loose: tuple[Torque, ...]) -> tuple[int, int]:
@@ -143,11 +161,6 @@ def envelope(waves: Array, loose: tuple[Torque, ...]) -> tuple[Array, Array]:
     return low, high
 
 
-def _chunks(count: int) -> Iterator[Array]:
-    for first in range(0, count, CHUNK):
-        yield np.arange(first, min(first + CHUNK, count))
-
-
 class _Driven:
     """The drives under both: an `Equation` at the samples of two phases.
 
@@ -181,14 +194,6 @@ class _Driven:
         )
 
 
-def _solved(orbit: Orbit, rows: Array, base: float, loose: tuple[Torque, ...], others: int, most: int) -> SideBands:
-    found = moving(orbit, rows, base, loose, others)
-    own = np.max(np.abs(found.torus.coefficient), axis=(1, 2))[:, 1 : others + 1]
-    if others < most and np.any(own[:, -1] > SMALL * np.max(own, axis=-1)):
-        return _solved(orbit, rows, base, loose, most, most)
-    return found.bands
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Moving:
     """Motions of some drives under both."""
@@ -198,6 +203,11 @@ class Moving:
     base: float
     loose: tuple[Torque, ...]  # of these drives, ready for moments in a second axis
     bands: SideBands
+
+    @property
+    def near(self) -> Array:
+        """Parts of the motions for others to begin with, nan where none was found, array (b, R, 2H+1, 2G+1)."""
+        return np.where(self.torus.found[:, None, None, None], self.torus.coefficient, np.nan)
 
     @property
     def ratio(self) -> float:
@@ -218,10 +228,13 @@ def moving(
     *,
     finer: int = 0,
     share: float = 1.0,
+    near: Array | None = None,
+    follow: bool = True,
 ) -> Moving:
     """Return the motions of some of the drives under both.
 
-    others: harmonics of the torques; finer: how many more of every phase; share: of their speeds.
+    others: harmonics of the torques; finer: how many more of every phase; share: of their speeds; near: parts of the
+    motions to begin with, see `torus_balance`; follow: see `motions`.
     """
     whole = orbit.turning.part(rows)
     if share != 1.0:
@@ -247,10 +260,22 @@ def moving(
         harmonics=harmonics,
         free=turning.model.free,
         start=begin,
-        alone=_Driven(turning, base, (), theta),
+        near=near,
+        alone=_Driven(turning, base, (), theta) if follow else None,
+        rows=np.flatnonzero(there),
     )
-    bands = _read(torus, turning, whole, base, harmonics, there & torus.found)
+    bands = _read(turning, torus, base, whole, there & torus.found)
     return Moving(turning=turning, torus=torus, base=base, loose=own, bands=bands)
+
+
+def sampled(turning: Turning, torus: Torus) -> tuple[tuple[int, int], Array, Array]:
+    """Return over how many samples of each phase motions are told, and q and q̇ there, arrays (b, S T, R)."""
+    first, second = (FINE * count for count in samples_of(torus.harmonics))
+    x, v, a = torus.at((first, second))
+    rate = turning.frequency[:, None, None]
+    z = torus_phases((first, second))[0]
+    q, speed, _a = turning.motion(np.arange(len(turning.speed)), z, x, rate * v, rate**2 * a)
+    return (first, second), q, speed
 
 
 def _needed(start: Array, half_turns: int) -> int:
@@ -261,16 +286,10 @@ def _needed(start: Array, half_turns: int) -> int:
     return min(max(int(np.max(large, initial=0)), least), most)
 
 
-def _read(
-    torus: Torus, turning: Turning, whole: Turning, base: float, harmonics: tuple[int, int], found: Array
-) -> SideBands:
+def _read(turning: Turning, torus: Torus, base: float, whole: Turning, found: Array) -> SideBands:
     """Return amplitudes and extremes of the torques from a finer grid of both phases."""
-    rows = np.arange(len(turning.speed))
-    shape = tuple(FINE * count for count in samples_of(harmonics))
-    z = torus_phases((shape[0], shape[1]))[0]
-    x, v, a = torus.at((shape[0], shape[1]))
-    rate = turning.frequency[:, None, None]
-    q, speed, _a = turning.motion(rows, z, x, rate * v, rate**2 * a)
+    rows, harmonics = np.arange(len(turning.speed)), torus.harmonics
+    shape, q, speed = sampled(turning, torus)
     torque = np.moveaxis(element_torques(turning.drives(rows), q, speed), -1, 1).reshape(len(rows), -1, *shape)
     waves = np.fft.fft2(torque) / (shape[0] * shape[1])
     m = np.arange(-harmonics[0], harmonics[0] + 1)
@@ -280,7 +299,7 @@ def _read(
     own = np.where(order < 0.0, own.conj(), own)
     sorting = np.argsort(np.abs(order), kind="stable")
     loose = np.any(whole.model.backlash > 0.0, axis=-1)
-    lowest, highest = (_extreme(torque, sign) for sign in (-1.0, 1.0))
+    lowest, highest = (extreme(torque, sign) for sign in (-1.0, 1.0))
     kept = np.all((whole.model.backlash == 0.0) | (lowest * highest > 0.0), axis=-1)
     return SideBands(
         base=base,
@@ -292,7 +311,7 @@ def _read(
     )
 
 
-def _extreme(values: Array, sign: float) -> Array:
+def extreme(values: Array, sign: float) -> Array:
     """Return the lowest (-1) or highest (1) of values (b, E, S, T) that repeat both ways: a parabola each way."""
     b, e, s, t = values.shape
     flat = (sign * values).reshape(b * e, s, t)

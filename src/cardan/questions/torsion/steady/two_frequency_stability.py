@@ -54,6 +54,9 @@ REACH = 2.0
 SURE, LEAST = 0.01, 1e-6
 """Error of the largest exponent, over itself and per period, with which it counts."""
 
+LOWEST = 3
+"""Modes that torques which do not repeat may meet."""
+
 APART = 1e-5
 """Difference of two exponents, per period, from which their disturbances do not swing about each other."""
 
@@ -86,23 +89,51 @@ def with_torques(
     that are no multiples of one. A point takes some hundredths of a second.
     progress: told the share done; when it answers "stop", what was not done stays as without these torques.
     """
+    rows = np.flatnonzero(known.verdict.reshape(-1) != Verdict.UNKNOWN)
+    found: dict[int, _Growth] = {}
+    for done, growths in _every(orbit, rows, loose):
+        found |= growths
+        if progress is not None and progress(done) == "stop":
+            break
+    return _put(known, orbit, found)
+
+
+def growth_with_torques(orbit: Orbit, rows: Array, loose: tuple[Torque, ...]) -> Array:
+    """Return by how much disturbances grow with torques that do not repeat, ln max|ρ| of a period, array (b,).
+
+    rows (b,) of int: which motions, counted through the leading axes. Returns nan where it is not known.
+    """
+    found = {row: one for _done, growths in _every(orbit, rows, loose) for row, one in growths.items()}
+    return np.asarray([float(found[row].exponents[0]) if row in found else np.nan for row in rows.tolist()])
+
+
+def meetings(omega: Array, loose: tuple[Torque, ...]) -> Array:
+    """Return the speeds at which torques that do not repeat, or their side bands, meet a mode twice or two as a sum.
+
+    omega (..., m) [rad/s]: natural frequencies of straight lines; the lowest of them count. Returns array (..., n).
+    """
+    low = omega[..., :LOWEST]
+    sums = (low[..., :, None] + low[..., None, :]).reshape(*omega.shape[:-1], -1)
+    orders = np.asarray([base for base, _group in grouped(loose)])
+    sides = np.abs(orders[:, None] + (0.0, -2.0, 2.0)).reshape(-1)
+    return (sums[..., None] / sides).reshape(*omega.shape[:-1], -1)
+
+
+def _every(orbit: Orbit, rows: Array, loose: tuple[Torque, ...]) -> Iterator[tuple[float, dict[int, _Growth]]]:
+    """Yield which share of some motions is done, and the growth about those of them where it is known."""
     groups = list(grouped(loose))
     if len(groups) != 1 or orbit.model.special or not orbit.turning.coordinates:
-        return _put(known, orbit, {})
+        return
     ((base, group),) = groups
-    rows = np.flatnonzero(known.verdict.reshape(-1) != Verdict.UNKNOWN)
     rows = rows[~np.isin(rows, list(orbit.pieces))]
     speed = orbit.speed.reshape(-1)
-    found: dict[int, _Growth] = {}
     done = 0
     for sense in (speed[rows] > 0.0, speed[rows] < 0.0):
         alike = rows[sense][np.argsort(np.abs(speed[rows[sense]]), kind="stable")]
         for some in np.split(alike, range(CHUNK, len(alike), CHUNK)):
-            found |= _settled(orbit, some, base, group)
             done += len(some)
-            if progress is not None and some.size and progress(done / len(rows)) == "stop":
-                return _put(known, orbit, found)
-    return _put(known, orbit, found)
+            if some.size:
+                yield done / len(rows), _settled(orbit, some, base, group)
 
 
 def _settled(orbit: Orbit, rows: Array, base: float, loose: tuple[Torque, ...]) -> dict[int, _Growth]:
@@ -113,10 +144,11 @@ def _settled(orbit: Orbit, rows: Array, base: float, loose: tuple[Torque, ...]) 
     found: dict[int, _Growth] = {}
     before: dict[int, _Growth] = {}
     others = others_of(orbit, base, loose)[0]
+    near: Array | None = None
     for finer in FINER:
         if not rows.size:
             break
-        motion = moving(orbit, rows, base, loose, others, finer=finer)
+        motion = moving(orbit, rows, base, loose, others, finer=finer, near=near)
         order = np.abs(motion.torus.order).ravel()[1:]
         if orbit.model.free and np.any(order < LEAST):  # nothing holds a part at rest
             break
@@ -128,7 +160,8 @@ def _settled(orbit: Orbit, rows: Array, base: float, loose: tuple[Torque, ...]) 
                 if error <= max(SURE * abs(float(one.exponents[0])), LEAST):
                     found[row] = replace(one, error=error)
         before = now
-        rows = np.asarray([row for row in now if row not in found], dtype=int)
+        left = np.asarray([k for k, row in enumerate(rows.tolist()) if row in now and row not in found], dtype=int)
+        rows, near = rows[left], motion.near[left]
     return found
 
 
