@@ -150,8 +150,8 @@ ZONED = 3
 GROWS = 1e-5
 """Growth in a period from which a motion is called unstable in a search."""
 
-JUDGED = 6
-"""Speeds of a drive at which a search asks for stability."""
+JUDGED, LOOSE = 6, 3
+"""Speeds of a drive at which a search asks for stability, and those at which torques that do not repeat meet modes."""
 
 FINE = 81
 """Evenly spread speeds of curves."""
@@ -334,14 +334,11 @@ def growth(found: TorqueSwings, speed: Array, omega: Array, asked: Array) -> Arr
     """Return how fast disturbances grow in drives, the largest growth of any speed asked: array (D,) [per period].
 
     Looked at amid the zones of parametric resonance, and at the speed of the largest torque: not at every speed.
-    found (D·S,): its torques that do not repeat count; speed (D, S) [rad/s]; omega (D, m) [rad/s]: natural frequencies;
-    asked (D,) of bool.
+    found (D·S,), speed (D, S) [rad/s]; omega (D, m) [rad/s]: natural frequencies; asked (D,) of bool.
     Returns: ln of the largest multiplier; 0 where nothing grows, and for drives not asked.
     """
     count, width = speed.shape
     zones = zone_speeds(omega)
-    if found.loose:
-        zones = np.concatenate([meetings(omega, found.loose), zones], axis=-1)
     inside = (zones >= speed[:, :1]) & (zones <= speed[:, -1:])
     largest = np.argmax(np.nan_to_num(np.max(found.swing, axis=-1)).reshape(count, width), axis=-1)
     rows: set[int] = set()
@@ -351,18 +348,24 @@ def growth(found: TorqueSwings, speed: Array, omega: Array, asked: Array) -> Arr
     judged = np.asarray(sorted(row for row in rows if found.found.reshape(-1)[row]), dtype=int)
     worst = np.zeros(count)
     if judged.size:
-        grown = _grown(found, judged)[0]
+        grown = vibration_growth(found.orbit, judged)
         np.maximum.at(worst, judged // width, np.where(grown > GROWS, grown, 0.0))
     return worst
 
 
-def _grown(found: TorqueSwings, rows: Array) -> tuple[Array, bool]:
-    """Return by how much disturbances of some motions grow in a period, and whether all torques count in that."""
-    alone = vibration_growth(found.orbit, rows)
-    if not found.loose:
-        return alone, True
-    whole = growth_with_torques(found.orbit, rows, found.loose)
-    return np.where(np.isnan(whole), alone, whole), bool(np.all(np.isfinite(whole)))
+def with_loose(found: TorqueSwings, omega: Array, speed: Array) -> tuple[Array, Array]:
+    """Return speeds of a drive at which torques that do not repeat may make disturbances grow, and the growth there.
+
+    At that of its largest torque, and where they meet a mode twice or two as a sum: arrays (k,) [rad/s] and
+    (k,) [per period], nan where it is not known.
+    found (S,); omega (m,) [rad/s]: natural frequencies; speed (S,) [rad/s]: rising.
+    """
+    swing = np.max(np.nan_to_num(found.swing, nan=-1.0), axis=-1)
+    meeting = np.sort(meetings(omega, found.loose))
+    meeting = meeting[(meeting >= speed[0]) & (meeting <= speed[-1])][:LOOSE]
+    columns = np.unique([int(np.argmax(swing)), *(int(np.argmin(np.abs(speed - one))) for one in meeting)])
+    rows = columns[found.found[columns]]
+    return speed[rows], growth_with_torques(found.orbit, rows, found.loose)
 
 
 def element_problems(line: Lines, elements: Sequence[int] | None) -> Iterator[Problem]:
@@ -414,16 +417,17 @@ def fine_speeds(band: tuple[float, float], runs: Sequence[Lines]) -> Array:
 def unstable_speeds(found: TorqueSwings, omega: Array, speed: Array) -> tuple[Array, bool]:
     """Return the speeds at which a disturbance grows: looked at evenly, and amid the zones of resonance.
 
+    Torques that do not repeat count where they may make it grow, see `with_loose`.
     found (S,); omega (1, m) [rad/s]: natural frequencies; speed (S,) [rad/s]: rising.
-    Returns them, array (k,) [rad/s], and whether torques that do not repeat count at all that were looked at.
+    Returns them, array (k,) [rad/s], and whether it is known of all these speeds.
     """
     zones, low, high = zone_speeds(omega)[0], speed[0], speed[-1]
-    if found.loose:
-        zones = np.append(zones, meetings(omega[0], found.loose))
     wanted = np.append(np.linspace(low, high, SPREAD), zones[(zones > low) & (zones < high)])
     rows = np.unique([int(np.argmin(np.abs(speed - one))) for one in wanted])
     rows = rows[found.found[rows]]
-    if not rows.size:
-        return np.zeros(0), not found.loose
-    grown, together = _grown(found, rows)
-    return speed[rows][grown > GROWS], together
+    grown = vibration_growth(found.orbit, rows) if rows.size else np.zeros(0)
+    unstable = speed[rows][grown > GROWS]
+    if unstable.size or not found.loose:  # one that is unstable without them is so anyway
+        return unstable, True
+    looked, together = with_loose(found, omega[0], speed)
+    return np.union1d(unstable, looked[together > GROWS]), bool(np.all(np.isfinite(together)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import floor, isfinite
 
 import numpy as np
@@ -14,6 +14,7 @@ from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.absorber.absorber_search import highest, rounded
 from cardan.questions.torsion.absorber.band import (
+    GROWS,
     Lines,
     band_speeds,
     built,
@@ -22,6 +23,7 @@ from cardan.questions.torsion.absorber.band import (
     growth,
     lines,
     train_at,
+    with_loose,
 )
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
 from cardan.questions.torsion.steady.alternating_torque import TorqueSwings, exactly_where_high
@@ -240,7 +242,7 @@ class Designs:
 
         With tolerances that at the worst of their corners. Stability and limits are asked for only where a design would
         beat the cost it competes with.
-        closely: whether torques that do not repeat count beyond first order, and for the stability.
+        closely: whether torques that do not repeat count beyond first order; stability is without them, see `grows`.
         """
         every = np.full((len(places), len(self.sides)), np.inf)
         self.asked += len(places)
@@ -252,8 +254,7 @@ class Designs:
             peak = self._peaks(found, len(rows), self.peak)
             better = peak < beat[rows]
             if np.any(better):
-                judged = found if closely else replace(found, loose=())
-                grown = np.where(better, growth(judged, speed, line.omega, better), 0.0)
+                grown = np.where(better, growth(found, speed, line.omega, better), 0.0)
                 peak = np.where(grown > 0.0, WORST * self.peak * (1.0 + grown), peak)
             every[rows, which] = peak
         cost: Array = np.max(every, axis=-1)
@@ -262,6 +263,17 @@ class Designs:
             if share > 1.0:
                 cost[k] = WORST * self.peak * (1.0 + share)
         return cost
+
+    def grows(self, at: Array) -> bool:
+        """Tell whether disturbances of a place (v,) grow by torques that do not repeat, within its tolerances."""
+        for (rows, _which), line in self.groups(at[None]) if self.nonsynchronous else ():
+            speed = self.speeds(line)
+            for k in range(len(rows)):
+                own = Lines(drives=line.drives[k : k + 1], trains=line.trains[k : k + 1], speed=line.speed)
+                found = exactly_where_high(own.swings(speed[k : k + 1]), 1, self.elements)
+                if np.any(with_loose(found, line.omega[k], speed[k])[1] > GROWS):
+                    return True
+        return False
 
     def share_used(self, drive: Drive | None) -> float:
         """Return the largest share of a limit that a drive uses at the corners of its tolerances."""

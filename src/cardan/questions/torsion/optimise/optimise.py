@@ -215,7 +215,7 @@ def optimise_torsion(
         if not watch.stopped:
             told = watch.part(*(start + one * (end - start) for one in SHARES))
             places, costs = all_refined(designs, found, told)
-        best = places[int(np.argmin(costs))]
+        best = places[_best(designs, places, costs)]
         if watch.stopped or not designs.off or not _worse_within(designs, best):
             break
     chosen = designs.drive_at(best, made=True) if np.min(costs) < np.inf else asked
@@ -262,6 +262,12 @@ def optimise_torsion(
         together=curves.together,
         proof=proved_in_band(chosen, float(curves.speed[0]), float(curves.speed[-1])),
     )
+
+
+def _best(designs: Designs, places: Array, costs: Array) -> int:
+    """Return which of the ends (r, v) of searches costs least, those last that torques that do not repeat make grow."""
+    order: list[int] = np.argsort(costs, kind="stable").tolist()
+    return next((k for k in order if not designs.grows(places[k])), order[0])
 
 
 def _calmer(curves: Curves, worst: tuple[Worst, Worst] | None, limited: tuple[float, float] | None) -> bool:
@@ -429,9 +435,11 @@ def _refined(designs: Designs, start: Array, least: float, progress: Progress) -
     """Return a better place near one of a cost, values with steps kept; the same where none is better and stable."""
     loose = np.asarray([one.step is None for one in designs.free])
     drive = designs.drive_at(start)
+    if drive is None:
+        return start, least
     if designs.nonsynchronous:  # which the search everywhere counts to first order
         least = float(designs.cost(start[None], np.full(1, np.inf), closely=True)[0])
-    if not loose.any() or drive is None:
+    if not loose.any():
         return start, least
 
     def whole(places: Array) -> Array:

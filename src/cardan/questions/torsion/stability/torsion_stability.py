@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 
@@ -271,38 +271,18 @@ def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     between = (low, high) if sense > 0.0 else (-high, -low)
     proof = _proved(drive, between, train, pieces, LITTLE, None)
 
-    return _looked_at(
-        proof, drive, train, speed_ranges(drive.duty), held_speeds(drive.duty), sense=sense, pieces=pieces
-    )
-
-
-def _looked_at(
-    proof: ProvedSpeeds,
-    drive: Drive,
-    train: TorsionalTrain,
-    ranges: Iterable[tuple[float, float]],
-    held: Sequence[float] = (),
-    *,
-    sense: float = 1.0,
-    pieces: int = 1,
-) -> ProvedSpeeds:
-    """Return a proof with single speeds [rad/s] that are judged by themselves, with torques that do not repeat.
-
-    ranges: between whose ends such torques are counted; held: further speeds; sense: in which the drive turns.
-    """
-    loose = parted(train.model)[1]
-
     def told(speeds: Array) -> Floquet:
-        model, others = parted(loaded_model(drive, drive.duty, sense * speeds, pieces=pieces)[1])
-        return judged(model, sense * speeds, others)
+        model, loose = parted(loaded_model(drive, drive.duty, sense * speeds, pieces=pieces)[1])
+        return judged(model, sense * speeds, loose)
 
-    left = np.asarray(held)
-    for first, last in ranges if loose and not several_looked_for(train.model) else ():
-        inside = left[(first <= left) & (left <= last)]
-        speeds = np.union1d(inside, _between(max(first, proof.looked[0]), last, train.model, loose))
+    held = np.asarray(held_speeds(drive.duty))
+    loose = parted(train.model)[1]
+    for first, last in speed_ranges(drive.duty) if loose and not several_looked_for(train.model) else ():
+        inside = held[(first <= held) & (held <= last)]
+        speeds = np.union1d(inside, _between(max(first, low), last, train.model, loose))
         proof = proof.judged_at(*_edged(told, speeds))
-        left = np.setdiff1d(left, inside)
-    for one in left:
+        held = np.setdiff1d(held, inside)
+    for one in held:
         proof = proof.judged_at(told(one[None]), one[None])
     return proof
 
@@ -332,13 +312,11 @@ def _between(low: float, high: float, model: TorsionalModel, loose: tuple[Torque
 def proved_in_band(drive: Drive, low: float, high: float) -> ProvedSpeeds | None:
     """Return the unstable ranges of a drive between two speeds [rad/s]; None of a single speed.
 
-    With torques of orders that do not repeat single speeds between them are judged by themselves too.
     Raises InputError: what the torsional model misses, each with the key to add.
     """
     if not 0.0 < low < high:
         return None
-    train = torsional_train(drive, drive.duty, speed=low)
-    return _looked_at(_proved(drive, (low, high), train, 1, LITTLE, None), drive, train, [(low, high)])
+    return _proved(drive, (low, high), torsional_train(drive, drive.duty, speed=low), 1, LITTLE, None)
 
 
 def _proved(
