@@ -72,6 +72,7 @@ def test_stations_with_a_place_follow_along_the_shaft() -> None:
         ([Station(shaft=1, position=-0.1, to_next=SPRING), Station(shaft=1, to_next=SPRING)], "stations[1].position"),
         ([DISC, DISC], "stations[1].name"),
         ([replace(DISC, name="output")], "stations[0].name"),
+        ([replace(DISC, end="far")], "stations[0].end"),
         ([replace(DISC, inertia=-1.0)], "stations[0].inertia"),
         ([replace(DISC, ground_damping=-1.0)], "stations[0].ground_damping"),
         ([replace(DISC, to_next=ToNext(stiffness=0.0))], "stations[0].to_next.stiffness"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+import re
 from pathlib import Path
 
 import pytest
@@ -311,3 +312,31 @@ def test_lists_of_numbers_are_no_decimal_commas():
     with pytest.raises(InputError) as caught:
         loads("a = [1,2]\nb = { x = 1, y = 2 }\nc = [3,\n")
     assert "decimal point" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("table", "field"),
+    [
+        ('[[stations]]\nshaft = 1\nend = "far"', "stations[0].end"),
+        ('[[stations]]\nshaft = 1\nend = ""', "stations[0].end"),
+        ("[[stations]]\nshaft = 1\nend = 7\nto_next = { stiffness_Nm_per_rad = 1 }", "stations[0].end"),
+        ('[duty]\ntorque_Nm = 9\ntorque_at = "far"', "duty.torque_at"),
+        ('[duty]\ntorque_Nm = 9\ninput = "far"', "duty.input"),
+        ('[duty]\napplication = "far"', "duty.application"),
+        ('[duty]\ncases = [{ name = "one", torque_Nm = 9, flow = "far" }]', "duty.cases[0].flow"),
+        (
+            '[duty]\nspeed_rpm = 9\nlife_h = 9\nevents = [{ kind = "far", count = 1, torque_Nm = 1 }]',
+            "duty.events[0].kind",
+        ),
+        (
+            '[[shafts]]\nnumber = 2\nouter_mm = 9\nprofile = { form = "far", inscribed_mm = 5 }',
+            "shafts[1].profile.form",
+        ),
+        ('[[shafts]]\nnumber = 2\nouter_mm = 9\nfinish = "far"', "shafts[1].finish"),
+    ],
+)
+def test_a_wrong_word_is_named_with_what_is_allowed(table, field):
+    elastic = "[[joints]]\njoint_angle_deg = 5\n[[joints]]\njoint_angle_deg = 5\n[[shafts]]\nnumber = 1\n"
+    with pytest.raises(InputError, match=rf"{re.escape(field)}: .* (is none of|must be)") as caught:
+        loads(f"format = 1\n{elastic}stiffness_Nm_per_rad = 1000\n{table}\n")
+    assert [problem.field for problem in caught.value.problems].count(field) == 1

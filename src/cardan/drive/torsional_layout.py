@@ -44,7 +44,7 @@ def shaft_places(drive: Described, number: int, length: float | None) -> tuple[P
         if at is not None:
             end = "start" if begin is not None and at <= begin + near else end
             end = "end" if stop is not None and at >= stop - near and end is None else end
-        if end is not None:
+        if end in groups:  # no other word: validation judges it, and comes by here
             groups[end].append(k)
         elif at is not None and between and between[-1][0] is not None and at - between[-1][0] <= near:
             between[-1][1].append(k)
