@@ -11,6 +11,8 @@ from scipy.integrate import solve_ivp
 from cardan.book.mathieu_answer import answer, ask, lacking
 from cardan.book.mathieu_drive import mathieu_reduction
 from cardan.book.mathieu_modes import mathieu_modes
+from cardan.drive.duty import Duty, Harmonic
+from cardan.drive.machine import Engine, EngineHarmonic, HarmonicTorque
 from cardan.drive.models.kinematics_model import given_chain
 from cardan.io import example
 from cardan.maths.periodic.mathieu import exponents
@@ -73,6 +75,33 @@ def test_what_neglecting_the_parametric_term_costs_is_told_where_the_motion_is_s
     found = mathieu_modes(at(900.0))
     worst = float(np.max(found.validity[0].error))
     assert answer(STAND, found).remarks[0].text.values["error"].value == pytest.approx(worst)
+
+
+HARMONIC = HarmonicTorque(amplitude=30.0, order=3.0)
+DRIVEN = {
+    "duty": Duty(torque=60.0, torque_at="input", harmonics=(Harmonic(order=3.0, torque=30.0),)),
+    "engine": Duty(torque=60.0, engine=Engine(cylinders=6, harmonics=(EngineHarmonic(order=3.0, torque=30.0),))),
+    "motor": Duty(torque=60.0, motor=HARMONIC),
+    "station": Duty(torque=60.0, torques=(replace(HARMONIC, station="motor"),)),
+}
+LOADED = {
+    "duty": Duty(torque=60.0, harmonics=(Harmonic(order=3.0, torque=30.0),)),
+    "load": Duty(torque=60.0, load=HARMONIC),
+    "station": Duty(torque=60.0, torques=(replace(HARMONIC, station="brake"),)),
+}
+
+
+@pytest.mark.parametrize(("end", "ways"), [("drive", DRIVEN), ("load", LOADED)])
+def test_torques_that_swing_count_alike_whatever_brings_them(end, ways):
+    """Book (246): J_0/J_k M a/|a - ν²| of a torque of order ν on the inertia J_k."""
+    own = {"drive": 0.9, "load": 0.4}[end]
+    for way in ways.values():
+        found = mathieu_modes(replace(STAND, duty=replace(way, speed=30.0 * np.pi, input="free")))
+        a = float(found.a[0])
+        wanted = 0.9 * 0.4 / (0.9 + 0.4) / own * 30.0 * a / abs(a - 9.0)
+        assert getattr(found.sizing.book, end) == pytest.approx([wanted])
+        other = {"drive": "load", "load": "drive"}[end]
+        assert not len(getattr(found.sizing.book, other))
 
 
 @pytest.mark.slow

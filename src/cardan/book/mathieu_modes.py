@@ -15,7 +15,9 @@ from cardan.drive.drive import Drive
 from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.periodic.mathieu import LARGEST_A, Exponents, exponents
+from cardan.questions.torsion.model.inputs import Swinging
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
+from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.steady.dynamic_torque import dynamic_torque
 from cardan.texts import _
 
@@ -131,9 +133,7 @@ def _sizing(drive: Drive, modes: TorsionModes) -> tuple[Sizing | None, str]:
     tau = np.tan(0.5 * model.joint_angle) ** 2
     turned = np.concatenate(([0.0], np.cumsum(tau * np.sin(2.0 * model.phase))[:-1]))
     sway = abs(complex(np.sum(tau * np.exp(2j * (model.phase - turned)))))
-    own = [(one.order, one.torque) for one in duty.harmonics]
-    order, torque = [list(one) for one in zip(*own, strict=True)] if own else ([], [])
-    driven = duty.torque_at == "input"
+    ends = _swinging(model, np.abs(shape), (shape > 0.0) == (float(np.mean(shape[behind])) > 0.0))
     try:
         book = engineering_torque(
             stiffness=float(modes.omega[0]) ** 2 * inertia,
@@ -142,14 +142,29 @@ def _sizing(drive: Drive, modes: TorsionModes) -> tuple[Sizing | None, str]:
             first_inertia=min(first, 1e12 * last),
             last_inertia=last,
             mean=duty.torque,
-            drive_order=order if driven else [],
-            drive_torque=torque if driven else [],
-            load_order=[] if driven else order,
-            load_torque=[] if driven else torque,
+            drive_order=[order for order, _torque in ends[0]],
+            drive_torque=[torque for _order, torque in ends[0]],
+            load_order=[order for order, _torque in ends[1]],
+            load_torque=[torque for _order, torque in ends[1]],
         )
         exact = dynamic_torque(drive, speed=[modes.speed])
-        ends = np.abs([exact.low[0, -1], exact.high[0, -1]]) if exact.found[0] else np.asarray([np.nan])
+        extremes = np.abs([exact.low[0, -1], exact.high[0, -1]]) if exact.found[0] else np.asarray([np.nan])
     except InputError as error:
         return None, error.problems[0].message
     most = book.mean + book.order2 + float(np.sum(book.drive)) + float(np.sum(book.load))
-    return Sizing(book=book, most=most, exact=float(np.max(ends))), ""
+    return Sizing(book=book, most=most, exact=float(np.max(extremes))), ""
+
+
+def _swinging(model: TorsionalModel, size: Array, driven: Array) -> tuple[list[tuple[float, float]], ...]:
+    """Return orders and amplitudes [N·m] of the torques that swing, of the engine, machines and duty, at either end.
+
+    size (N,): amplitude of every station in the only mode; driven (N,) of bool: whether it turns with the last inertia.
+    Between the ends a torque counts by the work that it does: by the amplitude of its station over that of its end.
+    """
+    found: tuple[list[tuple[float, float]], ...] = ([], [])
+    for one in model.torques:
+        if isinstance(one.law, Swinging) and size[one.station] > 0.0:
+            side = bool(driven[one.station])
+            share = float(size[one.station] / np.max(size[driven == side]))
+            found[side].append((abs(one.law.frequency), share * float(np.max(np.abs(one.law.amplitude)))))
+    return found
