@@ -3,6 +3,7 @@
 import csv
 import io
 import os
+import re
 import signal
 
 import numpy as np
@@ -149,6 +150,18 @@ def test_simulation_is_that_of_the_library(cardan, rig):
     assert said["curves"]["time_s"][-1] == 0.1
     settled = cardan("torsion", "simulate", rig, "--span-s", "0.1", "--settled", "--json").content
     assert settled["elements"][0]["max_Nm"] < said["elements"][0]["max_Nm"]
+
+
+@pytest.mark.parametrize("command", ["response", "simulate"])
+def test_a_drive_without_speed_is_not_taken_for_one_that_stands(cardan, tmp_path, command):
+    path = tmp_path / "still.toml"
+    path.write_text(
+        re.sub(r"(?m)^speed_rpm.*\n", "", files.example_text("unstable-drive").replace('input = "free"', ""))
+    )
+    said = cardan("torsion", command, path)
+    assert said.code == 2
+    assert "duty.speed_rpm: missing" in said.err
+    assert "--speed-rpm" in said.err
 
 
 @pytest.mark.parametrize(

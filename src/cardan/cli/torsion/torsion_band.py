@@ -15,7 +15,7 @@ from cardan.cli.shared.options import option
 from cardan.cli.shared.output import write_text
 from cardan.cli.shared.source import form_of
 from cardan.drive.drive import Drive
-from cardan.errors import InputError, Problem, refuse
+from cardan.errors import InputError, refuse
 from cardan.io import dumps, loads
 from cardan.texts import _
 from cardan.units import rpm
@@ -78,7 +78,7 @@ def asked_of(file: Path, options: Mapping[str, str]) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        named = InputError(Problem(options.get(one.field, one.field), one.message) for one in error.problems)
+        named = InputError(replace(one, field=options.get(one.field, one.field)) for one in error.problems)
         if all(one.field in options for one in error.problems):
             raise named from error
         with keys_of(file):

@@ -161,6 +161,14 @@ def test_no_one_waits_for_more_turns_or_swings_than_a_day_has(duty: Duty) -> Non
     assert [problem.field for problem in caught.value.problems] == ["span"]
 
 
+def test_a_drive_at_a_uniform_speed_needs_that_speed() -> None:
+    """A drive whose speed the file does not say is not one that stands: that is said with a speed of 0."""
+    with pytest.raises(InputError) as caught:
+        transient(LINE, Duty(torque=30.0))
+    assert [(one.field, one.code) for one in caught.value.problems] == [("duty.speed", "missing")]
+    assert transient(LINE, Duty(speed=0.0, torque=30.0), span=0.01).complete
+
+
 def test_a_motor_pulls_up_from_rest() -> None:
     duty = Duty(motor=ConstantTorque(torque=30.0))
     found = transient(LINE, duty, span=1.0, method=ROUGH)

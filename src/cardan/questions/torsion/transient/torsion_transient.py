@@ -166,6 +166,8 @@ def transient(
         text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")
         raise refuse("shafts[0].stiffness", text)
     model = in_time(in_full(train, fastest), main_order(train.model) * abs(fastest or 1.0))
+    if not model.free and chosen.run_up is None and chosen.speed is None:
+        raise refuse("duty.speed", _("missing; torsional vibration needs it"), "missing")
     if not model.free and chosen.run_up is not None:
         course = SpeedCourse(times=(0.0, chosen.run_up.duration), speeds=(chosen.run_up.start, chosen.run_up.end))
         model = replace(model, input_speed=None, input_motion=course)
