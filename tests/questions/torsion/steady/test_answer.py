@@ -11,7 +11,9 @@ from cardan import example, torsion_response
 from cardan.answers.data import as_csv
 from cardan.answers.quantity import Quantity, told
 from cardan.answers.reader import USUAL, Reader
-from cardan.questions.torsion.model.answer import ranges
+from cardan.drive.duty import Block, Case, Duty, History
+from cardan.drive.machine import ConstantTorque
+from cardan.questions.torsion.model.answer import ranges, torques_left_out
 from cardan.questions.torsion.steady import answer as home
 from cardan.units import rpm
 
@@ -71,3 +73,39 @@ def test_rounding_of_a_straight_drive_is_no_alternating_torque() -> None:
     said = home.answer(drive, found)
     assert "the alternating torque in shaft 2 is ±0 N·m about 150.0 N·m" in told(said.sentence, USUAL)
     assert said.keys[0].value == Quantity(0.0, "torque")
+
+
+@pytest.mark.parametrize("torque", [None, 1e-3])
+def test_without_a_mean_torque_none_is_told_and_nothing_reverses(torque: float | None) -> None:
+    """What damping leaves of a mean is no torque that changes its sign; the smallest torque of the duty is one."""
+    drive = example("unstable-drive")
+    drive = replace(drive, duty=Duty(speed=900.0 * rpm, torque=torque))
+    found = torsion_response(drive)
+    swing, mean = float(np.max(found.swing)), float(found.steady.torque.mean[int(np.argmax(found.swing))])
+    assert 0.0 < abs(mean) < 1e-3 * swing
+    said = told(home.answer(drive, found).sentence, USUAL)
+    assert ("about 0 N·m; stable." in said) == (torque is None)
+    assert ("changes its sign" in said) == (torque is not None)
+
+
+@pytest.mark.parametrize(
+    ("duty", "acts", "parts"),
+    [
+        (Duty(speed=90.0, torque=5.0), "", ""),
+        (Duty(speed=90.0, blocks=(Block(torque=5.0, speed=90.0, share=1.0),)), "No mean torque", "of the duty cycle"),
+        (Duty(speed=90.0, cases=(Case(name="one", torque=5.0),)), "No mean torque", "of the load cases"),
+        (Duty(speed=90.0, torque_history=History(file="one.csv")), "No mean torque", "the measured torque"),
+        (Duty(torque=5.0, cases=(Case(name="one", torque=9.0),)), "only that of the duty, 5.000 N·m", "load cases"),
+        (
+            Duty(load=ConstantTorque(torque=5.0), cases=(Case(name="one", torque=9.0),)),
+            "only that of the machine",
+            "load cases",
+        ),
+    ],
+)
+def test_torques_that_do_not_act_are_named(duty: Duty, acts: str, parts: str) -> None:
+    drive = example("single-20deg")
+    object.__setattr__(drive, "duty", duty)
+    said = [told(one.text, USUAL) for one in torques_left_out(drive)]
+    assert len(said) == bool(acts)
+    assert all(acts in one and parts in one for one in said)

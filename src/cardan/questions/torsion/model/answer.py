@@ -536,6 +536,29 @@ def left_out(drive: Drive) -> Iterator[Remark]:
         yield Remark(text=text, command=("cardan", "torsion", "road", FILE))
 
 
+def torques_left_out(drive: Drive) -> Iterator[Remark]:
+    """Yield which torques of a drive do not act in an answer that is of its duty alone, and where they count."""
+    duty = drive.duty
+    kinds = (
+        (_("the torques of the load cases"), bool(duty.cases)),
+        (_("the torques of the duty cycle"), bool(duty.blocks)),
+        (_("the measured torque"), duty.torque_history is not None),
+    )
+    parts = [name for name, there in kinds if there]
+    if not parts:
+        return
+    unloaded = duty.torque is None and duty.load is None
+    text = _("{acting} acts here; left out, but counted in torsion response, strength, life and check: {parts}.")
+    acting: Text = _("No mean torque")
+    if duty.load is not None:
+        acting = _("Of the mean torques only that of the machine on the output")
+    elif duty.torque is not None:
+        torque = Quantity(duty.torque, "torque", 4)
+        acting = say(_("Of the mean torques only that of the duty, {torque},"), torque=torque)
+    said = say(text, acting=acting, parts=Joined(parts))
+    yield Remark(text=said, tone="warning" if unloaded else "plain", code="torques_left_out")
+
+
 def friction_left_out(drive: Drive) -> Iterator[Remark]:
     """Yield which friction of a drive does not act in its torsional vibration."""
     splines = [one.spline for one in drive.shafts if one.spline is not None and one.spline.friction]

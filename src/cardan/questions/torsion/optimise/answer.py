@@ -26,6 +26,7 @@ from cardan.questions.torsion.absorber.answer import (
     unstable,
 )
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
+from cardan.questions.torsion.model.answer import torques_left_out
 from cardan.texts import _
 
 from .designs import Free
@@ -72,7 +73,7 @@ def answer(drive: Drive, result: OptimisedTorsion) -> Answer:
         sentence=sentence,
         tone=tone,
         tables=(_values(result), _peaks(result)),
-        remarks=(*_remarks(result), *_elsewhere(drive), *yokes_estimated(drive)),
+        remarks=(*_remarks(result), *torques_left_out(drive), *_elsewhere(drive), *yokes_estimated(drive)),
         figures=lambda: drawn().torsion_design_figures(result),
         facts=_facts(result),
         full=lambda: _curves(result),

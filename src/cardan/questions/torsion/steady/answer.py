@@ -100,13 +100,12 @@ def _running(found: TorsionResponse) -> tuple[Tone, Text]:
     if not bool(found.steady.found):
         return "failed", say(_("no steady motion was found at {speed}."), speed=speed)
     e = int(foremost(found.swing))
-    swing = _alternating(found)
     first = say(
         _("at {speed} the alternating torque in {element} is ±{amplitude} about {mean}"),
         speed=speed,
         element=found.train.elements[e],
-        mean=_torque(level(float(found.steady.torque.mean[e]), swing), 4),
-        amplitude=_torque(swing),
+        mean=_torque(float(_means(found)[e]), 4),
+        amplitude=_torque(_alternating(found)),
     )
     tone, more = _state(found)
     return tone, Joined([first, more], between="; ")
@@ -116,6 +115,13 @@ def _alternating(found: TorsionResponse) -> float:
     """Return the largest alternating torque [N·m], 0 where it is nothing but rounding beside the mean torques."""
     swing = float(np.max(found.swing))
     return 0.0 if swing <= ROUNDING * float(np.max(np.abs(found.steady.torque.mean))) else swing
+
+
+def _means(found: TorsionResponse) -> Array:
+    """Return the mean torque of every element at one speed, 0 where it is nothing beside its swing, (E,) [N·m]."""
+    loaded = found.loaded
+    pairs = zip(found.steady.torque.mean, found.swing, strict=True)
+    return np.asarray([level(float(mean), float(swing), loaded=loaded) for mean, swing in pairs])
 
 
 def _state(found: TorsionResponse) -> tuple[Tone, Text]:
@@ -135,7 +141,7 @@ def _state(found: TorsionResponse) -> tuple[Tone, Text]:
     if verdict == Verdict.UNKNOWN:
         return "warning", _("whether a small disturbance decays is not known: dry friction sticks and slips.")
     changing = np.sign(found.torque_lowest) * np.sign(found.torque_highest) < 0.0
-    if np.any(changing & (np.abs(found.steady.torque.mean) > 1e-6 * np.max(np.abs(found.torque_highest)))):
+    if np.any(changing & (np.abs(_means(found)) > 1e-6 * np.max(np.abs(found.torque_highest)))):
         return "warning", _("stable, but the torque changes its sign: joints and splines with backlash rattle.")
     return "good", _("stable.")
 
@@ -191,8 +197,9 @@ def _element_table(found: TorsionResponse) -> Table:
     second, fourth = (int(np.flatnonzero(order == one)[0]) for one in JOINTS)
     largest = float(np.max(np.abs(torque.mean)) + np.max(torque.amplitude))
     amplitude = np.where(torque.amplitude > 1e-12 * largest, torque.amplitude, 0.0)
-    mean = [level(float(one), float(np.max(torque.amplitude))) for one in torque.mean]
-    own = np.stack([mean, found.torque_lowest, found.torque_highest, amplitude[:, second], amplitude[:, fourth]], -1)
+    own = np.stack(
+        [_means(found), found.torque_lowest, found.torque_highest, amplitude[:, second], amplitude[:, fourth]], -1
+    )
     columns = _cleaned(own).T
     heads = (_("mean"), _("lowest"), _("highest"), _("± order 2"), _("± order 4"))
     return Table(

@@ -35,6 +35,9 @@ Progress: TypeAlias = Callable[[float], object]
 ROUNDING = 1e-8
 """Share of a swing below which the mean about which it goes is left over by rounding."""
 
+UNLOADED = 1e-3
+"""The same where no mean torque acts: what damping and the joints leave of it is below the last digit told."""
+
 ROUNDS, CLOSER, FLAT = 8, 3, 1e-3
 """How often further speeds are put about the largest alternating torque, how many on either side, and the share by
 which its neighbours may lie lower where none are needed."""
@@ -117,6 +120,14 @@ class TorsionResponse:
             more = more + np.where(band.found.reshape(self.speed.shape)[..., None], whole - alone, 0.0)
         flat = (alone + more).reshape(-1, alone.shape[-1])
         return widened(flat, flat, self.beside)[int(sign > 0.0)].reshape(alone.shape)
+
+    @property
+    def loaded(self) -> bool:
+        """Whether a mean torque acts on it: of machines, of the duty, of bearings."""
+        model = self.train.model
+        speed = np.abs(np.ravel(self.speed))
+        means = (one.law.at(0.0 * speed, 0.0 * speed, speed)[0] for one in model.torques if one.law.order == 0.0)
+        return bool(np.any(model.ground_damping)) or any(bool(np.any(one != 0.0)) for one in means)
 
     def side_orders(self, share: float) -> list[tuple[float, float]]:
         """Return the side bands with their largest torque, of an element and at a speed, above a share of the whole.
@@ -373,10 +384,12 @@ def _scaled(progress: Progress | None, low: float, high: float) -> Progress | No
     return lambda share: progress(low + (high - low) * share)
 
 
-def level(mean: float, swing: float) -> float:
-    """Return a mean, 0 where it is nothing but rounding beside the swing about it.
+def level(mean: float, swing: float, *, loaded: bool = True) -> float:
+    """Return a mean, 0 where it is nothing beside the swing about it.
 
-    >>> level(3e-11, 0.2), level(400.0, 1300.0)
-    (0.0, 400.0)
+    loaded: whether a mean torque acts, and it is nothing but rounding that is.
+
+    >>> level(3e-11, 0.2), level(400.0, 1300.0), level(-4e-7, 0.1, loaded=False)
+    (0.0, 400.0, 0.0)
     """
-    return 0.0 if abs(mean) < ROUNDING * abs(swing) else mean
+    return 0.0 if abs(mean) < (ROUNDING if loaded else UNLOADED) * abs(swing) else mean

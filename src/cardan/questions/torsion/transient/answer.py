@@ -15,7 +15,7 @@ from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.assumed import yokes_estimated
-from cardan.questions.torsion.model.answer import assumptions, left_out
+from cardan.questions.torsion.model.answer import assumptions, left_out, torques_left_out
 from cardan.questions.torsion.model.torsional_modes import main_order
 from cardan.texts import _
 
@@ -40,7 +40,14 @@ def answer(drive: Drive, result: Transient) -> Answer:
         tone=tone,
         figures=lambda: drawn().transient_figures(result),
         tables=(element_table(result, drive.duty.run_up), _station_table(result)),
-        remarks=(*remarks(result), *left_out(drive), *_unread(drive), *yokes_estimated(drive), *_next(drive, result)),
+        remarks=(
+            *remarks(result),
+            *torques_left_out(drive),
+            *left_out(drive),
+            *_unread(drive),
+            *yokes_estimated(drive),
+            *_next(drive, result),
+        ),
         facts=facts(result),
         full=lambda: everything(result),
         code=1 if tone == "failed" else 0,

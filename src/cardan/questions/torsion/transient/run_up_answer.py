@@ -18,7 +18,7 @@ from cardan.errors import refuse
 from cardan.later import later
 from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
-from cardan.questions.torsion.model.answer import left_out
+from cardan.questions.torsion.model.answer import left_out, torques_left_out
 from cardan.questions.torsion.model.excitation import turns_freely
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
 from cardan.texts import _, mark
@@ -117,7 +117,7 @@ def answer(drive: Drive, result: FollowedRunUp) -> Answer:
         tone="warning" if alarms else "plain",
         figures=lambda: drawn().transient_figures(motion),
         tables=(element_table(motion, result.course), *passed),
-        remarks=(*alarms, *remarks(motion), *left_out(drive), *estimated),
+        remarks=(*alarms, *remarks(motion), *torques_left_out(drive), *left_out(drive), *estimated),
         keys=(key,),
         facts=facts(motion),
         full=lambda: everything(motion),
