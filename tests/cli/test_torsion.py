@@ -164,6 +164,48 @@ def test_a_drive_without_speed_is_not_taken_for_one_that_stands(cardan, tmp_path
     assert "--speed-rpm" in said.err
 
 
+WAYS = {
+    "blocks": "blocks = [{ torque_Nm = 50, speed_rpm = 700, share_percent = 70 }, "
+    "{ torque_Nm = 90, speed_rpm = 900, share_percent = 30 }]",
+    "cases": 'speed_rpm = 900\ncases = [{ name = "peak", torque_Nm = 90 }, { name = "road", torque_Nm = 50 }]',
+    "history": 'speed_rpm = 900\ntorque_history = "torque.csv"',
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("way", "named"), list(zip(WAYS, ("part 2 of the", "peak", "the peak of the"), strict=True)))
+def test_response_is_of_the_heaviest_load_case_where_the_duty_has_no_torque(cardan, tmp_path, way, named):
+    """As strength counts it, and not about no mean torque; at another speed where one is asked for."""
+    path = tmp_path / "loaded.toml"
+    text = files.example_text("unstable-drive")
+    path.write_text(text[: text.index("[duty]")] + f"[duty]\n{WAYS[way]}\n")
+    (tmp_path / "torque.csv").write_text("time_s,torque_Nm\n0,50\n1,90\n2,60\n")
+    path.with_name("alone.toml").write_text(text[: text.index("[duty]")] + "[duty]\nspeed_rpm = 900\ntorque_Nm = 90\n")
+    said = cardan("torsion", "response", path, "--json").content
+    alone = cardan("torsion", "response", "alone.toml", "--json").content
+    assert said["max_Nm"] == alone["max_Nm"]
+    assert said["speed_rpm"] == pytest.approx(900.0)
+    for command in ("response", "stability") if way == "history" else ("response",):  # many maps take long
+        out = " ".join(cardan("torsion", command, path).out.split())
+        assert f"figures are of this condition: {named}" in out
+        assert ("In each condition" in out) == (way != "history")
+    out = " ".join(cardan("torsion", "response", path, "--speed-rpm", "800").out.split())
+    assert out.count("at 800.0 rpm the alternating torque") == (1 if way == "history" else 3)
+    assert "no mean torque" not in out.lower()
+
+
+@pytest.mark.slow
+def test_load_cases_are_told_over_the_speeds_asked_for(cardan, tmp_path):
+    path = tmp_path / "loaded.toml"
+    text = files.example_text("unstable-drive")
+    path.write_text(
+        text[: text.index("[duty]")] + f"[duty]\n{WAYS['blocks']}\n".replace("70 }", "70, joint_angle_deg = 5 }")
+    )
+    said = cardan("torsion", "response", path, "--speeds", "800:900:3", "--json").content
+    assert said["speed_rpm"] == pytest.approx([800.0, 850.0, 900.0])
+    assert [row["condition"] for row in said["conditions"]] == [f"part {k} of the duty cycle" for k in (1, 2)]
+
+
 @pytest.mark.parametrize(
     ("options", "field"),
     [

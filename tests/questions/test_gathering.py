@@ -12,7 +12,7 @@ from cardan.answers.reader import Reader
 from cardan.drive.accuracy import Tolerance
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
-from cardan.drive.duty import Case, Duty
+from cardan.drive.duty import Block, Case, Duty
 from cardan.drive.movement import Harmonic, Hitch
 from cardan.drive.settings import Pose
 from cardan.drive.shaft import Shaft
@@ -81,6 +81,23 @@ def test_load_cases_alone_answer_what_needs_a_torque():
     cases = (Case(name="a", torque=100.0, share=0.5), Case(name="b", torque=300.0, share=0.5))
     found = asked("forces", drive(duty=Duty(cases=cases)))
     assert [row["condition"] for row in data(found, READER)["conditions"]] == ["a", "b"]
+
+
+def test_the_load_case_that_stands_for_the_duty_is_named_also_where_it_is_the_only_one():
+    one = drive(duty=Duty(cases=(Case(name="shunting", torque=90.0),)))
+    said = [told(remark.text, READER) for remark in asked("forces", one).remarks]
+    assert "Where nothing else is said, figures are of this condition: shunting." in said
+    several = drive(duty=Duty(cases=(Case(name="road", torque=50.0), Case(name="shunting", torque=90.0))))
+    found = asked("forces", several)
+    said = [told(remark.text, READER) for remark in found.remarks]
+    assert "Where nothing else is said, figures are of this condition: shunting." in said
+    assert found.tables[-1].note == ""
+
+
+def test_a_part_of_the_duty_cycle_bends_the_joints_as_it_says():
+    flat = drive(duty=Duty(blocks=(Block(torque=90.0, speed=100.0, share=1.0, joint_angle=5 * deg),)))
+    at = principal(QUESTIONS["forces"], flat)
+    assert [joint.joint_angle for joint in at.joints] == pytest.approx([5 * deg, 5 * deg])
 
 
 def test_the_page_of_a_report_tells_the_conditions_too():

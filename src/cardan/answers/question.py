@@ -77,6 +77,8 @@ class Question:
     without: Mapping[Aspect, str] = field(default_factory=dict, compare=False)
     quick: bool = True  # whether its answer is there at once; the others are worth a process of their own
     place: Place = MAIN  # where the report has its page
+    # whether it is told of the heaviest load case where the duty itself gives no torque, although it misses none
+    loaded: bool = False
     # what ``ask`` takes beside the drive, of ``known`` (a catalogue), ``progress`` and what a user may choose
     takes: tuple[str, ...] = ()
     mechanism: str = ""  # where it is answered of a mechanism file, as ``module``; empty where it is of drives alone

@@ -167,16 +167,28 @@ def _figures(question: Question, drive: Drive, time: float) -> dict[str, float]:
 
 
 def principal(question: Question, drive: Drive) -> Drive:
-    """Return the drive that a question is asked of: as it is, or in its heaviest load case where it lacks a torque."""
-    if "case" in question.gathered or not question.lacking(drive):
+    """Return the drive that a question is asked of: as it is, or in its heaviest load case where it wants a torque."""
+    instead = _heaviest(question, drive)
+    if instead is None:
         return drive
+    return replace(drive, duty=instead.drive.duty) if drive.poses else instead.drive
+
+
+def _heaviest(question: Question, drive: Drive) -> Condition | None:
+    """Return the load case in which a question is asked instead of the duty itself; None where it is not."""
+    unloaded = question.loaded and drive.duty.torque is None and drive.duty.load is None
+    if "case" in question.gathered or not (unloaded or question.lacking(drive)):
+        return None
     bare = replace(drive, poses=()) if drive.poses else drive
-    loaded = [one for one in conditions(bare) if one.torque is not None]
-    heaviest = max(loaded, key=lambda one: abs(one.torque or 0.0)).drive if loaded else drive
-    if heaviest.duty == drive.duty:
-        return drive
-    other = replace(drive, duty=heaviest.duty)
-    return other if len(question.lacking(other)) < len(question.lacking(drive)) else drive
+    heaviest = max(
+        (one for one in conditions(bare) if one.torque is not None),
+        key=lambda one: abs(one.torque or 0.0),
+        default=None,
+    )
+    if heaviest is None or heaviest.drive.duty == drive.duty:
+        return None
+    fewer = len(question.lacking(drive)) - len(question.lacking(replace(drive, duty=heaviest.drive.duty)))
+    return heaviest if fewer > 0 or (unloaded and fewer == 0) else None
 
 
 def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
@@ -196,6 +208,9 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
     if has(drive)["movement"] and not followed and "movement" not in (*question.gathered, *question.without):
         remarks.append(Remark(text=_(OUTERMOST), code="outermost"))
     every = ways(question, drive)
+    instead = _heaviest(question, drive)
+    if instead is not None:
+        remarks.insert(0, Remark(text=_of(instead.name), code="heaviest"))
     if len(every) < 2:
         if not remarks:
             return answer
@@ -240,10 +255,11 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
         remarks.append(Remark(text=_("The same holds in every pose, load case and movement."), code="same"))
     elif not same:
         remarks[:0] = _worst([one for key, one in governing if one is not key], len(told))
+    note = _of(every[0].name) if instead is None and told[0].way is every[0] else ""
     return replace(
         answer,
         keys=keys,
-        tables=answer.tables if same else (*answer.tables, replace(_table(told), note=_first(told, every[0]))),
+        tables=answer.tables if same else (*answer.tables, replace(_table(told), note=note)),
         remarks=_after(answer, remarks),
         full=answer.full or ((lambda: answer.tables[-1]) if answer.tables else None),
     )
@@ -285,13 +301,10 @@ def _as_made(drive: Drive) -> tuple[tuple[KeyFigure, ...], Remark]:
     return figures, Remark(text=say(text, share=share, angle_error=angle_error), code="as_made")
 
 
-def _first(told: Sequence[Told], drawn: Way) -> Text:
-    """Return which condition the rest of an answer is of; nothing where it could not be told in that."""
-    if told[0].way is not drawn:
-        return ""
-    return say(
-        _("Where nothing else is said, figures are of this condition: {condition}."), condition=_called(drawn.name)
-    )
+def _of(name: Text) -> Text:
+    """Return that the rest of an answer is of a condition."""
+    text = _("Where nothing else is said, figures are of this condition: {condition}.")
+    return say(text, condition=_called(name))
 
 
 def _called(name: Text) -> Text:

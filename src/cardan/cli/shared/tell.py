@@ -18,6 +18,7 @@ from cardan.answers.answer import FILE, Answer, Remark, Tone
 from cardan.answers.data import as_csv, as_json, data
 from cardan.answers.printed import SHOWN, Column, Table, printed
 from cardan.answers.quantity import told
+from cardan.answers.question import Question
 from cardan.answers.reader import Reader, reader
 from cardan.drive.drive import Drive
 from cardan.drive.fields.plausibility import doubts
@@ -57,6 +58,7 @@ def tell(
     drive: Drive | Mechanism | None = None,
     *,
     whole: Drive | None = None,
+    asks: Question | None = None,
     alone: bool = False,
     name: str = "",
     json: bool = False,
@@ -67,13 +69,15 @@ def tell(
 
     drive: what it describes; a drive that has other conditions is asked in these too.
     whole: the same with all its load cases, where the answer is of one of them.
+    asks: what is asked in the other conditions; the question of the register that the answer is of by default.
     name: what to call what was asked about, instead of the drive or its file; json, csv: ``--json`` and ``--csv``.
     plot: ``--plot``; drawn first, so that nothing is printed when it cannot be.
     """
     who = reader()
     if isinstance(drive, Drive):
-        if answer.name in QUESTIONS and not alone:
-            answer = gather(QUESTIONS[answer.name], whole or drive, answer)
+        asked = asks or QUESTIONS.get(answer.name)
+        if asked is not None and not alone:
+            answer = gather(asked, whole or drive, answer)
         odd = tuple(Remark(text=one.text, tone="warning", code="implausible") for one in doubts(drive))
         answer = replace(answer, remarks=(*odd, *answer.remarks))
     figures = answer.figures() if plot is not None else ()

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 
 from cardan.cli.shared.options import option
+from cardan.drive.drive import Drive
 from cardan.errors import refuse
 from cardan.questions.torsion.stability.torsion_stability import PACE
+from cardan.register import QUESTIONS
 from cardan.texts import _
+from cardan.units import rpm
 
 Speeds: TypeAlias = Annotated[
     str | None,
@@ -22,8 +26,26 @@ Pieces: TypeAlias = Annotated[
     ),
 ]
 
+RUNNING = replace(
+    QUESTIONS["orders"],
+    name="torsion-response",
+    module="cardan.questions.torsion.steady.running",
+    gathered=("pose", "movement", "error"),
+)
+"""The question of `torsion response` at one speed: of the drive as drawn, in each of its load cases."""
+
 COUNT = 121  # values of a list where no number is given
 MOST = 1_000_000  # values of a list at most
+
+
+def at_speed(drive: Drive, speed_rpm: float | None) -> Drive:
+    """Return a drive with the speed of the command line [rpm] instead of its own, in all of its load cases too."""
+    if speed_rpm is None:
+        return drive
+    speed = speed_rpm * rpm
+    cases = tuple(replace(one, speed=None, speed_range=None) for one in drive.duty.cases)
+    blocks = tuple(replace(one, speed=abs(speed)) for one in drive.duty.blocks)
+    return replace(drive, duty=replace(drive.duty, speed=speed, cases=cases, blocks=blocks))
 
 
 def values(text: str, option: str, *, count: int = COUNT, low: float | None = None) -> Any:

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from cardan.cli.shared.asked import check_options, keys_of, on_duty
+from cardan.cli.shared.asked import check_options, keys_of
 from cardan.cli.shared.options import option
 from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import AsCsv, AsJson, DriveFile, Plot, SpeedRpm, read
 from cardan.cli.shared.tell import tell
 from cardan.errors import refuse
+from cardan.questions.gathering import principal
 from cardan.questions.torsion.stability.answer import answer
 from cardan.questions.torsion.stability.torsion_stability import stability as question
+from cardan.register import QUESTIONS
 from cardan.texts import _
 
-from .torsion_parts import Pieces, Speeds, values
+from .torsion_parts import Pieces, Speeds, at_speed, values
 
 ALONE, ACROSS, UP = 201, 61, 31
 """Values along the axis of a map where no number is given: of the only one, of the speed beside another, of others."""
@@ -48,10 +50,12 @@ def torsion_stability(
     """Tell whether torsional vibration decays, and how fast."""
     check_options(speed_rpm, json=json, csv=csv, plot=plot)
     axes = _axes(speeds, joint_angles, over or [])
-    drive = on_duty(read(file), speed_rpm, None)
+    whole = at_speed(read(file), speed_rpm)
+    drive = principal(QUESTIONS["stability"], whole)
     with keys_of(file), keeping(_("judging steady motions")) as progress:
         found = question(drive, over=axes, pieces=pieces, progress=progress)
-    return ended(tell(answer(drive, found, signs=True), file, drive, json=json, csv=csv, plot=plot), progress)
+    said = answer(drive, found, signs=True)
+    return ended(tell(said, file, drive, whole=whole, json=json, csv=csv, plot=plot), progress)
 
 
 def _axes(speeds: str | None, joint_angles: str | None, over: list[str]) -> dict[str, Any]:
