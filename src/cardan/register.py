@@ -140,7 +140,6 @@ QUESTIONS: dict[str, Question] = {
             group=TORSION,
             help=mark("Natural frequencies, and the speeds at which something excites them."),
             quick=False,
-            loaded=True,
             command="torsion modes",
             without={"error": MINUTES},
             examples=(

@@ -194,7 +194,6 @@ def test_response_is_of_the_heaviest_load_case_where_the_duty_has_no_torque(card
     assert "no mean torque" not in out.lower()
 
 
-@pytest.mark.slow
 def test_load_cases_are_told_over_the_speeds_asked_for(cardan, tmp_path):
     path = tmp_path / "loaded.toml"
     text = files.example_text("unstable-drive")

@@ -16,12 +16,15 @@ from cardan.answers.answer import Answer
 from cardan.answers.data import data
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
+from cardan.drive.duty import Block, Duty
 from cardan.drive.shaft import Shaft
 from cardan.errors import InputError
+from cardan.questions.gathering import principal
 from cardan.questions.torsion.answer import answer, ask, lacking
 from cardan.questions.torsion.model.answer import answer as answer_of_modes
 from cardan.questions.torsion.model.answer import modes_said
 from cardan.questions.torsion.stability.torsion_stability import stability
+from cardan.register import QUESTIONS
 from cardan.report.block import page
 from cardan.texts import speaking
 from cardan.units import rpm
@@ -166,3 +169,18 @@ def test_stations_that_part_a_body_are_called_by_their_places() -> None:
     names = [told(one, Reader(units={"length": "m"})) for one in found.train.elements]
     assert any(name.endswith(" m to joint 2") for name in names)
     assert not any(" mm" in name for name in names)
+
+
+def test_the_page_names_the_torques_that_its_running_leaves_out() -> None:
+    """The speeds of all parts of a duty cycle are in use, so that the page is of none of them alone."""
+    stand = example("unstable-drive")
+    parts = tuple(Block(torque=60.0, speed=speed * rpm, share=0.5) for speed in (700.0, 900.0))
+    for duty, acts in (
+        (Duty(blocks=parts), "No mean torque acts here"),
+        (Duty(torque=9.0, blocks=parts), "9.000 N·m,"),
+    ):
+        drive = replace(stand, duty=replace(duty, speed=900.0 * rpm))
+        said = [told(one.text, USUAL) for one in of(drive).remarks if one.code == "torques_left_out"]
+        assert len(said) == 1
+        assert acts in said[0]
+        assert principal(QUESTIONS["torsion"], drive) == drive

@@ -12,7 +12,7 @@ from cardan.drive.drive import Drive
 from cardan.texts import _, mark
 
 from .model.answer import answer as answer_of_modes
-from .model.answer import lacking, modes_said
+from .model.answer import lacking, modes_said, torques_left_out
 from .model.torsion import TorsionModes, torsion_modes
 from .stability.proved_speeds import ProvedSpeeds
 from .stability.torsion_stability import proved_in_use
@@ -55,7 +55,7 @@ def answer(drive: Drive, result: Torsion) -> Answer:
         tone=next(one for one in TONES if one in (tone, running.tone)),
         figures=lambda: (*modes.figures(), *running.figures()),
         tables=(*modes.tables, *(_apart(one) for one in running.tables)),
-        remarks=tuple(_once([*modes.remarks, *running.remarks])),
+        remarks=tuple(_once([*modes.remarks, *torques_left_out(drive), *running.remarks])),
         keys=(*modes.keys, *running.keys),
         facts={**modes.facts, "running": running.facts},
     )
