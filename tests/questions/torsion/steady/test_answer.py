@@ -88,6 +88,16 @@ def test_without_a_mean_torque_none_is_told_and_nothing_reverses(torque: float |
     assert ("changes its sign" in said) == (torque is not None)
 
 
+def test_a_load_takes_the_place_of_the_torques_of_all_load_cases() -> None:
+    drive, load = example("unstable-drive"), ConstantTorque(torque=60.0)
+    case = Case(name="one", torque=9.0)
+    drive = replace(
+        drive, duty=Duty(speed=900.0 * rpm, load=load, cases=(case, replace(case, name="two", torque=90.0)))
+    )
+    remarks = home.answer(drive, torsion_response(drive)).remarks
+    assert [one.code for one in remarks].count("torques_left_out") == 1
+
+
 @pytest.mark.parametrize(
     ("duty", "acts", "parts"),
     [
@@ -108,4 +118,5 @@ def test_torques_that_do_not_act_are_named(duty: Duty, acts: str, parts: str) ->
     object.__setattr__(drive, "duty", duty)
     said = [told(one.text, USUAL) for one in torques_left_out(drive)]
     assert len(said) == bool(acts)
+    assert all(("in torsion response" in one) == (duty.load is None) for one in said)
     assert all(acts in one and parts in one for one in said)

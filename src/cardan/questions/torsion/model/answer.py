@@ -548,14 +548,17 @@ def torques_left_out(drive: Drive) -> Iterator[Remark]:
     if not parts:
         return
     unloaded = duty.torque is None and duty.load is None
-    text = _("{acting} acts here; left out, but counted in torsion response, strength, life and check: {parts}.")
-    acting: Text = _("No mean torque")
+    acting: Text = _("No mean torque acts here")
+    where = _("torsion response, strength, life and check")
     if duty.load is not None:
-        acting = _("Of the mean torques only that of the machine on the output")
+        acting = _("Of the mean torques only that of the machine on the output acts here")
+        where = _("strength, life and check")
     elif duty.torque is not None:
-        torque = Quantity(duty.torque, "torque", 4)
-        acting = say(_("Of the mean torques only that of the duty, {torque},"), torque=torque)
-    said = say(text, acting=acting, parts=Joined(parts))
+        text = _("Of the mean torques only that of the duty, {torque}, acts here")
+        acting = say(text, torque=Quantity(duty.torque, "torque", 4))
+    said = say(
+        _("{acting}; left out, but counted in {where}: {parts}."), acting=acting, where=where, parts=Joined(parts)
+    )
     yield Remark(text=said, tone="warning" if unloaded else "plain", code="torques_left_out")
 
 

@@ -23,6 +23,7 @@ from cardan.questions.torsion.model.answer import (
     friction_left_out,
     nonsynchronous,
     ranges,
+    torques_left_out,
 )
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.torsional_train import torsional_train
@@ -333,6 +334,8 @@ def _remarks(drive: Drive, found: Stability, axes: tuple[MapAxis, ...], *, signs
     if found.train.model.free:
         yield Remark(text=_("Rigid-body rotation is left out: a free drive may shift in time."))
     yield from assumptions(found.train, sprung=True)
+    if drive.duty.load is not None:  # in place of the torque of every load case
+        yield from torques_left_out(drive)
     yield from friction_left_out(drive)
     if axes and found.verdict.size > TOLD and (plays(found) or found.train.springs):
         text = _(

@@ -19,7 +19,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.assumed import yokes_estimated
 from cardan.questions.motion.turning import each_shaft
-from cardan.questions.torsion.model.answer import assumptions, counted, left_out, ranges
+from cardan.questions.torsion.model.answer import assumptions, counted, left_out, ranges, torques_left_out
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.excitation import engine_torque
 from cardan.questions.torsion.model.torsional_modes import main_order
@@ -332,6 +332,8 @@ def _remarks(drive: Drive, found: TorsionResponse) -> Iterator[Remark]:
         yield Remark(text=say(text, order=_order(main_order(found.train.model))))
     yield from strikes(found)
     yield from assumptions(found.train, sprung=True)
+    if drive.duty.load is not None:  # in place of the torque of every load case
+        yield from torques_left_out(drive)
     yield from left_out(drive)
     yield from yokes_estimated(drive)
     if np.any(steady.found):
