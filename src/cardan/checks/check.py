@@ -15,14 +15,14 @@ from cardan.catalogue.rows import UNSURE, sureness
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.models.kinematics_model import mixed, unmapped
-from cardan.questions.torsion.steady.pendulum_swing import strikes_in_use
+from cardan.questions.torsion.stability.in_use import why_larger
 from cardan.texts import _
 
 from .design import Design
 from .verdict import Sense, Verdict
 
-VIBRATING = frozenset({"torsional_resonance", "torque_reversal"})
-"""Checks whose verdicts on shafts rest on the alternating torque, beside those that grow with a power of it."""
+VIBRATING = frozenset({"torsional_resonance", "torque_reversal", "gap_closure"})
+"""Checks whose verdicts on torques rest on the alternating torque, beside those that grow with a power of it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,18 +141,18 @@ class Check:
         own = [_(UNSURE[one.confidence])] if one.confidence in UNSURE else []
         least = min((one.confidence, *(row.confidence for row in rows if row.confidence in UNSURE)), key=sureness)
         found = replace(one, confidence=least, provenance=(*own, *unconfirmed(rows)))
-        return _unfit(found, _struck()) if self._struck(found, design) else found
+        rests = self.power or (one.dimension == "torque" and self.name in VIBRATING)
+        why = surpassed(design) if rests and np.all(one.passed) else ""
+        return _unfit(found, why) if why else found
 
-    def _struck(self, one: Verdict, design: Design) -> bool:
-        """Tell whether a verdict is met by the torque of pendulums that do not swing as small oscillations have it.
 
-        Of designs that vary the drive is judged as its small oscillations have it.
-        """
-        if design.varied or not (self.power or (one.subject and self.name in VIBRATING)):
-            return False
-        if not any(case.vibration is not None for case in design.loaded) or not strikes_in_use(design.drive):
-            return False
-        return bool(np.all(one.passed))
+def surpassed(design: Design) -> str:
+    """Return why a drive may have larger torques than steady vibration counts; empty where it has none.
+
+    Of designs that vary each is judged as its steady vibration has it.
+    """
+    counted = not design.varied and any(case.vibration is not None for case in design.loaded)
+    return why_larger(design.drive) if counted else ""
 
 
 def part_of(drive: Drive, subject: str) -> str:
@@ -167,13 +167,6 @@ def part_of(drive: Drive, subject: str) -> str:
     number = int(rest.partition("]")[0]) + 1
     parts = getattr(drive, kind)
     return numbered(number, parts[number - 1].name if number <= len(parts) else "")
-
-
-def _struck() -> str:
-    return _(
-        "met by small oscillations of a pendulum that oscillates widely or hits its stops: the torque may be larger "
-        "than counted, see torsion simulate with --settled"
-    )
 
 
 def _ruled(joint: Joint) -> str:

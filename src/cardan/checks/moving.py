@@ -231,7 +231,7 @@ def worst_of_poses(drawn: Sequence[Verdict], poses: Sequence[tuple[Text, Sequenc
 
     drawn: of the drive as drawn, or of many.
     poses, sequence of (Text, sequence of Verdict): which pose or instant it is, and the verdicts there; one that is
-    reached only there counts too.
+    reached only there counts too. Where one of them does not fit, what does not fail is not judged.
     """
     known = [(one.check, one.title) for one in drawn]
     there = {(one.check, one.title): one for _said, verdicts in poses[::-1] for one in verdicts if one.run}
@@ -240,15 +240,23 @@ def worst_of_poses(drawn: Sequence[Verdict], poses: Sequence[tuple[Text, Sequenc
         worst = one if len(found) < len(known) else None
         for said, verdicts in poses:
             other = next((its for its in verdicts if (its.check, its.title) == (one.check, one.title)), None)
-            if other is None or not other.run:
+            if other is None or other.missing:
                 continue
-            if worst is None or not worst.run:
-                worst = replace(other, note=joined(other.note, said))
+            if worst is None or not (worst.run and other.run):
+                worst = _foremost(worst, other, said)
             else:
                 worst = _worse(worst, other, said)
         assert worst is not None
         found.append(worst)
     return tuple(found)
+
+
+def _foremost(worst: Verdict | None, other: Verdict, said: Text) -> Verdict:
+    """Return of two verdicts that were not both run the one that tells more: what fails, then what does not fit."""
+    fails = worst is not None and worst.run and not np.all(worst.passed)
+    if worst is not None and not worst.missing and (fails or (worst.unfit and (other.unfit or np.all(other.passed)))):
+        return worst
+    return replace(other, note=joined(other.note, said))
 
 
 def _worse(worst: Verdict, other: Verdict, said: Text) -> Verdict:

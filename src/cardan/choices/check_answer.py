@@ -38,7 +38,7 @@ from cardan.drive.fields.paths import bare_path
 from cardan.drive.fields.wording import counted, in_words
 from cardan.later import later
 from cardan.questions.assumed import yokes_estimated
-from cardan.questions.torsion.steady.pendulum_swing import strikes_in_use
+from cardan.questions.torsion.stability.in_use import larger_in_use
 from cardan.texts import _, mark, plural
 from cardan.units import dimension_of, factor
 
@@ -172,7 +172,7 @@ def answer(drive: Drive, result: Checked, *, sources: bool = False, missing: boo
         tables=tuple(_tables(drive, result, sources=sources, missing=missing)),
         remarks=(
             *yokes_estimated(drive),
-            *(replace(one, aside=True) for one in strikes_in_use(drive)),  # torsional vibration tells it too
+            *(replace(one, aside=True) for one in larger_in_use(drive)),  # torsional vibration tells it too
             *_remarks(result, sources=sources, missing=missing),
         ),
         keys=tuple(key_figures(drive, result.verdicts)),
@@ -199,6 +199,8 @@ def sentence(verdicts: Sequence[Verdict]) -> Say | str:
             return say(text, title=worst.title, used=share(float(worst.utilisation)))
         if result.advice:
             return _("no limit that must be kept could be judged, only rules of thumb.")
+        if unfit := [one.unfit for one in result.verdicts if one.unfit]:
+            return _("nothing could be judged: {why}.").format(why=unfit[0])
         return _("nothing could be judged: the drive file gives neither limits nor what they need.")
     worst, count = binding[0], len(binding)
     if failed:

@@ -114,17 +114,23 @@ def test_a_drive_loaded_with_its_rating_is_just_at_its_limit():
         assert one.torque_factor * rated == pytest.approx(700.0 * before.torque_factor, rel=1e-8), one.title
 
 
+def shaken():
+    """The stand that is unstable at 1340 rpm, beside its zone: what its joint makes of the torque stays."""
+    drive = example("unstable-drive")
+    return replace(drive, duty=replace(drive.duty, speed=1290 * rpm))
+
+
 @pytest.mark.parametrize(
     ("name", "torque"),
     [
-        ("unstable-drive", 60.0),  # vibration that joints make: four times the torque, twice as much at the rating
-        ("unstable-drive", 1000.0),  # too weak: the rating lies below the torque
+        ("shaken", 60.0),  # vibration that joints make: four times the torque, twice as much at the rating
+        ("shaken", 1000.0),  # too weak: the rating lies below the torque
         pytest.param("pto-baler", 150.0, marks=pytest.mark.slow),  # vibrates while it turns on the headland alone
         pytest.param("pto-flywheel", 300.0, marks=pytest.mark.slow),  # backlash that opens under little torque
     ],
 )
 def test_a_drive_that_vibrates_is_at_its_limit_under_its_rating(name, torque):
-    drive = example(name)
+    drive = shaken() if name == "shaken" else example(name)
     found = strength(drive, replace(drive.duty, torque=torque))
     at = strength(drive, replace(drive.duty, torque=found.rated_torque))
     # the rating lies on a chord at most 5 % long
@@ -138,7 +144,7 @@ def test_a_drive_that_vibrates_is_at_its_limit_under_its_rating(name, torque):
 
 
 def test_a_drive_that_vibration_alone_breaks_has_no_rating():
-    drive = example("unstable-drive")
+    drive = shaken()
     weak = replace(drive, limits=Limits(twist=0.5 * deg))
     found = strength(weak)
     assert strength(weak, replace(drive.duty, torque=1e-3)).utilisation > 1.0

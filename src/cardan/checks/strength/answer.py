@@ -27,7 +27,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.torsional_layout import has_torsion
 from cardan.later import later
 from cardan.questions.assumed import yokes_estimated
-from cardan.questions.torsion.steady.pendulum_swing import strikes_in_use
+from cardan.questions.torsion.stability.in_use import larger_in_use
 from cardan.texts import _, mark, plural
 
 from .event_damage import cheapest, event_damages, events_lost, ramp_damages
@@ -71,7 +71,7 @@ def lacking(drive: Drive) -> Lacking:
 def ask(drive: Drive, *, known: Catalogue | None = None) -> Strength | None:
     """Return the strength of a drive with what its stresses leave out; None where nothing is judged."""
     found = strength(drive, known=known)
-    if not found.binding or not found.torque > 0.0:
+    if not (found.binding or found.surpassed) or not found.torque > 0.0:
         return None
     return with_events(drive, replace(found, left_out=left_out(drive, found)))
 
@@ -96,12 +96,12 @@ def answer(drive: Drive, result: Strength) -> Answer:
         tables=tuple(_tables(drive, result)),
         remarks=(
             *_remarks(drive, result),
-            *(replace(one, aside=True) for one in strikes_in_use(drive)),  # torsional vibration tells it too
+            *(replace(one, aside=True) for one in larger_in_use(drive)),  # torsional vibration tells it too
             *(yokes_estimated(drive) if has_torsion(drive) else ()),
         ),
         keys=tuple(_keys(result)),
         facts=_facts(result) | {"enough": enough},
-        full=lambda: verdict_records(result.verdicts, "", torque=result.torque, flat=True),
+        full=lambda: verdict_records(result.verdicts, "", torque=_rated(result), flat=True),
         code=1 if enough is False else 0,
     )
 
@@ -110,12 +110,15 @@ def _torque(value: float) -> Quantity:
     return Quantity(value, "torque")
 
 
+def _rated(result: Strength) -> float:
+    """Return the torque that limits are rated with [N·m]; nan where they are not."""
+    return math.nan if result.surpassed else result.torque
+
+
 def _sentence(drive: Drive, result: Strength) -> Say | str:
     first = result.governing
-    if first is None and strikes_in_use(drive):
-        return _(
-            "not judged: a pendulum oscillates widely or hits its stops, and the torque may be larger than counted."
-        )
+    if first is None and result.surpassed:
+        return _("not judged: {why}.").format(why=result.surpassed)
     if first is None and result.judged:
         return _("rules of thumb alone could be judged; the drive file lacks what the other checks need.")
     if first is None:
@@ -123,12 +126,14 @@ def _sentence(drive: Drive, result: Strength) -> Say | str:
     text = _("too weak for {torque}; torque rating {rated}, governed by {title}.")
     if result.enough:
         text = _("carries {torque}; torque rating {rated}, governed by {title}.")
-    if not result.rated_torque:
+    if result.surpassed:
+        text = _("too weak for {torque}, first {title}; not rated: {why}.")
+    elif not result.rated_torque:
         text = _("too weak for {torque} and even without load, by torsional vibration alone; governed by {title}.")
     torque: Text = _torque(result.torque)
     if result.case:
         torque = say("{torque} ({case})", torque=torque, case=result.case)
-    return say(text, torque=torque, rated=_torque(result.rated_torque), title=first.title)
+    return say(text, torque=torque, rated=_torque(result.rated_torque), title=first.title, why=result.surpassed)
 
 
 def _ending(drive: Drive, result: Strength, tired: Sequence[ShaftStrength]) -> Say:
@@ -138,8 +143,11 @@ def _ending(drive: Drive, result: Strength, tired: Sequence[ShaftStrength]) -> S
         "shaft {number} lasts {life} of the {asked} asked, with its starts and events; torque rating without their "
         "damage {rated}."
     )
+    if result.surpassed:
+        text = _("shaft {number} lasts {life} of the {asked} asked, with its starts and events; not rated: {why}.")
     life, asked = Quantity(first.fatigue_life, "duration"), Quantity(drive.duty.life or 0.0, "duration")
-    return say(text, number=first.number, life=life, asked=asked, rated=_torque(result.rated_torque))
+    rated = _torque(result.rated_torque)
+    return say(text, number=first.number, life=life, asked=asked, rated=rated, why=result.surpassed)
 
 
 def with_events(drive: Drive, found: Strength) -> Strength:
@@ -150,7 +158,7 @@ def with_events(drive: Drive, found: Strength) -> Strength:
 def _tables(drive: Drive, result: Strength) -> Iterator[Table]:
     if result.judged:
         order = sorted(result.judged, key=lambda one: (one.advice, reached(one)))
-        yield replace(verdict_table(order, _("Limits of the parts"), torque=result.torque), aside=True)
+        yield replace(verdict_table(order, _("Limits of the parts"), torque=_rated(result)), aside=True)
     yield _shafts(drive, result)
     yield _joints(drive, result)
     yield from _events(drive, result)
@@ -158,7 +166,7 @@ def _tables(drive: Drive, result: Strength) -> Iterator[Table]:
     if missing:
         depth: Depth = "full" if result.judged else "brief"
         yield replace(missing_table(missing, depth), aside=bool(result.judged))
-    yield verdict_records(result.verdicts, "limits", torque=result.torque)
+    yield verdict_records(result.verdicts, "limits", torque=_rated(result))
 
 
 def _shafts(drive: Drive, result: Strength) -> Table:
@@ -440,12 +448,7 @@ def _vibrating(result: Strength, *, runs_up: bool) -> Iterator[Remark]:
         return
     speed = Quantity(found.speed, "angular_speed", 3)
     if not found.stable:
-        text = _(
-            "Torsional vibration is unstable at the speed of the duty: it grows beyond the torques counted here, which "
-            "are the least."
-        )
-        yield Remark(text=text, tone="failed", alarm=True)
-        return
+        return  # `larger_in_use` tells it
     text = _(
         "Torsional vibration is counted: at {speed} the torque in {name} runs from {low:bare} to {high}, {more} times "
         "that without it."

@@ -7,11 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from cardan.checks.design import Design
-from cardan.drive.drive import Drive
-from cardan.errors import InputError
 from cardan.maths.ties import foremost_of
-from cardan.questions.torsion.steady.run_stability import Verdict as StabilityVerdict
-from cardan.questions.torsion.steady.torsion_response import torsion_response
+from cardan.questions.torsion.stability.in_use import grows_in_use
 from cardan.texts import _
 
 
@@ -20,7 +17,7 @@ class Vibration:
     """Torsional vibration at the speed in use at which it raises the torque most."""
 
     speed: float  # [rad/s]: input speed
-    stable: bool  # whether it dies out at the speed of the duty; else the torque is the least that is reached
+    stable: bool  # whether it dies out at the speeds in use; else the torque is the least that is reached
     name: str  # of the shaft whose torque it raises most
     low: float  # low, high [N·m]: least and largest torque there, counted along its mean
     high: float
@@ -59,17 +56,9 @@ def vibration(subject: Design) -> Vibration | None:
     s, k = np.unravel_index(int(np.nanargmax(worst.growth)), worst.growth.shape)
     return Vibration(
         speed=abs(float(worst.speed[s])),
-        stable=not subject.duty.speed or _stable(subject.drive),
+        stable=not grows_in_use(subject.drive),
         name=_("shaft {number}").format(number=int(k) + 1),
         low=float(worst.low[s, k]),
         high=float(worst.high[s, k]),
         factor=float(worst.growth[s, k]),
     )
-
-
-def _stable(drive: Drive) -> bool:
-    """Tell whether torsional vibration dies out at the speed of the duty, as far as it is known."""
-    try:
-        return int(torsion_response(drive).floquet.verdict) != StabilityVerdict.UNSTABLE
-    except InputError:
-        return True

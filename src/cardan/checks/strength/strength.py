@@ -10,7 +10,7 @@ import numpy as np
 
 from cardan.answers.quantity import Text
 from cardan.catalogue import Catalogue
-from cardan.checks.check import Check
+from cardan.checks.check import Check, surpassed
 from cardan.checks.design import Design, design
 from cardan.checks.load_case import Case
 from cardan.checks.moving import happening, stood, stops, worst_of_poses
@@ -113,6 +113,8 @@ class Strength:
         What starts and events cost, and a start with run-ups of other times, where that was asked.
     lost : tuple of (str, str)
         Events that cannot be followed, each with why.
+    surpassed : str
+        Why the drive may have larger torques than steady vibration counts, so that nothing passes and nothing is rated.
     """
 
     cases: tuple[Case, ...]
@@ -130,6 +132,7 @@ class Strength:
     events: tuple[EventDamage, ...] = ()
     ramps: tuple[EventDamage, ...] = ()
     lost: tuple[tuple[str, str], ...] = ()
+    surpassed: str = ""
 
     @property
     def judged(self) -> tuple[Verdict, ...]:
@@ -153,9 +156,9 @@ class Strength:
 
     @property
     def torque_factor(self) -> float:
-        """By which factor all torques of the duty may grow until the first part uses all of its limit."""
+        """By which factor all torques of the duty may grow until the first part uses all of its limit; nan if none."""
         first = self.governing
-        return math.nan if first is None else float(first.torque_factor)
+        return math.nan if first is None or self.surpassed else float(first.torque_factor)
 
     @property
     def rated_torque(self) -> float:
@@ -248,6 +251,7 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
         case=subject.called(max(subject.loaded, key=lambda case: abs(float(case.torque or 0.0)))),
         vibration=vibration(subject),
         vibrates=has_torsion(subject.drive),
+        surpassed=surpassed(subject),
         extrapolated=tuple(
             k + 1
             for k in parts
@@ -280,7 +284,7 @@ class _Stance:
 
 
 def _judged(checks: Sequence[Check], subject: Design) -> list[Verdict]:
-    return [one for check in checks for one in check.verdicts(subject) if _asked(one)]
+    return [one for check in checks for one in check.verdicts(subject)]
 
 
 def _stances(subject: Design) -> Iterator[_Stance]:
@@ -301,7 +305,7 @@ def _rated(subject: Design) -> tuple[Verdict, ...]:
     """
     stances, duty = list(_stances(subject)), subject.duty
     every = lasting_as_long(subject.drive, duty, _verdicts(stances))
-    if not has_torsion(subject.drive) or duty.engine or duty.motor or duty.load or duty.torques:
+    if not has_torsion(subject.drive) or duty.engine or duty.motor or duty.load or duty.torques or surpassed(subject):
         return every
 
     def at(factor: float) -> tuple[Verdict, ...]:
@@ -315,7 +319,8 @@ def _rated(subject: Design) -> tuple[Verdict, ...]:
 
 def _verdicts(stances: Sequence[_Stance]) -> tuple[Verdict, ...]:
     """Return the verdicts on shafts, on all of them together, on joints."""
-    every = worst_of_poses(stances[0].verdicts(), [(one.said, one.verdicts()) for one in stances[1:]])
+    each = worst_of_poses(stances[0].verdicts(), [(one.said, one.verdicts()) for one in stances[1:]])
+    every = [one for one in each if _asked(one)]
     limits = {(one.check, one.subject) for one in every if not one.advice}
     kept = (one for one in every if not (one.advice and (one.check, one.subject) in limits))  # no rule beside a limit
     order = {"shafts": 0, "": 1, "joints": 2}

@@ -25,7 +25,7 @@ from cardan.formulas.ball_bearing import POWER
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.assumed import yokes_estimated
-from cardan.questions.torsion.steady.pendulum_swing import strikes_in_use
+from cardan.questions.torsion.stability.in_use import larger_in_use
 from cardan.texts import _, mark
 
 from .figure import life_figures, part_names
@@ -357,7 +357,7 @@ def _remarks(drive: Drive, result: Life, loose: tuple[str, ...]) -> Iterator[Rem
         yield Remark(text=say(text, count=Quantity(result.cycles.total, trim=True), **told))
     yield from _conditions(result)
     yield _vibration(drive, result)
-    yield from (replace(one, aside=True) for one in strikes_in_use(drive))  # torsional vibration tells it too
+    yield from (replace(one, aside=True) for one in larger_in_use(drive))  # torsional vibration tells it too
     if result.supports is not None:
         text = _(
             "Forces on the supports count weights where masses are given; torsional vibration, unbalance and "

@@ -293,7 +293,7 @@ def test_no_check_is_green_by_the_torque_of_pendulums_that_hit_their_stops_or_sw
         stations = (bare.stations[0], hung, bare.stations[2])
         whole = replace(bent, shafts=tubes, stations=stations, duty=bare.duty)
         said = told(strength_answer(whole, strength(whole)).sentence, USUAL)
-        assert ("a pendulum oscillates widely or hits its stops" in said) is (stop < 0.1 or bend > 0.1)
+        assert ("a pendulum that oscillates widely or hits its stops" in said) is (stop < 0.1 or bend > 0.1)
         return {(one.check, one.subject): one.state for one in check(whole)}
 
     free, struck, wide = states(3.0), states(1 * deg), states(3.0, BEND)
