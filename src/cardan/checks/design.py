@@ -124,6 +124,11 @@ class Design:
         return rows_behind(self.drive, self.known, *(path for path in paths if path not in self.varied))
 
     @property
+    def at_an_instant(self) -> bool:
+        """Whether these drives stand as another does at instants of its movements."""
+        return self.drawn is not None and bool(self.drawn.drive.movements) and not self.drive.movements
+
+    @property
     def joints(self) -> int:
         """Number of joints."""
         return len(self.drive.joints)

@@ -15,7 +15,7 @@ from cardan.drive.fields.paths import with_values
 from cardan.drive.material import Material
 from cardan.drive.settings import Pose
 from cardan.io import example
-from cardan.units import deg, mm, rpm
+from cardan.units import mm, rpm
 
 GREEN = ("passed", "unconfirmed", "close")
 

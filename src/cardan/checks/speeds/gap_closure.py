@@ -25,10 +25,14 @@ def _judge(design: Design) -> Iterator[Verdict]:
     own = each[:-1] or each
     lacking = [f"shafts[{k}].inertia" for k, one in enumerate(own, 1) if one is None]
     lacking += [*design.unloaded, *design.unmoved]
-    running = [case for case in design.loaded if case.speed is not None and np.any(_pressing(design, case) > 0.0)]
-    if lacking or not running:
-        if lacking:
-            yield Verdict(missing=tuple(lacking))
+    if lacking:
+        yield Verdict(missing=tuple(lacking))
+        return
+    held = [case for case in design.loaded if case.speed is not None and np.any(np.asarray(case.torque) > 0.0)]
+    running = [case for case in held if np.any(_pressing(design, case) > 0.0)]
+    turned = Verdict(unfit=_("the torque turns about, which opens the gaps: its reversal is judged by itself"))
+    if not running:
+        yield from [turned] if held else ()
         return
     inertia = np.stack(np.broadcast_arrays(*(np.asarray(0.0 if one is None else one) for one in each)), axis=-1)
     needs = [_needed(design, case, inertia) for case in running]
@@ -47,7 +51,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         light = _("the output shaft counts as without inertia") if each[-1] is None else ""
         rigid = _("its shafts count as rigid") if any(case.vibration is not None for case in running) else ""
         note = joined(joint if design.joints > 1 else "", named, light, rigid)
-    yield Verdict(
+    found = Verdict(
         value=np.take_along_axis(torque, worst, axis=0)[0][()],
         limit=np.take_along_axis(needed, worst, axis=0)[0][()],
         source=_("Kozhevnikov & Perfil'ev (1978), eq. 121, 122, for all joints"),
@@ -59,6 +63,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         ),
         note=note,
     )
+    yield found if len(running) == len(held) or np.any(used > 1.0) else turned
 
 
 def _pressing(design: Design, case: Case) -> Array:

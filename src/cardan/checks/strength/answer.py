@@ -205,7 +205,7 @@ def _shafts(drive: Drive, result: Strength) -> Table:
                 key="life", heading=_("fatigue life"), values=[one.fatigue_life for one in shafts], dimension="duration"
             ),
         ),
-        note=_counted(result),
+        note=_counted(drive, result),
     )
 
 
@@ -261,15 +261,27 @@ def _events(drive: Drive, result: Strength) -> Iterator[Table]:
         )
 
 
+def _stands(drive: Drive) -> bool:
+    """Tell whether a drive stands otherwise than drawn, too."""
+    return bool(drive.poses or drive.movements)
+
+
 def _cases(key: str, heading: str, names: Sequence[str]) -> Iterator[Column]:
     """Yield the column that tells in which load case a number arises, where there are several."""
     if any(names):
         yield Column(key=key, heading=heading, values=list(names), left=True)
 
 
-def _counted(result: Strength) -> Text:
+def _counted(drive: Drive, result: Strength) -> Text:
     """Return what the tables count."""
     said: list[Text] = [_("Largest over the turn; the couple is that of the larger end.")]
+    if _stands(drive):
+        said = [
+            _(
+                "Largest over the turn of the drive as drawn, while the limits count its poses and movements, too; the "
+                "couple is that of the larger end."
+            )
+        ]
     if result.case:
         said.append(
             _(
@@ -327,7 +339,7 @@ def _remarks(drive: Drive, result: Strength) -> Iterator[Remark]:
     yield from _failed(result)
     yield from (replace(one, aside=True) for one in unconfirmed_remark(result.binding))  # the checks tell it too
     out = result.left_out
-    yield from _vibrating(result, runs_up=out is not None and out.runs_up)
+    yield from _vibrating(drive, result, runs_up=out is not None and out.runs_up)
     duty = drive.duty
     if result.vibration is not None and result.governing and (duty.engine or duty.motor or duty.load or duty.torques):
         text = _(
@@ -434,7 +446,7 @@ def _left_out(out: LeftOut) -> Iterator[Remark]:
         yield Remark(text=say(text, number=out.journal.joint, load=load, more=more), tone="warning")
 
 
-def _vibrating(result: Strength, *, runs_up: bool) -> Iterator[Remark]:
+def _vibrating(drive: Drive, result: Strength, *, runs_up: bool) -> Iterator[Remark]:
     """Yield what torsional vibration makes of the torque, or that it is not counted."""
     found = result.vibration
     if found is None:
@@ -446,7 +458,9 @@ def _vibrating(result: Strength, *, runs_up: bool) -> Iterator[Remark]:
             text = _("Torsional vibration is not counted: the file has masses or stiffness, but no motion can be told.")
         yield Remark(text=text, tone="plain" if measured else "warning", alarm=result.vibrates and not measured)
         return
-    speed = Quantity(found.speed, "angular_speed", 3)
+    speed: Text = Quantity(found.speed, "angular_speed", 3)
+    if _stands(drive):
+        speed = say(_("{speed}, as drawn,"), speed=speed)
     if not found.stable:
         return  # `larger_in_use` tells it
     text = _(

@@ -40,7 +40,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
     if missing:
         yield Verdict(missing=missing)
         return
-    yield from _apart(design)
+    if not design.at_an_instant:
+        yield from _apart(design)
     for k in range(design.joints + 1):
         yield from _borne(design, k)
 
@@ -132,5 +133,6 @@ CHECK = Check(
     name="torsional_resonance",
     doc=mark("speeds in use against torsional resonance, and alternating torque against what the shafts bear"),
     judge=_judge,
+    moves=True,
     title=mark("clearance of the speeds in use from torsional resonance"),
 )
