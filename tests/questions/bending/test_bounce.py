@@ -21,7 +21,7 @@ from cardan.drive.support import Support
 from cardan.formulas.damping import LOSS
 from cardan.formulas.run_up import passing_time, run_up
 from cardan.questions.bending.answer import answer
-from cardan.questions.bending.bending import Running, bending_speeds
+from cardan.questions.bending.bending import Running, bending_speeds, length_powers
 
 E, RHO = 2.1e11, 7850.0
 LENGTHS, OUTER, INNER, STIFFNESS, BEARING, CROSS = (1.1, 1.3), 0.07, 0.066, 1e5, 1.0, 2.0
@@ -195,3 +195,68 @@ def test_check_and_bending_speak_of_the_same_shaft_where_many_supports_give_way_
     assert found.deciding >= len(whole.joints)
     margins = [float(one.value) for one in check(whole, only=["critical_speed"]) if one.run and one.sense == "at_least"]
     assert min(margins) == pytest.approx(found.margin.ratio, rel=1e-6)
+
+
+def beside(share, **duty):
+    """Return the drive with a bearing that is stiffer or softer sideways, by a share of its stiffness up and down."""
+    plain = drive(**duty)
+    return replace(plain, supports=(replace(plain.supports[0], side_stiffness=share * STIFFNESS),))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("share", [0.6, 1.6])
+def test_a_support_that_is_stiffer_sideways_bounces_at_two_speeds(share):
+    """The critical speeds are those of both drives whose support is alike all round."""
+    line = beside(share)
+    alike = replace(line, supports=(replace(line.supports[0], stiffness=share * STIFFNESS, side_stiffness=None),))
+    found, down, aside = bending_speeds(line), bending_speeds(drive()), bending_speeds(alike)
+    assert np.all(np.diff(found.speed) > 0.0)
+    bouncing = {one.sideways: k for k, one in enumerate(found.part) if one.kind == "support"}
+    assert sorted(bouncing) == [False, True]
+    assert found.speed[bouncing[True]] == aside.speed[0]
+    assert found.speed[bouncing[False]] == down.speed[0]
+    kept = [k for k, one in enumerate(found.part) if not one.sideways]
+    np.testing.assert_array_equal(found.speed[kept], down.speed)
+    assert (found.part[found.deciding], found.bowing) == (down.part[down.deciding], down.bowing)
+    np.testing.assert_allclose(np.max(np.abs(found.deflection), axis=-1), 1.0, rtol=1e-3)  # between nodes of the other
+    # what is on a shaft moves along with its length
+    for j in range(len(found.part)):
+        ends = [bending_speeds(_longer(line, factor)).speed[j] for factor in (0.98, 1.02)]
+        power = np.diff(np.log(ends))[0] / np.log(1.02 / 0.98)
+        assert length_powers(line, len(found.part))[0, j] == pytest.approx(power, abs=0.1)
+
+
+def _longer(line, factor):
+    """Return the line with a longer first tube, and its bearing as far along it."""
+    more = (factor - 1.0) * LENGTHS[0]
+    first, *joints = line.joints
+    behind = (replace(one, centre=(one.centre[0] + more, *one.centre[1:])) for one in joints)
+    return replace(
+        line,
+        joints=(first, *behind),
+        supports=(replace(line.supports[0], position=factor * BEARING),),
+        output=replace(line.output, point=(2.7 + more, 0.0, 0.0)),
+    )
+
+
+def test_no_speed_is_held_at_the_bounce_sideways():
+    line = beside(1.6)
+    k = next(k for k, one in enumerate(bending_speeds(line).part) if one.sideways)
+    speed = float(bending_speeds(line).speed[k])
+    held = replace(line, duty=Duty(speed=speed))
+    found = bending_speeds(held)
+    assert (found.status, found.failed) == (Running.NEAR, True)
+    assert "bounce mode on support 1 (centre bearing), sideways: too near" in told(answer(held, found).sentence, USUAL)
+    failed = [one for one in check(held, only=["critical_speed"]) if one.state == "failed" and not one.advice]
+    (one,) = [one for one in failed if "sideways" in one.title]
+    assert one.title == "clearance from the critical speed, bounce mode on support 1 (centre bearing), sideways"
+    assert "supports[0].side_stiffness" in one.design_variables
+    # many drives: by the power of the stiffness sideways, of which alone that speed depends
+    many = check(held, only=["critical_speed"], vary={"supports[0].side_stiffness_N_per_m": [1.5e5, 1.7e5]})
+    (limits,) = [one.limit for one in many if "sideways" in one.title and not one.advice]
+    for j, stiffness in enumerate((1.5e5, 1.7e5)):
+        alike = bending_speeds(
+            replace(line, supports=(replace(line.supports[0], stiffness=stiffness, side_stiffness=None),))
+        )
+        alone = next(float(v) for v, part in zip(alike.speed, alike.part, strict=True) if part.kind == "support")
+        assert limits[0][j] == pytest.approx(0.8 * alone, rel=2e-3)

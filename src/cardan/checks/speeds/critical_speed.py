@@ -95,6 +95,11 @@ def _bounced(design: Design) -> Iterator[Verdict]:
             _("clearance from the critical speed, bounce mode on support {number}"),
             _("passing the critical speed, bounce mode on support {number}"),
         )
+        if one.sideways:
+            texts = (
+                _("clearance from the critical speed, bounce mode on support {number}, sideways"),
+                _("passing the critical speed, bounce mode on support {number}, sideways"),
+            )
         yield from clearances(design, one, 1.0, SEPARATION, texts, _separation())
 
 

@@ -61,6 +61,11 @@ def _judge(design: Design) -> Iterator[Verdict]:
             _("clearance from half critical speed, bounce mode on support {number}"),
             _("passing half critical speed, bounce mode on support {number}"),
         )
+        if bounce.sideways:
+            texts = (
+                _("clearance from half critical speed, bounce mode on support {number}, sideways"),
+                _("passing half critical speed, bounce mode on support {number}, sideways"),
+            )
         source = _("separation of 20 % from a resonance; couples of the joints come twice a turn")
         yield from clearances(design, bounce, 0.5, SEPARATION, texts, source)
 

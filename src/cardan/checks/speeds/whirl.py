@@ -47,6 +47,7 @@ class Whirl:
     missing: tuple[str, ...] = ()  # missing, design_variables: paths that lack, and those that move it
     design_variables: tuple[str, ...] = ()
     support: int | None = None  # counted from 0, where a support gives way
+    sideways: bool = False  # whether it does so sideways, where it is stiffer or softer that way
 
     @property
     def actual(self) -> Array:
@@ -61,7 +62,7 @@ def whirls(design: Design) -> list[Whirl]:
     end shaft with the power of each size that holds near the drive as it is.
     The line as a whole: `cardan.questions.bending.bending`. A tube alone: Book (257), ω = (π/L)² √(E(D² + d²)/(16ρ)).
     """
-    line = {k: speed for (kind, k, nth), (speed, _shaft) in _lowest(design).items() if kind == "shaft" and not nth}
+    line = {k: speed for (kind, k, nth, _aside), (speed, _s) in _lowest(design).items() if kind == "shaft" and not nth}
     plain = Design(drive=design.drive, duty=design.duty, known=design.known)
     found = []
     for k in range(1, design.joints):
@@ -73,7 +74,7 @@ def whirls(design: Design) -> list[Whirl]:
         elif k not in line and line:
             continue
         found.append(alone)
-    return [*found, *(_in_line(design, ("shaft", k, 0)) for k in (0, design.joints) if k in line)]
+    return [*found, *(_in_line(design, ("shaft", k, 0, False)) for k in (0, design.joints) if k in line)]
 
 
 def bounces(design: Design) -> list[Whirl]:
@@ -81,8 +82,8 @@ def bounces(design: Design) -> list[Whirl]:
     return [_in_line(design, part) for part in _lowest(design) if part[0] == "support"]
 
 
-Part: TypeAlias = tuple[str, int, int]
-"""What moves in a mode: shaft or support, which one from 0, and how many modes of the same lie below."""
+Part: TypeAlias = tuple[str, int, int, bool]
+"""What moves in a mode: shaft or support, which one from 0, how many modes of the same lie below, whether sideways."""
 
 
 def _lowest(design: Design) -> dict[Part, tuple[float, int]]:
@@ -105,8 +106,9 @@ def _line(drive: Drive, top: float) -> dict[Part, tuple[float, int]]:
         return {}
     modes: dict[Part, tuple[float, int]] = {}
     for part, speed, share in zip(found.part, found.speed, found.shaft_share, strict=True):
-        nth = sum(key[:2] == (part.kind, part.number - 1) for key in modes)
-        modes[part.kind, part.number - 1, nth] = float(speed), int(np.argmax(share))
+        own = part.kind, part.number - 1, part.sideways
+        nth = sum((key[0], key[1], key[3]) == own for key in modes)
+        modes[part.kind, part.number - 1, nth, part.sideways] = float(speed), int(np.argmax(share))
     return modes
 
 
@@ -116,7 +118,7 @@ def _in_line(design: Design, part: Part) -> Whirl:
     Where sizes vary it goes with a power of each, found from the line itself: bearings and joints bend too.
     """
     speed, bent = _lowest(design)[part]
-    kind, k, _nth = part
+    kind, k, _nth, sideways = part
     longest = _longest(list(sections(design, bent)))
     plain, varied = Design(drive=design.drive, duty=design.duty, known=design.known), np.asarray(speed)
     for path, values in design.varied.items():
@@ -127,7 +129,11 @@ def _in_line(design: Design, part: Part) -> Whirl:
     if design.drive.form == "points":
         varied = varied * _stretched(design, plain, part)
     bounce = kind == "support"
-    own = [f"supports[{k}].stiffness", f"supports[{k}].tilt_stiffness"] if bounce else longest.design_variables
+    own = (
+        [f"supports[{k}].{'side_stiffness' if sideways else 'stiffness'}", f"supports[{k}].tilt_stiffness"]
+        if bounce
+        else longest.design_variables
+    )
     return Whirl(
         shaft=bent if bounce else k,
         speed=varied,
@@ -135,6 +141,7 @@ def _in_line(design: Design, part: Part) -> Whirl:
         exact=True,
         design_variables=design.design_variables(*own, *(() if bounce else (f"shafts[{k}].wear_factor",))),
         support=k if bounce else None,
+        sideways=sideways,
     )
 
 

@@ -298,7 +298,8 @@ def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
     for k, one in enumerate(drive.supports, 1):
         if one.side_stiffness is not None:
             text = _(
-                "Support {number} counts with its stiffness up and down; cardan rotor --line counts the other, too."
+                "Shafts bow with the stiffness of support {number} up and down, and it bounces with either; cardan "
+                "rotor --line counts both at once."
             )
             yield Remark(text=text.format(number=k))
     yield from _unequal(drive)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -67,6 +67,8 @@ class Part:
     kind: Literal["shaft", "support"]  # a shaft that bows, or a support that gives way while shafts hardly bend
     number: int
     waves: int = 1  # half waves of the shaft between its ends; 1 for a support
+    # whether the support gives way sideways, where its stiffness that way is another one
+    sideways: bool = field(default=False, repr=False)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -230,7 +232,8 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
     they spin (dynamics of rotors; Book (253)-(260) is the uniform shaft between two joints). Speeds are those of exact
     transfer matrices, shapes those of finite elements, and each checks the other. Shafts are taken along their own
     axes, as if the joints were straight. The rules of book and makers are about the lowest mode in which a shaft bows;
-    in the modes below it a soft support gives way. No speed is held within 20 percent of any mode, or in the band about
+    in the modes below it a soft support gives way; one that is stiffer or softer sideways gives way at two speeds, that
+    way and up and down. No speed is held within 20 percent of any mode, or in the band about
     half of it: 8 percent to either side where a shaft bows, a maker's rule, 20 where a support gives way.
 
     Examples
@@ -243,6 +246,53 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
     """
     if not 1 <= modes <= MOST:
         raise refuse("modes", _("{value} is not allowed; allowed is 1 to {most}").format(value=modes, most=MOST))
+    found, other = _critical_speeds(drive, duty, modes), sideways(drive)
+    return found if other is None else _both_ways(drive, found, _critical_speeds(other, duty, modes))
+
+
+def sideways(drive: Drive) -> Drive | None:
+    """Return a drive whose supports are as stiff up and down as they are sideways; None where they are as they are."""
+    if all(one.side_stiffness in (None, one.stiffness) for one in drive.supports):
+        return None
+    aside = (
+        one if one.side_stiffness is None else replace(one, stiffness=one.side_stiffness, side_stiffness=None)
+        for one in drive.supports
+    )
+    return replace(drive, supports=tuple(aside))
+
+
+def _both_ways(drive: Drive, down: CriticalSpeeds, aside: CriticalSpeeds) -> CriticalSpeeds:
+    """Return critical speeds with those at which supports give way sideways among them."""
+    rows = [
+        k
+        for k, one in enumerate(aside.part)
+        if one.kind == "support" and drive.supports[one.number - 1].side_stiffness is not None
+    ]
+    order = np.argsort(np.concatenate([down.speed, aside.speed[rows]]), kind="stable")
+    parts = (*down.part, *(replace(aside.part[k], sideways=True) for k in rows))
+    shapes = [np.interp(down.place, aside.place, aside.deflection[k]) for k in rows]
+    deflection = np.concatenate([down.deflection, np.reshape(shapes, (len(rows), len(down.place)))])
+    each = ("speed", "actual", "wear", "at_rest", "shaft_share", "support_share")
+    judged = ("crossed", "half_crossed", "near", "half_near")
+    columns: dict[str, Any] = {
+        name: np.concatenate([getattr(down, name), getattr(aside, name)[rows]])[order] for name in (*each, *judged)
+    }
+    deciding = down.deciding
+    if deciding is not None:
+        deciding = int(np.flatnonzero(order == deciding)[0]) if deciding < len(down.part) else deciding + len(rows)
+    return replace(
+        down,
+        **columns,
+        part=tuple(parts[k] for k in order),
+        deflection=deflection[order],
+        deciding=deciding,
+        residual=max(down.residual, aside.residual),
+        missed=down.missed + aside.missed,
+    )
+
+
+def _critical_speeds(drive: Drive, duty: Duty | None, modes: int) -> CriticalSpeeds:
+    """Return the critical speeds of a drive whose supports are as stiff sideways as up and down."""
     whole = whirl_line(drive)
     factors = wear_factors(drive)
     chosen = drive.duty if duty is None else duty
@@ -611,7 +661,18 @@ def length_powers(drive: Drive, modes: int) -> Array:
             ends = length * (1.0 + STRETCH * np.asarray([-1.0, 1.0]))
             speed = np.log(critical_speed_map(drive, ends, shaft=k + 2, modes=modes).speed)
             found[k] = (speed[1] - speed[0]) / np.log(ends[1] / ends[0])
-    return found
+    return found if sideways(drive) is None else found[:, _upright(bending_speeds(drive, modes=modes).part[:modes])]
+
+
+def _upright(parts: tuple[Part, ...]) -> list[int]:
+    """Return of modes their place among those up and down; of a support sideways that of its own up and down."""
+    among = [one for one in parts if not one.sideways]
+    alike = {one.number: k for k, one in reversed(list(enumerate(among))) if one.kind == "support"}
+    before = np.cumsum([not one.sideways for one in parts])
+    return [
+        alike.get(one.number, int(count)) if one.sideways else int(count) - 1
+        for one, count in zip(parts, before, strict=True)
+    ]
 
 
 def over_movement(drive: Drive) -> Callable[[Array], Array]:

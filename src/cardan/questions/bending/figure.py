@@ -44,7 +44,8 @@ def mode_name(part: Part, name: str = "") -> str:
     """
     which = numbered(part.number, name)
     if part.kind == "support":
-        return _("bounce mode on support {which}").format(which=which)
+        text = _("bounce mode on support {which}, sideways") if part.sideways else _("bounce mode on support {which}")
+        return text.format(which=which)
     texts = {
         1: _("first bending mode, shaft {which}"),
         2: _("second bending mode, shaft {which}"),

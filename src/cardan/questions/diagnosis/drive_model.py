@@ -133,13 +133,12 @@ def _allowed(drive: Drive, mass: Array, speed: float) -> Array:
 def _critical(drive: Drive, assumed: list[str]) -> float:
     try:
         found = bending_speeds(drive, modes=1)
-        bowing = found.deciding or 0
-        if bowing:
-            found = bending_speeds(drive, modes=bowing + 1)
+        if found.deciding:
+            found = bending_speeds(drive, modes=found.deciding + 1)
     except InputError as problem:
         assumed.extend(one.field for one in problem.problems)
         return math.nan
-    return float(found.actual[bowing])
+    return float(found.actual[found.deciding or 0])
 
 
 def _housings(drive: Drive, mass: float) -> tuple[Housing, ...]:
