@@ -184,6 +184,13 @@ def test_torques_and_couples_over_a_turn_are_those_of_statics(at):
     np.testing.assert_allclose(case.torque_range[1], torque.max(-1), rtol=1e-6)
 
 
+@pytest.mark.parametrize(("name", "rigid"), [("cured-drive", True), ("single-20deg", False)])
+def test_the_acceleration_of_a_drive_that_vibrates_says_that_it_is_of_rigid_shafts(name, rigid):
+    output, *inside = check(example(name), only=["acceleration"])
+    assert ("of rigid shafts: torsional vibration is not in it" in told(output.note, USUAL)) is rigid
+    assert not any("rigid" in told(one.note, USUAL) for one in inside)
+
+
 def test_accelerations_are_the_largest_of_the_motion():
     drive = whole()
     turn = np.linspace(0, math.pi, 20001)

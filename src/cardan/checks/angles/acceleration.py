@@ -12,6 +12,7 @@ from cardan.checks.design import Design
 from cardan.checks.load_case import Case
 from cardan.checks.verdict import Verdict, as_drawn, at_top_speed, joined
 from cardan.drive.models.kinematics_model import Chain
+from cardan.drive.torsional_layout import has_torsion
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import mobius
 from cardan.questions.motion.equivalence import after_each_joint, largest_acceleration
@@ -36,6 +37,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         said.append((_("inertia excitation, coast"), "", norm.inertia_coast))
     drawn_swings = None if speed is None else _of_laws(design.swing) if design.swing else swings(design.chain)
     moved = None if speed is None else design.while_moving(swings)
+    rigid = _("of rigid shafts: torsional vibration is not in it")
     for k, (title, subject, limit) in enumerate(said):
         if speed is None or drawn_swings is None:
             yield Verdict(subject=subject, title=title, missing=("duty.speed",))
@@ -52,7 +54,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
             confidence=norm.confidence,
             value=np.asarray(speed) ** 2 * np.maximum(drawn, most),
             design_variables=(*yokes, *design.joint_angle_design_variables, *design.speed_design_variables),
-            note=joined(at_top_speed(design), when),
+            note=joined(at_top_speed(design), when, rigid if k == 0 and has_torsion(design.drive) else ""),
         )
 
 
