@@ -16,7 +16,7 @@ from cardan.checks.strength.shaft_life import start_damage
 from cardan.checks.strength.strength import strength
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke
-from cardan.drive.machine import Event, RunUp
+from cardan.drive.machine import ConstantTorque, Event, RunUp
 from cardan.drive.material import Material
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.station import Station
@@ -81,6 +81,23 @@ def test_many_starts_break_what_few_do_not():
     assert many.state == "failed"
     assert many.value == pytest.approx(120.0 * few.value, rel=1e-6)  # running alone does no damage
     assert strength(drive(starts=12000.0)).shafts[1].fatigue_life == pytest.approx(3600.0 * 5000 / many.value)
+
+
+@pytest.mark.parametrize("more", [{"input": "free"}, {"motor": ConstantTorque(torque=400.0)}], ids=["free", "motor"])
+def test_starts_of_an_input_that_torques_turn_freely_are_not_judged(more):
+    """Nothing forces the speed of the run-up on it: no damage, no peak torque, no time that costs least."""
+    subject = drive(starts=12000.0, **more)
+    (verdict,) = check(subject, only=["start_fatigue"])
+    assert verdict.state == "not_run"
+    assert not verdict.missing
+    assert "freely" in verdict.unfit
+    said = answer(subject, ask(subject))
+    assert not {"events", "ramps"} & {one.name for one in said.tables}
+    assert said.tone in ("warning", "failed")
+    assert any("run-up" in (text := told(one.text, USUAL)) and "freely" in text for one in said.remarks)
+    started = Event(kind="load_step", count=100.0, torque=400.0)
+    (alone,) = check(drive(events=(started,), **more), only=["start_fatigue"])
+    assert alone.run
 
 
 def test_starts_need_a_run_up_and_a_model():

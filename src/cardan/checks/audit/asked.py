@@ -33,7 +33,7 @@ from cardan.questions.motion.motion import Motion, motion
 from cardan.questions.motion.turning import Evenness, each_shaft
 from cardan.questions.phases.phases import Phasing, phases
 from cardan.questions.torsion.model.answer import lacking
-from cardan.questions.torsion.model.excitation import turns_freely
+from cardan.questions.torsion.model.excitation import forced_run_up
 from cardan.questions.torsion.road.answer import lacking as road_lacking
 from cardan.questions.torsion.road.road import RoadTorsion, road_torsion
 from cardan.questions.torsion.steady.pendulum_swing import pendulum_swing
@@ -161,8 +161,8 @@ class Asked:
     @cached_property
     def run_up(self) -> FollowedRunUp | None:
         """Its run-up in time; None where torques turn its input."""
-        duty, course = self.drive.duty, self.drive.duty.run_up
-        if course is None or lacking(self.drive) or turns_freely(self.drive, duty):
+        course = forced_run_up(self.drive, self.drive.duty)
+        if course is None or lacking(self.drive):
             return None
         return _told(lambda: follow(self.drive, course))
 

@@ -83,7 +83,7 @@ def otherwise(drive: Drive) -> str | Lacking:
 
 def answer(drive: Drive, result: Strength) -> Answer:
     """Return what there is to say of the strength of a drive."""
-    close = any(float(one.utilisation) >= AMBER or not one.sure for one in result.binding)
+    close = bool(result.lost) or any(float(one.utilisation) >= AMBER or not one.sure for one in result.binding)
     tired = [one for one in result.shafts if result.events and one.fatigue_life < (drive.duty.life or 0.0)]
     enough = False if tired else result.enough
     tone: Tone = "plain" if enough is None else "failed" if not enough else "warning" if close else "good"
@@ -359,7 +359,7 @@ def _remarks(drive: Drive, result: Strength) -> Iterator[Remark]:
         yield Remark(text=text.format(count=left), tone="warning")
         yield Remark(text=_("Which keys it lacks:"), command=("cardan", "check", FILE, "--missing"), tone="next")
     for name, why in result.lost:
-        text = _("Warning: the damage of {event} is not told, as it cannot be followed in time: {why}.")
+        text = _("Warning: damage and peak torque of {event} are not counted, as it cannot be followed in time: {why}.")
         yield Remark(text=say(text, event=name, why=why), tone="warning")
     yield from _ramp(result)
     counted = result.vibration is not None or (out is not None and out.journal is not None)

@@ -24,6 +24,7 @@ from cardan.maths.ties import foremost_of
 from cardan.questions.forces.forces import forces
 from cardan.questions.life.bearing_loads import bearing_loads
 from cardan.questions.life.life import duty_parts
+from cardan.questions.torsion.model.excitation import forced_run_up
 from cardan.texts import _
 
 from . import (
@@ -362,7 +363,7 @@ def left_out(drive: Drive, found: Strength) -> LeftOut:
     return LeftOut(
         journal=_journal(drive, found) if supported else None,
         supported=supported,
-        runs_up=drive.duty.run_up is not None and drive.duty.starts is None,
+        runs_up=forced_run_up(drive, drive.duty) is not None and drive.duty.starts is None,
     )
 
 

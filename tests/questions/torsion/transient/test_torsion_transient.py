@@ -9,12 +9,15 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError, example
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.drive.duty import Duty
 from cardan.drive.machine import ConstantTorque, RunUp, TorqueHistory
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
 from cardan.questions.motion.motion import motion
 from cardan.questions.torsion.steady.torsion_response import torsion_response
+from cardan.questions.torsion.transient.answer import answer
 from cardan.questions.torsion.transient.torsion_transient import transient
 from cardan.questions.torsion.transient.transient import Adaptive
 from cardan.units import deg, rpm
@@ -125,6 +128,17 @@ def test_a_free_drive_that_nothing_drives_keeps_its_speed() -> None:
     slower = transient(LINE, braked, span=0.1, method=ROUGH)
     mean = 40.0 - 60.0 * 0.1 / 0.9
     assert np.dot(slower.motion.speed[-1, [0, 2]], [0.5, 0.4]) / 0.9 == pytest.approx(mean, rel=0.05)
+
+
+@pytest.mark.parametrize("free", [False, True])
+def test_a_run_up_is_followed_where_the_input_is_held_and_said_not_to_be_where_it_is_free(free: bool) -> None:
+    course = RunUp(start=10.0, end=12.0, duration=0.2)
+    drive = replace(LINE, duty=replace(LINE.duty, input="free" if free else "uniform", run_up=course))
+    found = transient(drive, method=ROUGH)
+    assert (found.motion.speed[-1, 0] == pytest.approx(12.0)) != free
+    said = answer(drive, found)
+    assert any(column.key == "max_input_speed" for column in said.tables[0].columns) != free
+    assert any("not followed" in told(one.text, USUAL) for one in said.remarks) == free
 
 
 @pytest.mark.slow

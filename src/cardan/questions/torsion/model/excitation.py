@@ -19,6 +19,7 @@ from cardan.drive.machine import (
     HarmonicTorque,
     LinearTorque,
     MachineTorque,
+    RunUp,
     SpeedTorque,
     TorqueHistory,
 )
@@ -216,6 +217,11 @@ def turns_freely(drive: Drive, duty: Duty) -> bool:
     swings = duty.torque_at == "input" and bool(duty.harmonics)
     pushed = any(one.station == "input" for one in duty.torques)
     return duty.engine is not None or duty.motor is not None or pushed or swings
+
+
+def forced_run_up(drive: Drive, duty: Duty) -> RunUp | None:
+    """Return the run-up that is forced on the input of a drive; None where torques turn it freely, or there is none."""
+    return None if turns_freely(drive, duty) else duty.run_up
 
 
 def machine_torques(

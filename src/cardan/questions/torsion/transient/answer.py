@@ -16,6 +16,7 @@ from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.model.answer import assumptions, left_out, torques_left_out
+from cardan.questions.torsion.model.excitation import forced_run_up
 from cardan.questions.torsion.model.torsional_modes import main_order
 from cardan.texts import _
 
@@ -39,8 +40,9 @@ def answer(drive: Drive, result: Transient) -> Answer:
         sentence=said,
         tone=tone,
         figures=lambda: drawn().transient_figures(result),
-        tables=(element_table(result, drive.duty.run_up), _station_table(result)),
+        tables=(element_table(result, forced_run_up(drive, drive.duty)), _station_table(result)),
         remarks=(
+            *_unforced(drive),
             *remarks(result),
             *torques_left_out(drive),
             *left_out(drive),
@@ -176,6 +178,17 @@ def remarks(found: Transient) -> Iterator[Remark]:
         yield Remark(text=say(text, order=Quantity(main_order(found.train.model), trim=True)))
     yield from assumptions(found.train, wide=True, sprung=True)
     yield _checked(found)
+
+
+def _unforced(drive: Drive) -> Iterator[Remark]:
+    """Yield that a run-up is not followed where torques turn the input freely."""
+    course = drive.duty.run_up
+    if course is not None and forced_run_up(drive, drive.duty) is None:
+        text = _(
+            "Warning: the run-up is not followed but for the {speed} that it starts at: torques turn the input freely, "
+            "and they alone decide its speed."
+        )
+        yield Remark(text=say(text, speed=Quantity(course.start, "angular_speed")), tone="warning")
 
 
 def _unread(drive: Drive) -> Iterator[Remark]:

@@ -19,7 +19,7 @@ from cardan.later import later
 from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.answer import left_out, torques_left_out
-from cardan.questions.torsion.model.excitation import turns_freely
+from cardan.questions.torsion.model.excitation import forced_run_up
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
 from cardan.texts import _, mark
 
@@ -88,9 +88,8 @@ def otherwise(_drive: Drive) -> str:
 
 def ask(drive: Drive, *, progress: Callable[[float], object] | None = None) -> FollowedRunUp | None:
     """Return the run-up of the duty, None where torques turn the input freely."""
-    course = drive.duty.run_up
-    assert course is not None
-    return None if turns_freely(drive, drive.duty) else follow(drive, course, progress=progress)
+    course = forced_run_up(drive, drive.duty)
+    return None if course is None else follow(drive, course, progress=progress)
 
 
 def answer(drive: Drive, result: FollowedRunUp) -> Answer:

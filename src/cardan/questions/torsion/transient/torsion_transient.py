@@ -13,6 +13,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.machine import Event, TorqueHistory
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.questions.torsion.model.excitation import forced_run_up
 from cardan.questions.torsion.model.inputs import Constant, History, Law, SpeedCourse, SpeedTable, Swinging
 from cardan.questions.torsion.model.torsional_balance import even_rates, gathered, places
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
@@ -110,7 +111,8 @@ def transient(
     drive : Drive
         With bodies or inertias and stiffnesses of its shafts, or `[[stations]]`.
     duty : Duty, optional
-        What it does; that of the drive by default. A run-up takes the place of its speed.
+        What it does; that of the drive by default. A run-up takes the place of its speed; where torques turn the input
+        freely, only the speed that it starts at does.
     span : float, optional [s]
         How long; to behind the run-up or the end of the longest history, else some turns.
     times : int or array (t,) [s]
@@ -166,10 +168,11 @@ def transient(
         text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")
         raise refuse("shafts[0].stiffness", text)
     model = in_time(in_full(train, fastest), main_order(train.model) * abs(fastest or 1.0))
-    if not model.free and chosen.run_up is None and chosen.speed is None:
+    forced = forced_run_up(drive, chosen)
+    if not model.free and forced is None and chosen.speed is None:
         raise refuse("duty.speed", _("missing; torsional vibration needs it"), "missing")
-    if not model.free and chosen.run_up is not None:
-        course = SpeedCourse(times=(0.0, chosen.run_up.duration), speeds=(chosen.run_up.start, chosen.run_up.end))
+    if forced is not None:
+        course = SpeedCourse(times=(0.0, forced.duration), speeds=(forced.start, forced.end))
         model = replace(model, input_speed=None, input_motion=course)
     elif not model.free:
         model = replace(model, input_speed=np.asarray(first))
@@ -202,11 +205,14 @@ def run_up_torque(drive: Drive) -> tuple[Array, tuple[int, ...]]:
     """Return the torque of every element in a run-up as the duty has it, (t, E) [N·m], and the shafts of the elements.
 
     Backlash counts as closed; `PEAKS` samples a period of the fastest vibration, so that no peak is missed by much.
-    Raises InputError: what the model misses, or a run-up too long to be followed.
+    Raises InputError: what the model misses, a run-up too long to be followed, or an input that torques turn freely.
     """
-    closed, course = _closed(drive), drive.duty.run_up
-    if course is None:
+    closed, course = _closed(drive), forced_run_up(drive, drive.duty)
+    if drive.duty.run_up is None:
         raise refuse("duty.run_up", _("missing; duty.starts counts run-ups"), "missing")
+    if course is None:
+        text = _("not followed: torques turn the input freely; a run-up needs a uniform one (duty.input)")
+        raise refuse("duty.run_up", text)
     train = torsional_train(closed, speed=max(course.start, course.end, key=abs))
     top = 2.0 * max(abs(course.start), abs(course.end))
     swings = max(_slowest(train.model), top) * (1.0 + AFTER) * course.duration / (2.0 * np.pi)
