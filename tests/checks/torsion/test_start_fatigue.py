@@ -12,13 +12,13 @@ from cardan.answers.reader import USUAL
 from cardan.checks import check
 from cardan.checks.design import design
 from cardan.checks.strength.answer import answer, ask
-from cardan.checks.strength.shaft_life import start_damage
+from cardan.checks.strength.shaft_life import fatigue_life, start_damage
 from cardan.checks.strength.strength import strength
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke
 from cardan.drive.machine import ConstantTorque, Event, RunUp
 from cardan.drive.material import Material
-from cardan.drive.shaft import Shaft, Spline
+from cardan.drive.shaft import Notch, Shaft, Spline
 from cardan.drive.station import Station
 from cardan.questions.life.rainflow import rainflow
 from cardan.questions.torsion.transient.torsion_transient import run_up_torque, transient
@@ -81,6 +81,38 @@ def test_many_starts_break_what_few_do_not():
     assert many.state == "failed"
     assert many.value == pytest.approx(120.0 * few.value, rel=1e-6)  # running alone does no damage
     assert strength(drive(starts=12000.0)).shafts[1].fatigue_life == pytest.approx(3600.0 * 5000 / many.value)
+
+
+def test_a_given_number_of_starts_needs_no_life_to_be_judged():
+    """Running does no damage: the life asked for only says over how long the starts are spread."""
+    for starts, state in ((100.0, "passed"), (12000.0, "failed")):
+        lasting = drive(starts=starts)
+        bare = replace(lasting, duty=replace(lasting.duty, life=None))
+        (wanted,), (found,) = (check(one, only=["start_fatigue"]) for one in (lasting, bare))
+        assert (found.state, float(found.value)) == (state, pytest.approx(float(wanted.value), rel=1e-9))
+        assert "duty.life" not in found.design_variables
+        said = answer(bare, ask(bare))
+        assert ("starts and events take" in told(said.sentence, USUAL)) == (state == "failed")
+        assert said.code == 1  # the peak torque of the start yields the shaft
+        assert not any("not judged" in told(one.text, USUAL) for one in said.remarks)
+
+
+def test_where_running_tires_a_shaft_too_events_need_the_life():
+    """Unless they alone are too many."""
+    step = Event(kind="load_step", count=1.0, torque=320.0)
+    subject = drive(events=(step,))
+    shafts = list(subject.shafts)
+    shafts[1] = replace(shafts[1], notch=Notch(bending=3.0, torsion=3.0))
+    few = replace(subject, shafts=tuple(shafts), duty=replace(subject.duty, life=None))
+    assert math.isfinite(fatigue_life(design(few), 1))
+    (undecided,) = check(few, only=["start_fatigue"])
+    assert undecided.missing == ("duty.life",)
+    said = answer(few, ask(few))
+    assert said.tone in ("warning", "failed")
+    assert any("not judged" in (text := told(one.text, USUAL)) and "life_h" in text for one in said.remarks)
+    (many,) = check(replace(few, duty=replace(few.duty, events=(replace(step, count=1e7),))), only=["start_fatigue"])
+    assert many.state == "failed"
+    assert "without running" in told(many.note, USUAL)
 
 
 @pytest.mark.parametrize("more", [{"input": "free"}, {"motor": ConstantTorque(torque=400.0)}], ids=["free", "motor"])

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from cardan.answers.answer import FILE, Answer, Column, Depth, KeyFigure, Remark, Table, Tone, heads
-from cardan.answers.quantity import Joined, Quantity, Say, Text, say
+from cardan.answers.quantity import Joined, Quantity, Say, Text, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import Catalogue
@@ -24,6 +24,7 @@ from cardan.checks.verdict_table import (
 )
 from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
+from cardan.drive.fields.wording import written
 from cardan.drive.torsional_layout import has_torsion
 from cardan.later import later
 from cardan.questions.assumed import yokes_estimated
@@ -83,8 +84,9 @@ def otherwise(drive: Drive) -> str | Lacking:
 
 def answer(drive: Drive, result: Strength) -> Answer:
     """Return what there is to say of the strength of a drive."""
-    close = bool(result.lost) or any(float(one.utilisation) >= AMBER or not one.sure for one in result.binding)
-    tired = [one for one in result.shafts if result.events and one.fatigue_life < (drive.duty.life or 0.0)]
+    unknown = bool(result.lost or _undecided(result))
+    close = unknown or any(float(one.utilisation) >= AMBER or not one.sure for one in result.binding)
+    tired = [one for one in result.shafts if result.events and one.fatigue_used > 1.0]
     enough = False if tired else result.enough
     tone: Tone = "plain" if enough is None else "failed" if not enough else "warning" if close else "good"
     return Answer(
@@ -137,17 +139,34 @@ def _sentence(drive: Drive, result: Strength) -> Say | str:
 
 
 def _ending(drive: Drive, result: Strength, tired: Sequence[ShaftStrength]) -> Say:
-    """Return that starts and events use up a shaft before the life asked for."""
-    first = min(tired, key=lambda one: one.fatigue_life)
+    """Return that starts and events use up a shaft before the life asked for, or by their number alone."""
+    first = max(tired, key=lambda one: one.fatigue_used)
+    values = {"number": first.number, "rated": _torque(result.rated_torque), "why": result.surpassed}
+    if drive.duty.life is None or math.isnan(first.fatigue_life):
+        text = _(
+            "starts and events take {share} of the fatigue life of shaft {number}; torque rating without their damage "
+            "{rated}."
+        )
+        if result.surpassed:
+            text = _("starts and events take {share} of the fatigue life of shaft {number}; not rated: {why}.")
+        return say(text, share=Quantity(first.fatigue_used, "share", 3), **values)
     text = _(
         "shaft {number} lasts {life} of the {asked} asked, with its starts and events; torque rating without their "
         "damage {rated}."
     )
     if result.surpassed:
         text = _("shaft {number} lasts {life} of the {asked} asked, with its starts and events; not rated: {why}.")
-    life, asked = Quantity(first.fatigue_life, "duration"), Quantity(drive.duty.life or 0.0, "duration")
-    rated = _torque(result.rated_torque)
-    return say(text, number=first.number, life=life, asked=asked, rated=rated, why=result.surpassed)
+    life, asked = Quantity(first.fatigue_life, "duration"), Quantity(drive.duty.life, "duration")
+    return say(text, life=life, asked=asked, **values)
+
+
+def _undecided(result: Strength) -> list[int]:
+    """Return the numbers of the shafts of which nobody can tell whether starts, events and running use them up."""
+    return [
+        one.number
+        for one in result.shafts
+        if result.events and one.fatigue is not None and math.isnan(one.fatigue_used)
+    ]
 
 
 def with_events(drive: Drive, found: Strength) -> Strength:
@@ -361,6 +380,12 @@ def _remarks(drive: Drive, result: Strength) -> Iterator[Remark]:
     for name, why in result.lost:
         text = _("Warning: damage and peak torque of {event} are not counted, as it cannot be followed in time: {why}.")
         yield Remark(text=say(text, event=name, why=why), tone="warning")
+    if undecided := _undecided(result):
+        text = _(
+            "Warning: whether shaft {which} lasts through starts, events and running is not judged; the file lacks "
+            "{keys}."
+        )
+        yield Remark(text=say(text, which=listed(undecided), keys=written("duty.life")), tone="warning")
     yield from _ramp(result)
     counted = result.vibration is not None or (out is not None and out.journal is not None)
     if result.dynamic_factor > LITTLE and not counted:

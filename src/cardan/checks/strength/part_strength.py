@@ -17,7 +17,7 @@ from .joints import contact_pressure, journal_strength, yoke_strength
 from .joints.journal_strength import journal_load
 from .joints.needle_static import static_capacity
 from .section import modulus, sections
-from .shaft_life import STRENGTHS, fatigue, fatigue_life, hardest_cycle, lasting, life_safety, measured
+from .shaft_life import STRENGTHS, fatigue, fatigue_life, fatigue_used, hardest_cycle, lasting, life_safety, measured
 from .spline_pressure import lacking, stresses
 from .tube_buckling import composite_buckling
 from .twist import compliance
@@ -41,6 +41,9 @@ class ShaftStrength:
     # [s]: running time until the shaft breaks by Palmgren's and Miner's rule; infinite where it does not, nan where not
     # known
     fatigue_life: float = math.nan
+    # share of its fatigue life that starts, events and running use in the life asked for; nan where there are no
+    # starts and events, or it is not known
+    fatigue_used: float = math.nan
     twist: float = math.nan  # [rad]: under its largest torque, without shocks; nan where not known
     spline: SplineStress | None = None
     buckling_torque: float = math.nan  # [N·m]: of a tube of composite; else nan
@@ -85,7 +88,15 @@ def shaft_strength(design: Design, k: int) -> ShaftStrength:
         cycled, safety = hardest_cycle(design, k), min(safety, float(life_safety(design, k)))
         tired = cycled if float(cycled.safety) < float(tired.safety) else tired
     life = float(fatigue_life(design, k)) if moving else math.nan
-    return replace(plain, fatigue=tired, fatigue_case=design.called(at), safety=safety, fatigue_life=life)
+    used = fatigue_used(design, k) if design.events else None
+    return replace(
+        plain,
+        fatigue=tired,
+        fatigue_case=design.called(at),
+        safety=safety,
+        fatigue_life=life,
+        fatigue_used=math.nan if used is None else float(used),
+    )
 
 
 def weight_bending(design: Design, k: int) -> float:

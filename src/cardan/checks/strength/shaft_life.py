@@ -152,6 +152,19 @@ def fatigue_life(design: Design, k: int) -> Array:
     return found
 
 
+def fatigue_used(design: Design, k: int) -> Array | None:
+    """Return the share of its fatigue life that a shaft, counted from 0, uses in the life asked for, array (...).
+
+    Without one it is that of starts and events, whose number is given; None where running adds to it what decides.
+    """
+    life, running = design.value("duty.life"), fatigue_life(design, k)
+    if life is not None:
+        return np.asarray(life) / running
+    every = [_of_events(design, k, one) for one in sections(design, k)]
+    found = np.asarray(np.max(np.stack(np.broadcast_arrays(*every)), axis=0))
+    return found if np.all(np.isinf(running) | (found > 1.0)) else None
+
+
 def start_damage(design: Design, k: int, event: Event | RunUp | None = None) -> Array:
     """Return the damage that one start or event does to the worst stretch of a shaft, counted from 0, array (...).
 
@@ -189,10 +202,13 @@ def _couple(design: Design, k: int) -> Array:
 def _of_starts(design: Design, k: int, section: Section) -> Array:
     """Return the damage a second of the starts and events in the life asked for."""
     life = design.value("duty.life")
-    if life is None:
-        return np.zeros(design.shape)
+    return np.zeros(design.shape) if life is None else _of_events(design, k, section) / np.asarray(life)
+
+
+def _of_events(design: Design, k: int, section: Section) -> Array:
+    """Return the damage of all starts and events to a stretch of a shaft."""
     return sum(
-        (np.asarray(count) / np.asarray(life) * _of_start(design, k, section, one) for _k, one, count in design.events),
+        (np.asarray(count) * _of_start(design, k, section, one) for _k, one, count in design.events),
         np.zeros(design.shape),
     )
 

@@ -14,6 +14,7 @@ from cardan.checks.strength.section import sections
 from cardan.checks.strength.shaft_life import (
     STRENGTHS,
     fatigue_life,
+    fatigue_used,
     fatigue_variables,
     start_damage,
 )
@@ -30,7 +31,7 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
     if not events or not found or design.drive.shafts[k].layup is not None:
         return
     strengths = [section.of_material(name) for section in found for name in STRENGTHS]
-    lacking = (*design.missing("duty.life", *strengths), *design.unloaded)
+    lacking = (*design.missing(*strengths), *design.unloaded)
     if not has_torsion(design.drive):
         lacking = (*NO_MODEL, *lacking)
     every = [] if lacking else [followed(design.drive, one) for _k, one, _count in events]
@@ -43,6 +44,10 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
         yield Verdict(unfit="; ".join(dict.fromkeys(map(str, short))))
         return
     if not any(k in cycles for cycles in every):
+        return
+    used, lives = fatigue_used(design, k), design.value("duty.life") is not None
+    if used is None:
+        yield Verdict(missing=("duty.life",))
         return
     notes = [
         say(
@@ -57,15 +62,17 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
     ]
     if plays(design.drive):
         notes.append(say(_("with the backlash of joints and splines closed")))
+    if not lives and not np.all(np.isinf(fatigue_life(design, k))):
+        notes.append(say(_("without running, whose time the file does not give")))
     yield Verdict(
-        value=np.asarray(design.value("duty.life")) / fatigue_life(design, k),
+        value=used,
         limit=1.0,
         source=_("starts and events in time, rainflow by ASTM E1049, Palmgren-Miner; S-N line of Shigley chapter 6"),
         design_variables=(
             *fatigue_variables(design, k),
             *(() if design.value("duty.starts") is None else ("duty.starts",)),
             *(f"duty.events[{j}].count" for j in range(len(design.duty.events))),
-            "duty.life",
+            *(("duty.life",) if lives else ()),
         ),
         note=Joined(notes, between="; ") if len(notes) > 1 else notes[0],
     )
