@@ -81,6 +81,29 @@ def tidied(number: float) -> float:
     return 0.0 if abs(number) < NOTHING else number
 
 
+def summed(parts: ArrayLike, *, scale: ArrayLike | None = None) -> Array:
+    """Return the sum of parts (..., n), real or complex, along the last axis, 0 where they cancel but for rounding.
+
+    scale (...): what a share is of; the sizes of all parts together when not given.
+
+    >>> summed([0.1, 0.2, -0.3]).tolist(), summed([0.1, 0.2]).tolist()
+    (0.0, 0.30000000000000004)
+    """
+    given = np.asarray(parts)
+    total, size = np.sum(given, axis=-1), np.sum(np.abs(given), axis=-1) if scale is None else np.asarray(scale)
+    return np.where(np.abs(total) <= TIE * size, 0.0, total)
+
+
+def in_a_turn(angle: ArrayLike) -> Array:
+    """Return angles [rad] from 0 to below 2π, 0 where they are a whole turn but for rounding.
+
+    >>> in_a_turn([-1e-16, -1.0]).round(4).tolist()
+    [0.0, 5.2832]
+    """
+    found = np.asarray(angle, dtype=float) % (2.0 * np.pi)
+    return np.where(2.0 * np.pi - found <= TIE, 0.0, found)
+
+
 def power_of(residual: float) -> int | None:
     """Return the power of ten below which a relative residual is, None where it is rounding.
 

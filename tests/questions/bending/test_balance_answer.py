@@ -1,5 +1,6 @@
 """What is said of the balance of shafts: limits, what was measured, and the masses that cancel it."""
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -8,6 +9,7 @@ from cardan.answers.data import data
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
 from cardan.drive.duty import Duty
+from cardan.drive.shaft import Unbalance
 from cardan.io import example
 from cardan.questions.bending.balance import balance
 from cardan.questions.bending.balance_answer import answer, ask, lacking
@@ -44,6 +46,22 @@ def test_too_much_unbalance_is_a_failure():
     assert told(said.sentence, USUAL) == (
         "too much unbalance on shaft 2 at 4\u202f000 rpm: 554 g·mm in a plane that may have 279 g·mm."
     )
+
+
+def paired(*unbalances):
+    tube = replace(CAR.shafts[1], unbalance=tuple(unbalances))
+    return of(replace(CAR, shafts=(CAR.shafts[0], tube, *CAR.shafts[2:])))
+
+
+def test_what_cancels_is_no_unbalance_but_for_rounding():
+    """A mass against a couple goes at 0°, not 360°; two that cancel leave none, and no angle to put one at."""
+    one, other = Unbalance(position=0.1, amount=1.8e-4), Unbalance(position=0.9, amount=1.8e-4, angle=math.pi)
+    fixes = paired(one, other).tables[-1]
+    assert column(fixes, "angle") == pytest.approx([math.pi, 0.0])
+    limits, planes, fixes = paired(one, replace(other, position=0.1)).tables
+    assert (column(limits, "unbalance"), column(limits, "couple")) == ([0.0], [0.0])
+    assert column(planes, "unbalance") == column(fixes, "unbalance") == [0.0, 0.0]
+    assert all(math.isnan(angle) for angle in column(fixes, "angle"))
 
 
 def test_an_assumed_grade_is_told():

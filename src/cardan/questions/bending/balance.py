@@ -20,7 +20,7 @@ from cardan.drive.shaft import Shaft
 from cardan.drive.yokes import with_yokes
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike, floats
-from cardan.maths.ties import foremost_of
+from cardan.maths.ties import foremost_of, in_a_turn, summed
 from cardan.texts import _
 from cardan.units import rpm
 
@@ -41,7 +41,8 @@ class Correction:
 
     position: float  # [m]: of the plane, along the power flow from the joint before
     unbalance: float  # [kg m]
-    angle: float  # [rad]: about the axis along the power flow, from the driving yoke: where the mass goes
+    # [rad]: about the axis along the power flow, from the driving yoke: where the mass goes; nan where none does
+    angle: float
     mass: float  # [kg]: at the outer radius of the shaft; nan where that is not known
 
 
@@ -229,9 +230,7 @@ def _of_shaft(
     vectors = [(one.position, cmath.rect(one.amount, one.angle)) for one in shaft.unbalance]
     places, sizes = (np.asarray([one[k] for one in vectors]) for k in (0, 1))
     there = np.full(2, nan) if ends is None or not vectors else in_planes(ends, places, sizes)
-    resultant = abs(complex(np.sum(sizes)))
-    if resultant <= ROUNDING * float(np.sum(np.abs(sizes))):
-        resultant = 0.0
+    resultant = abs(complex(summed(sizes)))
     fixes = vectors if ends is None or not vectors else list(zip(ends, map(complex, there), strict=True))
     radius = 0.5 * shaft.outer if shaft.outer is not None else nan
     return ShaftBalance(
@@ -241,7 +240,7 @@ def _of_shaft(
         eccentricity=eccentricity,
         norm=norm_limit,
         unbalance=resultant if vectors else nan,
-        couple=abs(complex(np.sum(sizes * (places - centre)))) if vectors and centre is not None else nan,
+        couple=abs(complex(summed([*(sizes * places), *(-sizes * centre)]))) if vectors and centre is not None else nan,
         force=speed**2 * (resultant if vectors else limit),
         joint_forces=tuple(speed**2 * abs(vector) for _place, vector in fixes),
         planes=tuple(
@@ -252,7 +251,7 @@ def _of_shaft(
             Correction(
                 position=place,
                 unbalance=abs(vector),
-                angle=cmath.phase(-vector) % (2.0 * math.pi),
+                angle=float(in_a_turn(cmath.phase(-vector))) if vector else nan,
                 mass=abs(vector) / radius,
             )
             for place, vector in fixes
@@ -301,8 +300,9 @@ def in_planes(ends: tuple[Any, Any], places: Array, vectors: Array) -> Array:
     [(3+1j), (1+1j)]
     """
     first, last = (np.asarray(one, dtype=float)[..., None] for one in ends)
-    behind = (places - first) / (last - first)
-    return np.stack([np.sum(vectors * (1.0 - behind), axis=-1), np.sum(vectors * behind, axis=-1)], axis=-1)
+    sizes, behind = np.broadcast_arrays(vectors, (places - first) / (last - first))
+    passed = sizes * behind
+    return np.stack([summed(np.concatenate([sizes, -passed], axis=-1)), summed(passed)], axis=-1)
 
 
 # Balance of shafts: the unbalance that a grade allows, and the force it leaves.

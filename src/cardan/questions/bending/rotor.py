@@ -22,6 +22,7 @@ from cardan.errors import InputError, Problem, check, refuse
 from cardan.formulas.run_up import Progress
 from cardan.formulas.unbalance_behind_joint import UnbalanceBehindJoint, unbalance_behind_joint
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.ties import summed
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.motion import motion
 from cardan.texts import _
@@ -185,11 +186,11 @@ def _unbalance(
             allowed = math.nan
         return complex(allowed if math.isfinite(allowed) else 0.0), (f"shafts[{shaft.number - 1}].unbalance",)
     origin = span[1] if shaft.number == 1 else span[0]
-    parts = (
+    parts = [
         one.amount * float(np.interp(origin + one.position, found.place, shape)) * cmath.exp(1j * one.angle)
         for one in shaft.unbalance
-    )
-    return sum(parts, 0j), ()
+    ]
+    return complex(summed(parts, scale=sum(one.amount for one in shaft.unbalance))), ()
 
 
 def _crack(shaft: Shaft) -> tuple[Crack, float]:

@@ -17,6 +17,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.wording import key_text
 from cardan.errors import InputError
+from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import foremost_of
 from cardan.questions.assumed import yokes_estimated
 from cardan.texts import _, mark
@@ -67,7 +68,7 @@ def answer(drive: Drive, result: RotorResponse) -> Answer:
         tables=(_peaks(result),),
         remarks=(*yokes_estimated(drive), *_remarks(result)),
         keys=tuple(_keys(result)),
-        figures=lambda: rotor_figures(result),
+        figures=lambda: rotor_figures(result) if _whirls(result) else (),
         facts={
             "rotor": _rotor(result.rotor),
             "unstable": Quantity([list(one) for one in result.unstable], "angular_speed"),
@@ -84,6 +85,7 @@ def answer(drive: Drive, result: RotorResponse) -> Answer:
 def answer_of_run(drive: Drive, rotor: Rotor, result: CrackedRun) -> Answer:
     """Return what there is to say of a shaft while its speed changes."""
     speed, order, size = result.orders()
+    size = _told(np.abs(size), rotor.sag + result.peak)
     shown = [k for k, number in enumerate(order) if number in ORDERS]
 
     def table(rows: slice, name: str = "") -> Table:
@@ -91,7 +93,7 @@ def answer_of_run(drive: Drive, rotor: Rotor, result: CrackedRun) -> Answer:
             Column(
                 key=f"order_{order[k]:g}".replace("-", "minus_"),
                 heading=f"{order[k]:g}×",
-                values=np.abs(size[rows, k]),
+                values=size[rows, k],
                 dimension="displacement",
                 digits=3,
             )
@@ -104,7 +106,9 @@ def answer_of_run(drive: Drive, rotor: Rotor, result: CrackedRun) -> Answer:
     return Answer(
         name="rotor",
         title=_("Run-up of shaft {number}").format(number=rotor.shaft),
-        sentence=say(
+        sentence=_at_rest(rotor)
+        if not result.peak
+        else say(
             text,
             start=Quantity(float(result.speed[0]), "angular_speed", 3),
             end=Quantity(float(result.speed[-1]), "angular_speed", 3),
@@ -114,7 +118,7 @@ def answer_of_run(drive: Drive, rotor: Rotor, result: CrackedRun) -> Answer:
         ),
         tables=(table(slice(None, None, max(1, len(speed) // SHOWN))),),
         remarks=(*yokes_estimated(drive), *_shaft(rotor)),
-        figures=lambda: (run_figure(rotor.shaft, result),),
+        figures=lambda: (run_figure(rotor.shaft, result),) if result.peak else (),
         facts={
             "rotor": _rotor(rotor),
             "peak": Quantity(result.peak, "displacement"),
@@ -128,7 +132,8 @@ def answer_of_joined(drive: Drive, first: Rotor, second: Rotor, result: CrackedS
     """Return what there is to say of both shafts beside a joint."""
     fits = [result.orders(k, turns=8, reach=4) for k in (0, 1)]
     order = sorted((int(one) for one in fits[0][0]), key=lambda one: (abs(one), one < 0))
-    sizes = [[float(np.abs(size[own == one][0])) for one in order] for own, size in fits]
+    found = [np.asarray([float(np.abs(size[own == one][0])) for one in order]) for own, size in fits]
+    sizes = [_told(one, np.max(one, initial=0.0)).tolist() for one in found]
     table = Table(
         name="orders",
         columns=(
@@ -183,6 +188,8 @@ def _sentence(result: RotorResponse) -> Text:
         return say(_("shaft {number} has no steady motion at these speeds."), number=result.rotor.shaft)
     order = foremost_of(known, lambda one: known[one][1])
     speed, size = known[order]
+    if not size:
+        return _at_rest(result.rotor)
     return say(
         _("shaft {number} by itself whirls most in {order}: {size} at {speed}, {share} of its own critical speed."),
         number=result.rotor.shaft,
@@ -193,12 +200,22 @@ def _sentence(result: RotorResponse) -> Text:
     )
 
 
+def _at_rest(rotor: Rotor) -> Text:
+    """Return that nothing makes a shaft whirl."""
+    return say(_("shaft {number} by itself does not whirl: it has no unbalance in its mode."), number=rotor.shaft)
+
+
+def _told(sizes: Array, scale: ArrayLike) -> Array:
+    """Return amplitudes, 0 where they are rounding beside a size of the same motion."""
+    return np.where(sizes <= ROUNDING * np.asarray(scale), 0.0, sizes)
+
+
 def _peaks(result: RotorResponse) -> Table:
     """Return the orders with where they are largest."""
     peaks = [result.peak(order) for order in ORDERS]
-    least = ROUNDING * max((size for _speed, size in peaks if math.isfinite(size)), default=0.0)
-    known = [size > least for _speed, size in peaks]
-    speeds = [speed if good else None for (speed, _size), good in zip(peaks, known, strict=True)]
+    largest = max((size for _speed, size in peaks if math.isfinite(size)), default=0.0)
+    sizes = _told(np.asarray([size for _speed, size in peaks]), largest).tolist()
+    speeds = [speed if size > 0.0 else None for (speed, _size), size in zip(peaks, sizes, strict=True)]
     return Table(
         title=_("Orders at the speeds in use"),
         columns=(
@@ -206,7 +223,7 @@ def _peaks(result: RotorResponse) -> Table:
             Column(
                 key="amplitude",
                 heading=_("largest amplitude"),
-                values=[size if good else 0.0 for (_speed, size), good in zip(peaks, known, strict=True)],
+                values=sizes,
                 dimension="displacement",
                 digits=3,
             ),
@@ -291,8 +308,9 @@ def _remarks(result: RotorResponse) -> Iterator[Remark]:
         text = _("At some speeds the vibration exceeds the sag: there the crack breathes otherwise than by weight.")
         yield Remark(text=text, tone="warning")
     yield _checked(float(steady.residual[known].max(initial=0.0)), _("power and multipliers agree"))
-    command = ("cardan", "rotor", FILE, "--plot", "rotor.svg")
-    yield Remark(text=_("Orders over the speed, and orbits:"), command=command, tone="next")
+    if _whirls(result):
+        command = ("cardan", "rotor", FILE, "--plot", "rotor.svg")
+        yield Remark(text=_("Orders over the speed, and orbits:"), command=command, tone="next")
     text = _("This is one shaft in one mode; all shafts on their supports:")
     yield Remark(text=text, command=("cardan", "rotor", FILE, "--line"), tone="next")
 
@@ -320,9 +338,15 @@ def _largest(result: RotorResponse) -> tuple[float, float] | None:
     return foremost_of(peaks, lambda one: one[1]) if peaks else None
 
 
+def _whirls(result: RotorResponse) -> bool:
+    """Tell whether a shaft whirls by itself, or cannot be told."""
+    peak = _largest(result)
+    return peak is None or peak[1] > 0.0
+
+
 def _keys(result: RotorResponse) -> Iterator[KeyFigure]:
     peak = _largest(result)
-    if peak is not None and result.line is None:  # else the line tells how far the shaft whirls
+    if peak is not None and _whirls(result) and result.line is None:  # else the line tells how far the shaft whirls
         speed, size = peak
         place = say(
             _("shaft {number}, at {speed}"), number=result.rotor.shaft, speed=Quantity(speed, "angular_speed", 3)

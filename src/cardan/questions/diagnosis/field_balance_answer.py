@@ -9,6 +9,7 @@ import numpy as np
 from cardan.answers.answer import Answer, Column, Remark, Table
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.maths.arrays import Array
+from cardan.maths.ties import in_a_turn
 from cardan.texts import _
 
 from .field_balance import SAME_SPEED, FieldBalance, Readings
@@ -46,7 +47,7 @@ def answer(result: FieldBalance, readings: Readings, planes: Sequence[float], ra
                     Column(
                         key="angle",
                         heading=_("angle"),
-                        values=np.angle(result.correction) % (2.0 * np.pi),
+                        values=in_a_turn(np.angle(result.correction)),
                         dimension="angle",
                         decimals=1,
                     ),
