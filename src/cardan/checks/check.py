@@ -152,7 +152,7 @@ def surpassed(design: Design) -> str:
     Of designs that vary each is judged as its steady vibration has it.
     """
     counted = not design.varied and any(case.vibration is not None for case in design.loaded)
-    return why_larger(design.drive) if counted else ""
+    return why_larger(design.drive, stable=design.tried) if counted else ""
 
 
 def part_of(drive: Drive, subject: str) -> str:

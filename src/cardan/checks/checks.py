@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from cardan.answers.quantity import Text
 from cardan.catalogue import Catalogue
@@ -174,7 +175,16 @@ def check(
     """
     unknown = [name for name in only if name not in CHECKS]
     refuse_all(Problem("only", _unknown(name)) for name in unknown)
-    subject = design(drive, duty, vary=vary, known=known)
+    return _worst(design(drive, duty, vary=vary, known=known), only)
+
+
+def as_tried(drive: Drive, only: Sequence[str], *, known: Catalogue | None = None) -> tuple[Verdict, ...]:
+    """Return the verdicts of some checks on one of many drives that are tried, see `Design.tried`."""
+    return _worst(replace(design(drive, known=known), tried=True), only)
+
+
+def _worst(subject: Design, only: Sequence[str]) -> tuple[Verdict, ...]:
+    """Return the worst verdicts of a drive as drawn, in its poses, along its movements and in its events."""
     drawn, *others = _everywhere(subject, only)
     return worst_of_poses(drawn[1], [(said, verdicts) for said, verdicts, _time in others])
 
@@ -188,7 +198,7 @@ def passes(
     kept for the drive that is tried next.
     Poses and movements are followed only where it passes there and as drawn: quicker where many drives are tried.
     """
-    subject = design(drive, known=known)
+    subject = replace(design(drive, known=known), tried=True)
     failed_at = {} if last is None else last
 
     def fails(verdicts: Sequence[Verdict]) -> bool:

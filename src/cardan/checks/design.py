@@ -72,6 +72,8 @@ class Design:
         Whether what torsional vibration adds to the loads counts.
     event : int, optional
         Which of its `events` it is in, so that the largest torques of that are its only loads; None while it runs.
+    tried : bool
+        Whether it is one of many that are tried: its torques count as those of steady vibration, stable or not.
     """
 
     drive: Drive
@@ -82,6 +84,7 @@ class Design:
     pose: str = ""
     vibrates: bool = True
     event: int | None = None
+    tried: bool = False
 
     @cached_property
     def shape(self) -> tuple[int, ...]:

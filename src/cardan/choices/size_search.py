@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from cardan.catalogue import Catalogue
-from cardan.checks import Verdict, check
+from cardan.checks import Verdict, as_tried, check
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.paths import with_values
@@ -86,7 +86,7 @@ def solved(
 
     def alone(factor: float) -> float:
         sized = with_values(base, {name: value * factor for name, value in free.items()})
-        return max(used(one) for one in _of(check(sized, only=names, known=rows), subject))
+        return max(used(one) for one in _of(as_tried(sized, names, known=rows), subject))
 
     for _round in range(AGAIN if has_torsion(base) else 0):  # many sizes at once vibrate like one of them: the last
         near = with_values(base, {name: value * factor for name, value in free.items()})
@@ -101,14 +101,14 @@ def solved(
     values = {name: _made(name, one, series) for name, one in exact.items()}
     for _try in range(20):  # a thicker wall can cost what a thicker tube gains
         whole = with_values(base, values)
-        made = _of(check(whole, only=names, known=rows), subject)
+        made = _of(as_tried(whole, names, known=rows), subject)
         if all(one.utilisation <= 1.0 for one in made):
             break
         values = {
             name: value if _bare(name) == "inner" else _made(name, value + STEPS[_bare(name)], series)
             for name, value in values.items()
         }
-    limits = _of(check(with_values(base, exact), only=names, known=rows), subject)
+    limits = _of(as_tried(with_values(base, exact), names, known=rows), subject)
     return Sizing(
         part=kind,
         subject=subject,
@@ -204,7 +204,7 @@ def _counted(
     base: Drive, names: Sequence[str], subject: str, rows: Catalogue
 ) -> tuple[tuple[Verdict, ...], tuple[str, ...]]:
     """Return the verdicts that count for a size, and the paths for want of which others do not."""
-    every = [one for one in check(base, only=names, known=rows) if one.subject in ("", subject)]
+    every = [one for one in as_tried(base, names, known=rows) if one.subject in ("", subject)]
     skipped = tuple(dict.fromkeys(path for one in every for path in one.missing))
     return tuple(one for one in every if one.run and not one.advice), skipped
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from cardan.catalogue import Catalogue, catalogue, completed, filled
 from cardan.catalogue.rows import JointSize
-from cardan.checks import Verdict, check, design
+from cardan.checks import Verdict, as_tried, design
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
@@ -278,7 +278,7 @@ def smallest_row(drive: Drive, number: int, rows: Catalogue) -> Sizing:
         for i in chosen:
             whole = with_joint(whole, i, size=row.id, type="", cross=None, needles=None, yoke=None, rating=None)
         whole = completed(whole, rows)
-        every = [one for one in check(whole, only=CHECKS["joint"], known=rows) if one.subject in subjects]
+        every = [one for one in as_tried(whole, CHECKS["joint"], known=rows) if one.subject in subjects]
         judged = tuple(one for one in every if one.run and not one.advice)
         worst = foremost_of(judged, used) if judged else None
         names = {one.check for one in judged}

@@ -15,6 +15,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
 from cardan.errors import refuse
 from cardan.figures.figure import Figure
+from cardan.questions.torsion.stability.in_use import larger_in_use
 from cardan.texts import _
 from cardan.units import factor
 
@@ -220,6 +221,7 @@ def _governing(tried: Tried) -> str:
 
 
 def _remarks(found: Sizing) -> Iterator[Remark]:
+    yield from larger_in_use(found.drive)
     if not found.found:
         failed = [one for one in found.tried if one.utilisation > 1.0]
         for last in failed[-1:]:

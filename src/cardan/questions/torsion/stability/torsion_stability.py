@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -271,10 +271,7 @@ def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     between = (low, high) if sense > 0.0 else (-high, -low)
     proof = _proved(drive, between, train, pieces, LITTLE, None)
 
-    def told(speeds: Array) -> Floquet:
-        model, loose = parted(loaded_model(drive, drive.duty, sense * speeds, pieces=pieces)[1])
-        return judged(model, sense * speeds, loose)
-
+    told = partial(judged_of, drive, pieces=pieces)
     held = np.asarray(held_speeds(drive.duty))
     loose = parted(train.model)[1]
     for first, last in speed_ranges(drive.duty) if loose and not several_looked_for(train.model) else ():
@@ -285,6 +282,13 @@ def proved_in_use(drive: Drive, pieces: int = 1) -> ProvedSpeeds | None:
     for one in held:
         proof = proof.judged_at(told(one[None]), one[None])
     return proof
+
+
+def judged_of(drive: Drive, speeds: Array, *, pieces: int = 1) -> Floquet:
+    """Return how stable the motions of a drive are at a few speeds above 0 [rad/s], in the sense in which it turns."""
+    turning = speeds if (drive.duty.speed or 1.0) > 0.0 else -speeds
+    model, loose = parted(loaded_model(drive, drive.duty, turning, pieces=pieces)[1])
+    return judged(model, turning, loose)
 
 
 def _edged(told: Callable[[Array], Floquet], speeds: Array) -> tuple[Floquet, Array]:
