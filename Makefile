@@ -13,6 +13,8 @@ FILE ?=
 
 # Every process that tests, pages and examples start would compile the modules anew.
 unexport PYTHONDONTWRITEBYTECODE
+# Workers share the processors, so that each does its sums on one.
+test quick: export OPENBLAS_NUM_THREADS = 1
 
 .PHONY: help report app test quick lint docs dist bench clean all
 

@@ -298,8 +298,8 @@ def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
     for k, one in enumerate(drive.supports, 1):
         if one.side_stiffness is not None:
             text = _(
-                "Shafts bow with the stiffness of support {number} up and down, and it bounces with either; cardan "
-                "rotor --line counts both at once."
+                "Bending of shafts counts the stiffness of support {number} up and down, its bounce modes both; cardan "
+                "rotor --line counts them together."
             )
             yield Remark(text=text.format(number=k))
     yield from _unequal(drive)
