@@ -387,7 +387,7 @@ def unstable(found: Any) -> bool:
 
 
 def proof_facts(found: Any) -> dict[str, Any]:
-    """Return what a program is told of the proof of an absorber or a design, which leaves out such orders."""
+    """Return what a program is told of the proof of an absorber or a design, which leaves out nonsynchronous orders."""
     proof: ProvedSpeeds | None = found.proof
     if proof is None:
         return {"stability_proved": None, "unstable_from": Quantity([], "angular_speed")}

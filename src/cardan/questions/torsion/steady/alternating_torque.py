@@ -21,7 +21,7 @@ from cardan.texts import _
 from .orbit import Orbit, at_rest
 from .steady import Progress, periodic_response
 from .torsion_response import parted
-from .two_frequencies import envelope, grouped, motions, of_drives
+from .two_frequencies import envelope, grouped, of_drives, side_bands
 
 FEW, MOST = 4, 24
 """Harmonics of half a turn to begin with, and at most."""
@@ -96,10 +96,8 @@ def exactly(found: TorqueSwings, rows: Array | None = None, *, follow: bool = Tr
         return found, np.full(len(wanted), not groups)
     low, high, known = np.zeros(()), np.zeros(()), np.ones(len(wanted), dtype=bool)
     for base, group in groups:
-        bands = [motion.bands for _rows, motion in motions(orbit, base, group, wanted, follow=follow)]
-        low = low + np.concatenate([one.lowest for one in bands])
-        high = high + np.concatenate([one.highest for one in bands])
-        known &= np.concatenate([one.found for one in bands])
+        bands = side_bands(orbit, base, group, wanted, follow=follow)
+        low, high, known = low + bands.lowest, high + bands.highest, known & bands.found
     if len(groups) > 1:  # each of them with the joints
         coefficient = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])[wanted]
         lowest, highest = _extremes(orbit.turning.part(wanted), coefficient, ())

@@ -85,15 +85,17 @@ def _order(torque: Torque) -> float:
     return float(torque.law.frequency)
 
 
-def side_bands(orbit: Orbit, base: float, loose: tuple[Torque, ...], rows: Array | None = None) -> SideBands:
+def side_bands(
+    orbit: Orbit, base: float, loose: tuple[Torque, ...], rows: Array | None = None, *, follow: bool = True
+) -> SideBands:
     """Return how torques vibrate about steady motions under torques of other orders.
 
     orbit (...): the motions without these torques; base: order of which theirs are multiples.
-    rows (b,) of int: which motions, counted through the leading axes; all by default.
+    rows (b,) of int: which motions, counted through the leading axes; all by default. follow: see `motions`.
     Returns: motions in one axis.
     """
     wanted = np.arange(orbit.count) if rows is None else rows
-    parts = [motion.bands for _some, motion in motions(orbit, base, loose, wanted)]
+    parts = [motion.bands for _some, motion in motions(orbit, base, loose, wanted, follow=follow)]
     order = np.unique(np.concatenate([part.order for part in parts]).round(9))
     amplitude = np.zeros((len(wanted), len(orbit.model.elements), len(order)), dtype=complex)
     begin = 0
