@@ -124,6 +124,7 @@ SHOWN = {
         "max_speed_rpm",
         "confidence",
     ),
+    "shaft_seals": ("id", "seal_diameter_mm", "outer_mm", "width_mm", "confidence"),
     "faults": ("id", "fault", "orders", "torque_sensitive", "source", "confidence"),
 }
 """Keys of tables that are too wide to show whole."""

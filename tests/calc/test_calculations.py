@@ -65,6 +65,7 @@ FIRST = {case["capability"]: case["inputs"] for case in reversed(CASES)} | {
     "double_joint": {"alpha12_deg": 20, "alpha23_deg": 15, "arrangement": "a"},
     "collinear_joints": {"alpha_deg": [20, 15], "sign": [1, -1]},
     "ball_bearing_life": {"C_N": 25700, "C0_N": 15300, "radial_force_N": 2800, "axial_force_N": 1600, "speed_rpm": 650},
+    "seal_friction": {"seal_diameter_m": 0.04, "speed_rpm": 1500},
     "groove_offset": {"alpha_deg": 40, "plane_tilt_deg": 0.5, "axial_play_m": 1e-4},
     "length_compensation": {
         "points0_m": [[-1, 0, 0], [0, 0, 0], [1, 0, -0.2], [2, 0, -0.2]],

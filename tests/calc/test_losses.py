@@ -111,3 +111,11 @@ def test_each_part_stands_alone():
     found = [calc("efficiency_spline_branches_factors", {key: PARTS[key] for key in part}) for part in parts]
     assert found[0] | found[1] | found[2] == whole
     assert [len(one) for one in found] == [1, 1, 2]
+
+
+def test_a_seal_by_the_formula_of_the_technical_report():
+    found = calc("seal_friction", {"seal_diameter_m": [0.04, 0.08], "speed_rpm": 1500})
+    assert found["power_loss_W"] == pytest.approx([7.69e-6 * d**2 * 1500 for d in (40, 80)])
+    assert found["friction_torque_Nm"] == pytest.approx([7.69e-6 * d**2 * 30 / np.pi for d in (40, 80)])
+    assert set(calc("seal_friction", {"seal_diameter_m": 0.04})) == {"friction_torque_Nm"}
+    assert fields("seal_friction", {"seal_diameter_m": 0}) == ["seal_diameter_m"]

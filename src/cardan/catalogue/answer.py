@@ -31,6 +31,7 @@ SHOWN = {
         "rating.max_speed_rpm",
     ),
     "bearings": ("bore_mm", "outer_mm", "width_mm", "capacity_N", "static_capacity_N", "max_speed_rpm", "mass_kg"),
+    "shaft_seals": ("seal_diameter_mm", "outer_mm", "width_mm"),
     "faults": ("orders", "torque_sensitive", "flags"),
 }
 """Table -> keys that stand for people, where not all of them fit."""

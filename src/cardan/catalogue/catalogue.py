@@ -55,6 +55,7 @@ FILES: Mapping[str, tuple[str, ...]] = {
     "example_sizes": ("joint_sizes",),
     "joint_sizes": ("joint_sizes",),
     "bearings": ("bearings",),
+    "shaft_seals": ("shaft_seals",),
     "norms": NORMS,
     "limits": ("limits",),
     "factors": ("factors",),

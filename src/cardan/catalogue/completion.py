@@ -1,8 +1,8 @@
-"""Names in a drive and what the catalogue says of them: materials by grade, joints by size, bearings of supports."""
+"""Names in a drive and what the catalogue says of them: materials by grade, joints by size, parts of supports."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
@@ -17,13 +17,16 @@ from cardan.errors import InputError, Problem, check
 from cardan.texts import _
 
 from .catalogue import Catalogue, catalogue, material, ply
-from .rows import Bearing, JointSize, JointType
+from .rows import Bearing, JointSize, JointType, Row, ShaftSeal
 
 SIZED = ("mass", "cross", "needles", "yoke", "rating")
 """Fields of a joint that a size of the catalogue fills where the drive does not give them."""
 
-BORNE = ("bore", "capacity", "static_capacity", "max_speed")
-"""Fields of a support that its bearing fills."""
+BORNE: Mapping[str, tuple[type[Row], tuple[str, ...]]] = {
+    "bearing": (Bearing, ("bore", "capacity", "static_capacity", "max_speed")),
+    "seal": (ShaftSeal, ("seal_diameter", "max_lip_speed")),
+}
+"""Field of a support that names a row -> what the row is, and the fields that it fills."""
 
 
 def completed(drive: Drive, known: Catalogue | None = None) -> Drive:
@@ -65,7 +68,7 @@ def filled(drive: Drive, known: Catalogue | None = None) -> Drive:
 def sized(drive: Drive, known: Catalogue | None = None) -> Drive:
     """Return a drive completed for a picture: one whose joints name sizes that nobody knows is drawn without them."""
     with suppress(InputError):
-        named = any(joint.size for joint in drive.joints) or any(one.bearing for one in drive.supports)
+        named = any(joint.size for joint in drive.joints) or any(one.bearing or one.seal for one in drive.supports)
         return filled(drive, known) if named else drive
     return drive
 
@@ -103,11 +106,13 @@ def _unknown(drive: Drive, rows: Catalogue) -> Iterator[Problem]:
             said = text.format(type=repr(joint.type), kinds=", ".join(others), kind=joint.in_words())
             yield Problem(f"joints[{i}].type", said, "inconsistent")
     for k, support in enumerate(drive.supports):
-        try:
-            if support.bearing:
-                rows.row(Bearing, support.bearing, field=f"supports[{k}].bearing")
-        except InputError as error:
-            yield from error.problems
+        for name, (kind, _filled) in BORNE.items():
+            given = getattr(support, name)
+            try:
+                if given:
+                    rows.row(kind, given, field=f"supports[{k}].{name}")
+            except InputError as error:
+                yield from error.problems
 
 
 def _filled_in(thing: Material | Ply, rows: Catalogue, path: str = "") -> Material | Ply:
@@ -137,17 +142,21 @@ def _over(given: Any, usual: Any) -> Any:
 
 
 def _borne(support: Support, rows: Catalogue) -> Support:
-    if not support.bearing:
-        return support
-    row = rows.row(Bearing, support.bearing)
-    return replace(support, **{name: _over(getattr(support, name), getattr(row, name)) for name in BORNE})
+    found: dict[str, Any] = {}
+    for naming, (kind, names) in BORNE.items():
+        if given := getattr(support, naming):
+            row = rows.row(kind, given)
+            found |= {name: _over(getattr(support, name), getattr(row, name)) for name in names}
+    return replace(support, **found) if found else support
 
 
 def _unborne(support: Support, rows: Catalogue) -> Support:
-    row = rows.rows(Bearing).get(support.bearing) if support.bearing else None
-    if row is None:
-        return support
-    return replace(support, **{name: _under(getattr(support, name), getattr(row, name), rows) for name in BORNE})
+    bare: dict[str, Any] = {}
+    for naming, (kind, names) in BORNE.items():
+        row = rows.rows(kind).get(getattr(support, naming))
+        if row is not None:
+            bare |= {name: _under(getattr(support, name), getattr(row, name), rows) for name in names}
+    return replace(support, **bare) if bare else support
 
 
 def _unsized(joint: Joint, rows: Catalogue) -> Joint:

@@ -11,7 +11,8 @@ from cardan.errors import InputError
 from cardan.texts import _
 
 from .catalogue import Catalogue, ply
-from .rows import UNSURE, Bearing, JointSize, Lamina, Row, sureness
+from .completion import BORNE
+from .rows import UNSURE, JointSize, Lamina, Row, sureness
 
 _STEP = re.compile(r"(\w+)((?:\[\d+\])*)")
 _PART = re.compile(r"joints\[(\d+)\]\.\w+\.")
@@ -19,7 +20,7 @@ _HOLD = re.compile(r"supports\[(\d+)\]\.(\w+)$")
 
 
 def rows_behind(drive: Drive, known: Catalogue, *paths: str) -> tuple[Row, ...]:
-    """Return the rows of the catalogue, sizes of joints, bearings, grades of materials, whose figures stand at paths.
+    """Return the rows of the catalogue whose figures stand at paths: sizes, bearings, seals, grades of materials.
 
     drive: filled in from the catalogue; a figure that differs from that of its size or its grade is its own.
     paths: without units, as ``joints[0].cross.span`` or ``shafts[1].material.yield_strength``.
@@ -56,9 +57,12 @@ def _row(drive: Drive, known: Catalogue, path: str) -> Row | None:
         return lamina if lamina is not None and own == ply(own.grade, known=known) else None
     held = _HOLD.match(path)
     if held:
-        bearing = known.rows(Bearing).get(drive.supports[int(held[1])].bearing)
-        usual = getattr(bearing, held[2], None)
-        return bearing if usual is not None and usual == _at(drive, path) else None
+        support = drive.supports[int(held[1])]
+        for naming, (kind, names) in BORNE.items():
+            named = known.rows(kind).get(getattr(support, naming)) if held[2] in names else None
+            if named is not None and getattr(named, held[2]) == getattr(support, held[2]):
+                return named if getattr(named, held[2]) is not None else None
+        return None
     match = _PART.match(path)
     size = known.rows(JointSize).get(drive.joints[int(match[1])].size) if match else None
     if size is None:

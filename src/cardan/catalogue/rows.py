@@ -220,6 +220,21 @@ class Bearing(Row):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class ShaftSeal(Row):
+    """A rotary shaft lip seal, by the size it is ordered by."""
+
+    seal_diameter: float = quantity("length", doc="diameter of the shaft under its lip", above=0.0)
+    outer: float = quantity("length", doc="bore of the housing it sits in", above=0.0)
+    width: float = quantity("length", doc="width", above=0.0)
+    max_lip_speed: float | None = quantity(
+        "speed", None, doc="largest speed of the shaft's surface under its lip", above=0.0
+    )
+
+    def __post_init__(self) -> None:
+        check(_below(self.outer, self.seal_diameter, "outer", _("is below the diameter of the shaft")))
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class AngleNorm(Row):
     """Largest angular accelerations that unequal joint angles may cause."""
 
@@ -359,6 +374,7 @@ TABLES: dict[str, type[Row]] = {
     "joint_types": JointType,
     "joint_sizes": JointSize,
     "bearings": Bearing,
+    "shaft_seals": ShaftSeal,
     "angle_norms": AngleNorm,
     "speed_angle_limits": SpeedAngleLimit,
     "max_joint_angles": MaxJointAngle,

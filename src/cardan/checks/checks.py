@@ -62,7 +62,7 @@ from .strength.joints import (
     small_oscillation,
     yoke_strength,
 )
-from .supports import support_life, support_speed, support_static
+from .supports import seal_speed, support_life, support_speed, support_static
 from .torsion import parametric_stability, start_fatigue, torque_reversal, torsional_resonance
 from .verdict import Verdict
 
@@ -80,6 +80,7 @@ CHECKS: dict[str, Check] = {
         support_life,
         support_static,
         support_speed,
+        seal_speed,
         speed_angle,
         rim_speed,
         journal_strength,

@@ -42,4 +42,13 @@ class Support:
     max_speed: float | None = quantity("angular_speed", None, doc="limiting speed of its bearing", above=0.0)
     bore: float | None = quantity("length", None, doc="diameter at which its friction acts", above=0.0)
     friction: float | None = plain(None, doc="coefficient of friction, at the diameter `bore`", low=0.0)
+    seal: str = plain("", doc="shaft seal, a row of the catalogue: 40x62x8; brings `seal_diameter`")
+    seal_diameter: float | None = quantity("length", None, doc="diameter of the shaft under its lip seals", above=0.0)
+    max_lip_speed: float | None = quantity(
+        "speed",
+        None,
+        doc="largest speed of the shaft's surface under its seals: the maker's, by rubber and lubricant",
+        above=0.0,
+    )
+    seals: int = plain(1, doc="how many lip seals it has, where it has any", low=1)
     offset: Point = quantity("length", (0.0, 0.0, 0.0), doc="displacement of the housing there [x, y, z]")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -47,6 +48,38 @@ def reduced_friction(material: ArrayLike, *, fit: str = "new") -> Array:
     if fit not in FIT:
         raise refuse("fit", _("{value} is none of {choices}").format(value=repr(fit), choices=", ".join(FIT)))
     return FIT[fit] * real(material, namespace(material))
+
+
+SEAL = 7.69e-6 * 1e6 * 30.0 / math.pi
+"""Friction torque of a lip seal over the square of the shaft's diameter [N/m]: 7.69e-6 W/(mm² rpm)."""
+
+
+def seal_friction(diameter: ArrayLike) -> Array:
+    """Return the friction torque of rotary shaft lip seals.
+
+    Parameters
+    ----------
+    diameter : array (...) [m]
+        d, of the shaft under the lip.
+
+    Returns
+    -------
+    array (...) [N·m]
+
+    Notes
+    -----
+    ISO/TR 14179-2: P = 7.69e-6 d² n in W, with d in mm and n in rpm, so that the torque is the same at every speed. A
+    guide value for one run-in lip in oil: rubber, lubricant, temperature and a dust lip change it by half and more.
+
+    Examples
+    --------
+    >>> from cardan.units import mm, rpm
+    >>> torque = seal_friction(40 * mm)
+    >>> print(f"{torque:.4f} N·m, {torque * 1500 * rpm:.2f} W")
+    0.1175 N·m, 18.46 W
+    """
+    d = real(diameter, namespace(diameter))
+    return SEAL * d * d
 
 
 def swings(sine: Array, cosine: Array, joint_angle: Array) -> tuple[Array, Array]:

@@ -98,3 +98,17 @@ def test_a_drive_of_supports_alone_lasts_as_they_do():
     found = judged(drive)["support_life"].value
     rated = (*SUPPORTS[:2], replace(SUPPORTS[2], capacity=25.7e3, static_capacity=15.3e3))
     assert found == life(replace(drive, supports=rated)).drive
+
+
+def test_the_speed_under_a_lip_is_half_the_diameter_times_the_speed():
+    sealed = (*SUPPORTS[:2], replace(SUPPORTS[2], seal="40x62x8", seal_diameter=0.04, max_lip_speed=2.0))
+    found = {one.check: one for one in check(single(supports=sealed), only=("seal_speed",))}["seal_speed"]
+    assert found.value == pytest.approx(math.pi * 0.04 * 1000 / 60, rel=1e-12)
+    assert (found.subject, found.state, found.limit) == ("supports[2]", "failed", 2.0)
+    assert found.title == "speed under the seals of support 3 (centre)"
+    assert [one.missing for one in check(single(duty=Duty(), supports=sealed), only=("seal_speed",))] == [
+        ("duty.speed",)
+    ]
+    swept = check(single(supports=sealed), only=("seal_speed",), vary={"duty.speed_rpm": [900.0, 1000.0]})
+    assert list(swept[0].passed) == [True, False]
+    assert not check(single(), only=("seal_speed",))

@@ -29,6 +29,7 @@ OFFERED = {
     "type": "joint_types",
     "size": "joint_sizes",
     "bearing": "bearings",
+    "seal": "shaft_seals",
     "grade": "materials",
     "norm": "angle_norms",
 }

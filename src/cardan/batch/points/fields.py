@@ -146,7 +146,7 @@ class Maker:
         """The drive as its file says it, so that a size that varies brings its own figures."""
         if isinstance(self.drive, Mechanism):
             return self.drive
-        named = any(one.bare.endswith((".size", ".type", ".grade", ".bearing")) for one in self.spots)
+        named = any(one.bare.endswith((".size", ".type", ".grade", ".bearing", ".seal")) for one in self.spots)
         return shortened(self.drive, self.known) if named else self.drive
 
     def drive_at(self, values: Mapping[str, Any]) -> Drive | Mechanism:

@@ -1,4 +1,4 @@
-"""Losses: one joint, a chain of joints, splines, branches, coefficients of journals."""
+"""Losses: one joint, a chain of joints, splines, branches, seals, coefficients of journals."""
 
 from __future__ import annotations
 
@@ -9,7 +9,13 @@ import numpy as np
 from cardan.calc.calculation import Formulas, Problems, Values
 from cardan.calc.motion.kinematics import START, YOKES, between, drives, joint_angles, joints_of, points, twists
 from cardan.errors import Problem, check
-from cardan.formulas.friction import branch_efficiency, joint_friction, reduced_friction, spline_efficiency
+from cardan.formulas.friction import (
+    branch_efficiency,
+    joint_friction,
+    reduced_friction,
+    seal_friction,
+    spline_efficiency,
+)
 from cardan.questions.losses.chain_friction import chain_friction
 from cardan.reading.given import at_least_zero, joint_angle, positive, word
 from cardan.texts import _
@@ -145,3 +151,16 @@ def _efficiency_spline_branches_factors(v: Values) -> Any:
         found["mu_reduced_new_pin"] = reduced_friction(v.mu_material)
         found["mu_reduced_worn_pin"] = reduced_friction(v.mu_material, fit="run_in")
     return found
+
+
+@formula(
+    "friction torque of a rotary shaft lip seal, and what it turns to heat at a speed",
+    "ISO/TR 14179-2; a guide value for one lip in oil",
+    positive("seal_diameter_m", "diameter of the shaft under the lip", axes=(0, 1)),
+    positive("speed_rpm", "speed of the shaft", axes=(0, 1), default=None),
+    "friction_torque_Nm: friction torque",
+    "power_loss_W: power turned to heat; where the speed is given",
+)
+def _seal_friction(v: Values) -> Any:
+    torque = seal_friction(v.seal_diameter)
+    return {"friction_torque_Nm": torque, **({} if v.speed is None else {"power_loss_W": torque * v.speed})}

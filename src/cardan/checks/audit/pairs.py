@@ -294,7 +294,7 @@ def _rubs(asked: Asked) -> bool:
         return False
     if whole is None or whole.cross_inertia is not None or wobbling(asked.drive):
         return False  # losses leave the wobble of shafts out, and say so
-    return float(np.sum(found.supports) + np.sum(found.splines)) <= RUBBING * SAMPLED * abs(found.input_power)
+    return found.heat - float(np.sum(found.joints)) <= RUBBING * SAMPLED * abs(found.input_power)
 
 
 def _heat_of_forces(asked: Asked) -> Values:

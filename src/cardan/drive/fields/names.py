@@ -16,7 +16,7 @@ def names_rows(drive: Described) -> bool:
     return (
         bool(drive.settings.catalogues)
         or any(joint.size or joint.type for joint in drive.joints)
-        or any(support.bearing for support in drive.supports)
+        or any(support.bearing or support.seal for support in drive.supports)
         or any(True for _named in grades(drive))
     )
 

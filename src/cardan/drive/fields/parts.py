@@ -192,6 +192,8 @@ def _support(support: Support, joints: int, length: dict[int, float], path: str)
             yield Problem(f"{path}.{name}", _("counts only with {needs} = true").format(needs=needs))
     if support.friction is not None and support.bore is None and not support.bearing:
         yield Problem(f"{path}.bore", _("missing: friction acts at the bore"))
+    if (support.seals > 1 or support.max_lip_speed is not None) and support.seal_diameter is None and not support.seal:
+        yield Problem(f"{path}.seal_diameter", _("missing: seals rub on the shaft under their lips"))
 
 
 def place_problems(

@@ -158,6 +158,7 @@ def _model(drive: Drive, machine: Train, duty: Duty, chain: Chain, parts: Sequen
         torque_scale=duty.torque or 0.0,
         rub=np.zeros(0),
         on=np.zeros(0, dtype=int),
+        seal=np.zeros(0),
         grip=none,
         slide=none,
         rubbing=rubbing_of(drive.joints, many=bool(drive.movements)),

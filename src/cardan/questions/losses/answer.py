@@ -44,7 +44,7 @@ ALLOWED = 1e-9
 def lacking(drive: Drive) -> Lacking:
     """Return what the drive file lacks for the power loss."""
     joints = any(joint.friction is not None or joint.material_friction is not None for joint in drive.joints)
-    supports = any(support.friction is not None for support in drive.supports)
+    supports = any(one.friction is not None or one.seal_diameter is not None for one in drive.supports)
     splines = any(shaft.spline is not None and shaft.spline.friction is not None for shaft in drive.shafts)
     timed = [case for case in load_cases(drive.duty) if case.share > 0.0] or [*load_cases(drive.duty)[:1]]
     return absent(
@@ -245,6 +245,12 @@ def _remarks(drive: Drive, result: Losses, over: LossMap | None) -> Iterator[Rem
         )
         rules = {"first": result.first_order, "small": result.small_angle}
         yield Remark(text=say(text, **{name: Quantity(value, "share", 5) for name, value in rules.items()}), aside=True)
+    if any(support.seal_diameter is not None for support in drive.supports):
+        text = _(
+            "Seals count with the guide value of ISO/TR 14179-2 for a lip in oil; rubber, lubricant, temperature and "
+            "dust lips change it by half and more."
+        )
+        yield Remark(text=text, code="seal_guide_value")
     taken = float(np.sum(result.resisting))
     if taken:
         yield Remark(text=say(_("Resisting torques of the shafts take another {power}."), power=power(taken)))
@@ -396,7 +402,12 @@ def _facts(drive: Drive, result: Losses) -> dict[str, Any]:
             for i, joint in enumerate(drive.joints)
         ],
         "supports": [
-            {"number": k + 1, "name": one.name, "power_loss": watts(result.supports[k])}
+            {
+                "number": k + 1,
+                "name": one.name,
+                "power_loss": watts(result.supports[k]),
+                "seals_power_loss": watts(result.seals[k]),
+            }
             for k, one in enumerate(drive.supports)
         ],
         "shafts": [

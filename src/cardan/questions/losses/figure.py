@@ -39,6 +39,10 @@ def power(value: float, digits: int = 4) -> Quantity:
     return Quantity(value, "power", digits, unit="kW" if abs(value) >= LARGE else "")
 
 
+MAYBE = {"seals": "seal_diameter", "shafts": "spline"}
+"""Kind of part that not every support or shaft has -> the field that says that it is there."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class LossyPart:
     """A part that loses power."""
@@ -55,26 +59,33 @@ def losses_figures(found: Losses, drive: Drive | None = None) -> tuple[Figure, .
 
 
 def loss_parts(found: Losses, drive: Drive | None = None) -> list[LossyPart]:
-    """Return every part that may lose power: joints, supports, splines.
+    """Return every part that may lose power: joints, supports, seals, splines.
 
     found: of one drive.
-    drive: for the names of its parts and for its splines; those that lose something when it is not given.
+    drive: for the names of its parts, for its seals and splines; those that lose something when it is not given.
     """
     return list(_parts(found, drive))
 
 
 def _parts(found: Losses, drive: Drive | None) -> Iterator[LossyPart]:
     left_out = {(one.part, one.number) for one in found.uncounted}
-    texts = {"joints": _("joint {number}"), "supports": _("support {number}"), "shafts": _("spline of shaft {number}")}
+    texts = {
+        "joints": _("joint {number}"),
+        "supports": _("support {number}"),
+        "seals": _("seals of support {number}"),
+        "shafts": _("spline of shaft {number}"),
+    }
     rows = (
         *(("joints", k, loss, shaft(k + 1)) for k, loss in enumerate(found.joints, 1)),
         *(("supports", k, loss, "muted") for k, loss in enumerate(found.supports, 1)),
+        *(("seals", k, loss, "muted") for k, loss in enumerate(found.seals, 1)),
         *(("shafts", k, loss, shaft(k)) for k, loss in enumerate(found.splines, 1)),
     )
     for kind, k, loss, role in rows:
-        if kind == "shafts" and (drive.shafts[k - 1].spline is None if drive is not None else not loss):
+        own = None if drive is None else getattr(drive, "supports" if kind == "seals" else kind)[k - 1]
+        if kind in MAYBE and (not loss if own is None else getattr(own, MAYBE[kind]) is None):
             continue
-        name = "" if drive is None else getattr(drive, kind)[k - 1].name
+        name = "" if own is None else own.name
         yield LossyPart(
             named=texts[kind].format(number=numbered(k, name)),
             loss=float(loss),

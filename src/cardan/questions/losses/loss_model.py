@@ -61,6 +61,7 @@ class Model:
     torque_scale: float = 0.0  # [N·m]: torque to which the harmonics belong; zero when they do not grow with it
     rub: Array  # (k,) [m]: μ_b d_b/2 of each support
     on: Array  # (k,) of int: shaft of each support, counted from 0
+    seal: Array  # (k,) [N·m]: friction torque of the seals of each support
     # from input angles (..., p) to how the supports answer there; None when none of them rubs
     holding: Callable[[Array], Holding] | None = None
     grip: Array  # grip, slide (n+1,) [1/m, m/s]: 2 μ/D and the mean sliding speed of the spline of each shaft
@@ -89,7 +90,8 @@ class Powers:
     output_torque: Array  # (...) [N·m]
     driving: Array  # driving, driven (..., n): rubbed away in the journals of the driving and of the driven yokes
     driven: Array  # (..., n)
-    supports: Array  # (..., k): rubbed away in the supports
+    supports: Array  # (..., k): rubbed away in the bearings of the supports
+    seals: Array  # (..., k): rubbed away under their seals
     splines: Array  # (..., n+1): rubbed away in the splines; it comes from what moves the drive, not from its turning
     resisting: Array  # resisting, storing (..., n+1): taken by resisting torques, and by inertia
     storing: Array  # (..., n+1)
@@ -111,14 +113,16 @@ def moving(model: Model, angle: Array) -> Motion:
 
 
 def flowing(model: Model, moved: Motion) -> tuple[TorqueFlow, Array]:
-    """Return the torques of all cases at their positions, and the friction torque of the supports (..., k, p) [N·m].
+    """Return the torques of all cases at their positions, and what the bearings of the supports rub (..., k, p) [N·m].
 
     The forces on the supports come from the torques and these from the friction in the supports: begun without it, the
     round is gone until it rests; each round gains the digits of one coefficient of friction.
     """
     omega = np.asarray(model.speed)[..., None, None]
     speeding = model.acceleration * moved.shaft_ratio + omega**2 * moved.shaft_slope
+    ways = (model.on == np.arange(model.inertia.size)[:, None]).astype(float)
     own = model.resisting[:, None] + model.inertia[:, None] * speeding
+    own = own + np.sign(omega) * np.matmul(ways, model.seal)[:, None]
     load = _load(model, moved)
 
     def flow(drawn: Array) -> TorqueFlow:
@@ -131,7 +135,6 @@ def flowing(model: Model, moved: Motion) -> tuple[TorqueFlow, Array]:
     if model.holding is None:
         return found, rubbing
     held = model.holding(moved.angle)
-    ways = (model.on == np.arange(own.shape[-2])[:, None]).astype(float)
     for _round in range(ROUNDS):
         before, rubbing = rubbing, model.rub[:, None] * held.load(found.couple, sense)
         found = flow(own + np.sign(omega) * np.matmul(ways, rubbing))
@@ -165,6 +168,7 @@ def powers(model: Model, angle: Array) -> Powers:
         driving=np.abs(omega) * flow.driving_loss,
         driven=np.abs(omega) * flow.driven_loss,
         supports=rubbing * np.abs(speed[..., model.on, :]),
+        seals=model.seal[:, None] * np.abs(speed[..., model.on, :]),
         splines=(model.grip * model.slide)[:, None] * between,
         resisting=model.resisting[:, None] * speed,
         storing=model.inertia[:, None] * speeding * speed,
@@ -180,7 +184,11 @@ def mean_powers(model: Model) -> Powers:
     period = count * np.pi
     outer = np.broadcast_shapes(np.shape(model.speed), np.shape(model.torque))
     places = np.ravel(kinks(model.chain)[:, None] + np.pi * np.arange(count))
-    turning = _reversals(model, outer, period) if model.harmonics or np.any(model.inertia + model.resisting) else None
+    turning = (
+        _reversals(model, outer, period)
+        if model.harmonics or any(map(np.any, (model.inertia, model.resisting, model.seal)))
+        else None
+    )
     if turning is not None:
         places = np.concatenate((np.broadcast_to(places, (*outer, places.size)), turning), axis=-1)
     names = tuple(Powers.__dataclass_fields__)

@@ -13,6 +13,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.joints import Joint
 from cardan.drive.models.dynamics_model import Train, place_of, train
 from cardan.errors import InputError, Problem, check
+from cardan.formulas.friction import seal_friction
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.questions.forces.kinetostatics import KinematicState, inner_friction, sprung, standing
@@ -54,6 +55,7 @@ class Parts:
 
     train: Train  # its machine half; without supports where they cannot be balanced
     rub: Array  # (k,) [m]: μ_b d_b/2 of each support
+    seal: Array  # (k,) [N·m]: friction torque of its seals
     grip: Array  # (n+1,) [1/m]: thrust over torque of the spline of each shaft
     slide: Array  # (n+1,) [m/s]: its mean sliding speed
 
@@ -68,6 +70,7 @@ def counted(drive: Drive, duty: Duty) -> tuple[Parts, tuple[Uncounted, ...]]:
             [Uncounted(field=p.field, message=p.message, part="supports", missing=False) for p in error.problems],
         )
     rub, supports = _supports(drive, machine, short)
+    seal = np.asarray([one.seals * float(seal_friction(one.seal_diameter or 0.0)) for one in drive.supports])
     slide, splines = _splines(drive)
     joints = list(_joints(drive))
     grip = np.zeros(len(drive.shafts))
@@ -83,13 +86,13 @@ def counted(drive: Drive, duty: Duty) -> tuple[Parts, tuple[Uncounted, ...]]:
         )
     if duty.torque is None:
         problems.append(Problem("duty.torque", _("missing; friction grows with the torque"), "missing"))
-    if len(joints) == len(drive.joints) and not np.any(rub) and not np.any(grip * slide):
+    if len(joints) == len(drive.joints) and not np.any(rub) and not np.any(seal) and not np.any(grip * slide):
         # what can be added is told; why a kind has none only where nothing can be
         problems += [Problem(one.field, one.message) for one in uncounted if one.missing or one.part == "supports"] or [
             Problem(one.field, one.message, "unknown_kind") for one in uncounted
         ]
     check(problems)
-    return Parts(train=machine, rub=rub, grip=grip, slide=slide), uncounted
+    return Parts(train=machine, rub=rub, seal=seal, grip=grip, slide=slide), uncounted
 
 
 def _joints(drive: Drive) -> Iterator[Uncounted]:
@@ -185,6 +188,7 @@ def model_of(drive: Drive, duty: Duty, parts: Parts) -> Model:
         harmonics=duty.harmonics,
         torque_scale=duty.torque or 0.0,
         rub=parts.rub,
+        seal=parts.seal,
         on=np.asarray([support.shaft - 1 for support in drive.supports], dtype=int),
         holding=holding if np.any(parts.rub) else None,
         grip=parts.grip,

@@ -57,7 +57,9 @@ class Losses:
     driving_pins, driven_pins : arrays (n,) [W]
         Heat of each joint, in the journals of the driving and of the driven yoke.
     supports : array (k,) [W]
-        Heat of each support; zero where it could not be counted.
+        Heat of the bearing of each support; zero where it could not be counted.
+    seals : array (k,) [W]
+        Heat under the lip seals of each support.
     splines : array (n+1,) [W]
         Heat of the spline of each shaft while the drive moves; what moves the drive pays for it.
     resisting, storing : arrays (n+1,) [W]
@@ -99,6 +101,7 @@ class Losses:
     driving_pins: Array
     driven_pins: Array
     supports: Array
+    seals: Array
     splines: Array
     resisting: Array
     storing: Array
@@ -125,7 +128,7 @@ class Losses:
     @property
     def heat(self) -> float:
         """Heat of all parts [W]."""
-        return float(np.sum(self.joints) + np.sum(self.supports) + np.sum(self.splines))
+        return float(sum(map(np.sum, (self.joints, self.supports, self.seals, self.splines))))
 
     def at(self, name: str, share: float | None) -> LossesAt:
         """Return what of it is told beside other conditions, under a name and with a share of the time."""
@@ -155,7 +158,9 @@ class LossMap:
     joints : array (s, t, n) [W]
         Of each joint.
     supports : array (s, t, k) [W]
-        Of each support.
+        Of the bearing of each support.
+    seals : array (s, t, k) [W]
+        Of the lip seals of each support.
     input_power, output_power : arrays (s, t) [W]
         At both ends.
     uncounted : tuple of Uncounted
@@ -168,6 +173,7 @@ class LossMap:
     heat: Array
     joints: Array
     supports: Array
+    seals: Array
     input_power: Array
     output_power: Array
     uncounted: tuple[Uncounted, ...]
@@ -179,7 +185,8 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
     Parameters
     ----------
     drive : Drive
-        With friction of joints, spans and journals of their crosses; better with friction and bore of its supports.
+        With friction of joints, spans and journals of their crosses; better with friction, bore and seals of its
+        supports.
     duty : Duty, optional
         Speed and torque, or load cases; those of the drive by default.
     movement : Movement or sequence of Movement, optional
@@ -201,9 +208,10 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
     Notes
     -----
     Coulomb friction acting on itself: the cross of joint i carries T_i n and rubs with κ\\|T_i\\| in both yokes
-    (κ = μ d_c/d), every support with μ_b d_b/2 times the force on it, a spline with 2 μ\\|M\\|/D against sliding.
-    Inertia and resisting torques of the shafts count; crosses are taken without mass. Powers are integrated between
-    the angles at which friction turns about. Over movements, poses and load cases they are means by the time.
+    (κ = μ d_c/d), every support with μ_b d_b/2 times the force on it, its seals with a torque of their own
+    (`seal_friction`), a spline with 2 μ\\|M\\|/D against sliding. Inertia and resisting torques of the shafts count;
+    crosses are taken without mass. Powers are integrated between the angles at which friction turns about. Over
+    movements, poses and load cases they are means by the time.
 
     Examples
     --------
@@ -281,6 +289,7 @@ def _losses(
         driving_pins=mean.driving,
         driven_pins=mean.driven,
         supports=mean.supports[:own],
+        seals=mean.seals[:own],
         splines=mean.splines,
         resisting=mean.resisting,
         storing=mean.storing,
@@ -312,6 +321,7 @@ MEANS = (
     "driving_pins",
     "driven_pins",
     "supports",
+    "seals",
     "splines",
     "resisting",
     "storing",
@@ -410,7 +420,7 @@ def loss_map(
     )
     mean = mean_powers(model)
     joints = mean.driving + mean.driven
-    heat = np.sum(joints, axis=-1) + np.sum(mean.supports, axis=-1) + np.sum(mean.splines, axis=-1)
+    heat = sum(np.sum(one, axis=-1) for one in (joints, mean.supports, mean.seals, mean.splines))
     return LossMap(
         speed=speeds,
         torque=torques,
@@ -418,6 +428,7 @@ def loss_map(
         heat=heat,
         joints=joints,
         supports=mean.supports[..., :own],
+        seals=mean.seals[..., :own],
         input_power=mean.input,
         output_power=mean.output,
         uncounted=uncounted,
@@ -451,7 +462,7 @@ def _efficiency(mean: Powers) -> Array:
     backwards = np.maximum(-mean.input, 0.0), np.maximum(-mean.output, 0.0) + moving
     ahead = np.asarray(mean.output >= 0.0)
     useful, put_in = (np.where(ahead, one, other) for one, other in zip(forwards, backwards, strict=True))
-    heat = moving + sum(np.sum(one, axis=-1) for one in (mean.driving, mean.driven, mean.supports))
+    heat = moving + sum(np.sum(one, axis=-1) for one in (mean.driving, mean.driven, mean.supports, mean.seals))
     put_in = np.maximum(put_in, useful + heat)  # what shafts are driven with beside, and rounding
     found: Array = np.where(put_in > 0.0, useful / np.where(put_in > 0.0, put_in, 1.0), np.nan)
     return found
@@ -460,7 +471,7 @@ def _efficiency(mean: Powers) -> Array:
 def _residual(mean: Powers) -> Array:
     """Return what the balance of the means misses, over the larger end."""
     parts = mean.driving, mean.driven
-    taken = sum(np.sum(one, axis=-1) for one in (*parts, mean.supports, mean.resisting, mean.storing))
+    taken = sum(np.sum(one, axis=-1) for one in (*parts, mean.supports, mean.seals, mean.resisting, mean.storing))
     size = np.maximum(np.abs(mean.input), np.abs(mean.output))
     found: Array = np.abs(mean.input - mean.output - taken) / np.where(size > 0.0, size, 1.0)
     return found

@@ -569,6 +569,7 @@ def friction_left_out(drive: Drive) -> Iterator[Remark]:
         (_("joints"), any(one.friction or one.material_friction for one in drive.joints)),
         (_("splines"), bool(splines)),
         (_("supports"), any(one.friction for one in drive.supports)),
+        (_("seals"), any(one.seal_diameter for one in drive.supports)),
     )
     if any(there for _name, there in rubbing):
         text = _(
