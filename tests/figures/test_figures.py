@@ -21,7 +21,7 @@ from cardan.book.figure import book_figure
 from cardan.drive.drive import Drive
 from cardan.drive.models.wobble import wobbling
 from cardan.figures.axes import axis, steps, written
-from cardan.figures.figure import Bars, Curve
+from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row
 from cardan.figures.for_reader import for_reader
 from cardan.figures.page import laid_out
 from cardan.figures.render_matplotlib import render
@@ -318,3 +318,26 @@ def test_every_result_with_figures_is_found_from_its_own_folder():
     assert len(found) > 40
     for kind, made in found.items():
         assert figures._maker(kind) is made
+
+
+def test_words_at_the_right_end_stay_on_the_page():
+    """A last tick in the middle of its place, and the text of the longest bar, as a browser draws them."""
+    bars = Bars(
+        at=np.asarray([2.0, 1.0]), size=np.asarray([15285.0, 125062.0]), texts=("15 285 rpm", "125 062 rpm"), lying=True
+    )
+    along = Axis(low=0.0, high=140070.0, ticks=(0.0, 140000.0), texts=("0", "140 000"))
+    figure = Figure(
+        name="x",
+        title="",
+        sentence="",
+        source="",
+        rows=(Row(panels=(Panel(series=(bars,), x=along, y=Axis(low=0.0, high=3.0)),)),),
+    )
+    short = replace(
+        figure, rows=(Row(panels=(Panel(series=(replace(bars, texts=("", "")),), x=replace(along, texts=("0", ""))),)),)
+    )
+    one, other = (laid_out(each, words=False) for each in (figure, short))
+    box, wider = one.panels[0][1], other.panels[0][1]
+    assert box.left + box.width * 140000 / 140070 + 0.5 * 7 * 0.059 <= one.width
+    assert box.left + box.width * 125062 / 140070 + 0.1 + 11 * 0.059 <= one.width
+    assert box.width < wider.width

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,8 +16,14 @@ from .figure import Axis, Band, Bars, Curve, Figure, Mesh, Panel, Row, Rule, Sha
 LETTER = 0.066
 """Width of an average letter of 8.5 pt."""
 
+TICK_LETTER = 0.059
+"""Width of an average letter of ticks and of the texts of bars."""
+
 RULE_LETTER = 0.055
 """Width of an average letter beside a rule."""
+
+GAP = 0.12
+"""Free to the right of each panel."""
 
 BROADER = 0.2
 """By how much a Cyrillic letter is wider than an average Latin one, in the usual fonts."""
@@ -68,13 +74,14 @@ def laid_out(figure: Figure, *, words: bool) -> Page:
     legend, top = _legend(figure, top)
     panels: list[tuple[Panel, Box]] = []
     rooms = _rooms(figure)
+    ends = _ends(figure, rooms)
     for index, row in enumerate(figure.rows):
         above = 0.28 if any(panel.heading for panel in row.panels) else 0.06
         marked = any(not panel.bare and panel.x.texts for panel in row.panels)
         named = any(not panel.bare and panel.x.title for panel in row.panels)
         below = (0.24 if marked else 0.06) + (0.2 if named else 0.0)
         top += above
-        boxes = _across(figure.width, rooms[len(row.panels)], row, top)
+        boxes = _across(figure.width - ends[len(row.panels)], rooms[len(row.panels)], row, top)
         panels += zip(row.panels, boxes, strict=True)
         top += row.height + below + (0.06 if index + 1 < len(figure.rows) else 0.0)
     caption: tuple[str, ...] = ()
@@ -168,16 +175,39 @@ def _rooms(figure: Figure) -> dict[int, list[float]]:
     return rooms
 
 
+def _ends(figure: Figure, rooms: dict[int, list[float]]) -> dict[int, float]:
+    """Return what words at the right end need beyond it, by the number of columns: a last tick, the text of a bar."""
+    ends: dict[int, float] = {}
+    for row in figure.rows:
+        panel, count = row.panels[-1], len(row.panels)
+        wide = _across(figure.width, rooms[count], row, 0.0)[-1].width
+        need = [(reach - (1.0 - at) * wide - GAP) / max(at, 0.5) for at, reach in _words_at(panel)]
+        ends[count] = max([ends.get(count, 0.0), *need])
+    return ends
+
+
+def _words_at(panel: Panel) -> Iterator[tuple[float, float]]:
+    """Yield where words of a panel stand, as a share of its width, and how far they reach to the right from there."""
+    if panel.bare or panel.equal or panel.view is not None:
+        return
+    low, high = panel.x.low, panel.x.high
+    for tick, text in zip(panel.x.ticks, panel.x.texts, strict=False):
+        yield float(share(panel.x, low, high, np.asarray(tick))), 0.03 + 0.5 * TICK_LETTER * breadth(text)
+    for bars in panel.series:
+        if isinstance(bars, Bars) and bars.lying:
+            for end, text in zip(bars.ends, bars.texts, strict=False):
+                yield float(share(panel.x, low, high, end)), 0.11 + TICK_LETTER * breadth(str(text))
+
+
 def _across(width: float, room: Sequence[float], row: Row, top: float) -> list[Box]:
     """Return the frames of a row."""
     shares = row.widths or [1.0] * len(row.panels)
-    gap = 0.12
-    free = width - gap * len(row.panels) - 0.06 - sum(room)
+    free = width - GAP * len(row.panels) - 0.06 - sum(room)
     boxes, left = [], 0.06
-    for share, need in zip(shares, room, strict=True):
-        wide = free * share / sum(shares)
+    for part, need in zip(shares, room, strict=True):
+        wide = free * part / sum(shares)
         boxes.append(Box(left=left + need, top=top, width=wide, height=row.height))
-        left += need + wide + gap
+        left += need + wide + GAP
     return boxes
 
 
