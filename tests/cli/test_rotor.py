@@ -130,11 +130,9 @@ def test_the_whole_line_is_told_with_all_its_shafts_and_supports(cardan):
 
 
 @pytest.mark.slow
-def test_a_cracked_tube_whirls_by_its_depth_in_the_line_alone(cardan, drive_file):
+def test_a_cracked_tube_whirls_by_its_depth(cardan, drive_file):
     text = CAR.read_text()
     sound = cardan("rotor", CAR, "--line", "--json").content
     cracked = drive_file(text.replace("runout_mm = 0.2", "crack = { depth_ratio = 0.7, position_mm = 500 }"))
     assert cardan("rotor", cracked, "--line", "--json").content["peak_um"] > 2.0 * sound["peak_um"]
-    done = cardan("rotor", cracked)
-    assert done.code == 2
-    assert "rotor --line" in done.err
+    assert 0.01 < cardan("rotor", cracked, "--json").content["rotor"]["crack_losses"][0] < 0.5

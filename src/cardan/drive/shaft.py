@@ -22,7 +22,7 @@ class ShaftCrack:
     )
     depth_ratio: float | None = plain(
         None,
-        doc="depth over the radius, in place of `losses`; where one shaft is a mass on a spring, taken along all of it",
+        doc="depth over the radius, in place of `losses`: at most 1 in a solid shaft, through the wall of a tube",
         above=0.0,
         below=2.0,
     )

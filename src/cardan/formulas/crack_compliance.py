@@ -28,7 +28,7 @@ def crack_compliance(
     """Return the local compliance of an open crack with a straight edge.
 
     radius (...) [m]: R of the shaft.
-    depth_ratio (...): depth over R, from 0 to below 1.6; in a tube deep enough to go through the wall.
+    depth_ratio (...): depth over R, from 0 to 1; in a tube below 1.6 and deep enough to go through the wall.
     youngs (...) [Pa]: E; inner (...) [m]: inner radius of a tube, 0 of a solid shaft; poisson (...): ν.
     Castigliano: c = 2(1-ν²)/E ∫∫ (K/M)² dA over the crack. Solid: strips of the height h' = 2√(R²-y²) across the edge,
     K = σ√(πa) F(a/h'), with F of a strip in bending for the moment about the edge and in tension for the other
@@ -51,6 +51,9 @@ def crack_compliance(
         )
     check(problems)
     tube = bore > 0.0
+    if np.any(~tube & (ratio > 1.0)):
+        text = _("is more than 1: how a solid shaft gives way that is cracked beyond its middle is not known")
+        check([Problem("depth_ratio", text, "out_of_range")])
     if np.any(tube & (ratio > 0.0) & (ratio * r < r - bore)):
         text = _("the crack of a tube goes through its wall, at least {least:.3g} of the radius deep")
         raise_at = float(np.max(np.where(tube, 1.0 - bore / r, 0.0)))
@@ -62,23 +65,20 @@ def crack_compliance(
 
 
 DEEPEST = 1.6
-"""Depth over the radius beyond which strips at the middle are nearly cut through."""
+"""Depth over the radius of a tube beyond which little of it is left; strips of a solid shaft are cut through from 1."""
 
 
 def _solid(r: Array, ratio: Array, e: Array, nu: Array) -> tuple[Array, Array]:
     """Return both compliances of solid shafts, by Gauss points over the width of the crack and the depth there."""
     point, weight = np.polynomial.legendre.leggauss(POINTS)
     share = np.sqrt(np.maximum(ratio * (2.0 - ratio), 0.0))[..., None, None]
-    wide = np.where(ratio[..., None, None] > 1.0, 1.0, share)
     # y = b sin(πs/2): the square-root ends of the strips become smooth.
     turn = 0.5 * np.pi * point
-    y, dy = wide * np.sin(turn)[:, None], wide * (0.5 * np.pi * np.cos(turn) * weight)[:, None]
+    y, dy = share * np.sin(turn)[:, None], share * (0.5 * np.pi * np.cos(turn) * weight)[:, None]
     half = np.sqrt(np.maximum(1.0 - y**2, 1e-300))
     deep = np.maximum(half - (1.0 - ratio[..., None, None]), 0.0)
-    low = np.maximum(-half - (1.0 - ratio[..., None, None]), 0.0)
-    deep = deep - low
     a, da = deep * 0.5 * (1.0 + point), 0.5 * deep * weight
-    s = np.minimum(a / (2.0 * half), 0.999)
+    s = a / (2.0 * half)
     lam = np.maximum(0.5 * np.pi * s, 1e-12)
     common = np.sqrt(np.tan(lam) / lam) / np.cos(lam)
     bending = common * (0.923 + 0.199 * (1.0 - np.sin(lam)) ** 4)

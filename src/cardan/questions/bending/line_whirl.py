@@ -10,7 +10,6 @@ from functools import cached_property, lru_cache
 import numpy as np
 import scipy
 
-from cardan.drive.body import pieces
 from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
@@ -19,7 +18,6 @@ from cardan.drive.models.dynamics_model import place_of, train
 from cardan.drive.shaft import Shaft
 from cardan.drive.yokes import with_yokes
 from cardan.errors import InputError, refuse
-from cardan.formulas.crack_compliance import crack_compliance
 from cardan.formulas.damping import LOSS
 from cardan.formulas.run_up import Progress
 from cardan.maths.arrays import Array, ArrayLike
@@ -32,7 +30,7 @@ from cardan.texts import _
 
 from .balance import balance
 from .bending import elements, wear_factors
-from .whirl_line import WhirlLine, crack_place, whirl_line
+from .whirl_line import WhirlLine, crack_hinge, crack_place, whirl_line
 
 TURN = 64
 """Positions of the input in a turn at which forces are sampled; orders up to `REACH` of them are whole."""
@@ -347,7 +345,7 @@ class LineModel:
                 self.assumed.append(f"shafts[{shaft.number - 1}].crack.position")
             x = self.origin[shaft.number] + crack_place(shaft, self._length(shaft)) - self.whole.place[0]
             k = int(np.argmin(np.abs(self.fine.place[:-1] - x)))
-            along, across = _compliance(shaft, self._length(shaft))
+            along, across = crack_hinge(shaft, self._length(shaft))
             column = np.zeros(len(self.at.free))
             rows = self.number[self.at.element[k]]
             column[rows[rows >= 0]] = beams[k][rows >= 0, 1]
@@ -573,22 +571,3 @@ def _origins(whole: WhirlLine) -> dict[int, float]:
         beams = np.flatnonzero(whole.shaft == number)
         found[number] = float(whole.place[beams[-1] + 1] if number == 1 else whole.place[beams[0]])
     return found
-
-
-def _compliance(shaft: Shaft, length: float) -> tuple[float, float]:
-    """Return the compliance of an open crack along and across its direction [rad/(N·m)].
-
-    By its depth; by its losses as of a crack amid a shaft between two joints that takes them of its stiffness there.
-    """
-    crack = shaft.crack
-    assert crack is not None
-    x = crack_place(shaft, length) + (length if shaft.number == 1 else 0.0)
-    piece = [one for one in pieces(shaft, length) if one.start <= x][-1]
-    youngs = piece.material.youngs
-    if crack.depth_ratio is not None:
-        found = crack_compliance(
-            0.5 * piece.outer, crack.depth_ratio, youngs, inner=0.5 * piece.inner, poisson=piece.material.poisson
-        )
-        return float(found.along), float(found.across)
-    along, across = (loss / (1.0 - loss) * length / (3.0 * youngs * piece.second_moment) for loss in crack.losses)
-    return along, across

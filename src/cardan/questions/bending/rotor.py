@@ -21,6 +21,7 @@ from cardan.drive.yokes import with_yokes
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.formulas.run_up import Progress
 from cardan.formulas.unbalance_behind_joint import UnbalanceBehindJoint, unbalance_behind_joint
+from cardan.later import later
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import summed
 from cardan.questions.motion.equivalence import equivalent_joint
@@ -29,10 +30,13 @@ from cardan.texts import _
 
 from .balance import balance
 from .bending import CriticalSpeeds, bending_speeds
-from .cracked_rotor import UNCRACKED, Crack, CrackedRotor, crack_section, cracked_rotor
+from .cracked_rotor import UNCRACKED, Crack, CrackedRotor, cracked_rotor
 from .cracked_run import CrackedRun, cracked_run
 from .cracked_shafts import CrackedShafts, WhirlingShaft, cracked_shafts
 from .line_whirl import LineWhirl, turning_marks
+from .whirl_line import crack_hinge, crack_place, cracked_piece
+
+interpolate = later("scipy.interpolate")
 
 DAMPING = 0.02
 """Damping ratio of bending where nothing says another; measured drives have 0.01 to 0.05."""
@@ -42,6 +46,9 @@ MODES = (3, 8)
 
 SAMPLES = 200
 """Places of a stretch at which the shape is summed."""
+
+FEWEST = 6
+"""Places of a stretch that tell how it bends; where it has fewer, all of its shaft are taken."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,8 +92,8 @@ def rotor(drive: Drive, shaft: int | None = None, *, damping_ratio: float = DAMP
 
     Rayleigh's quotients with the shape φ of `bending_speeds`: mass M = ∫ μφ² dx, stiffness M ω², push of the weight
     g⊥ ∫ μφ dx, unbalance Σ U_j φ(x_j) e^(iχ_j). For a uniform shaft between two joints M is half its mass and the push
-    4/π of M g. Losses of a crack count as of this stiffness; those of `depth_ratio` are those of its section, taken
-    along the whole shaft as in the paper on cracked shafts, which overstates one crack. Where no unbalance is given,
+    4/π of M g. Losses of a crack count as of this stiffness; by its `depth_ratio` it is a hinge of compliance c where
+    the shape bends with the moment m, and takes c m²/K to 1 + c m²/K of the stiffness K. Where no unbalance is given,
     the allowed one counts, amid the shaft.
     """
     if not 0.0 <= damping_ratio < 1.0:
@@ -105,16 +112,17 @@ def rotor(drive: Drive, shaft: int | None = None, *, damping_ratio: float = DAMP
     pull = np.asarray(drive.settings.gravity, dtype=float)
     across = float(np.linalg.norm(pull - np.dot(pull, axis) * axis))
     unbalance, assumed = _unbalance(drive, chosen, found, shape, (begin, end))
-    crack, angle = _crack(chosen)
+    stiffness = mass * float(found.actual[mode]) ** 2
+    crack = _crack(chosen, found, mode, shape, stiffness)
     return Rotor(
         shaft=chosen.number,
         mass=mass,
-        stiffness=mass * float(found.actual[mode]) ** 2,
+        stiffness=stiffness,
         gravity=across * abs(push) / mass,
         unbalance=abs(unbalance),
         unbalance_angle=cmath.phase(unbalance),
         crack=crack,
-        crack_angle=angle,
+        crack_angle=0.0 if chosen.crack is None else chosen.crack.angle,
         damping_ratio=damping_ratio,
         assumed=(*found.assumed, *assumed),
     )
@@ -193,21 +201,26 @@ def _unbalance(
     return complex(summed(parts, scale=sum(one.amount for one in shaft.unbalance))), ()
 
 
-def _crack(shaft: Shaft) -> tuple[Crack, float]:
+def _crack(shaft: Shaft, found: CriticalSpeeds, mode: int, shape: Array, stiffness: float) -> Crack:
+    """Return what a crack takes of the stiffness of a mode: as given, or as a hinge by its depth in the bent shaft."""
     given = shaft.crack
     if given is None:
-        return UNCRACKED, 0.0
+        return UNCRACKED
     if given.losses:
         xi, eta = given.losses
-    elif shaft.inner or shaft.wall or any(one.inner for one in shaft.segments):
-        text = _(
-            "of a tube counts in the whole line alone, rotor --line; one shaft as a mass on a spring needs its losses"
-        )
-        raise refuse(f"shafts[{shaft.number - 1}].crack.depth_ratio", text, "inconsistent")
-    else:
-        section = crack_section(0.5, given.depth_ratio or 0.0)
-        xi, eta = float(section.loss_x), float(section.loss_y)
-    return Crack(loss_xi=xi, loss_eta=eta, breathing=given.breathing), given.angle
+        return Crack(loss_xi=xi, loss_eta=eta, breathing=given.breathing)
+    begin, end = (float(one) for one in found.shaft_span[shaft.number - 1])
+    length = end - begin
+    piece = cracked_piece(shaft, length)
+    inside = (found.place >= begin + piece.start - 1e-9) & (found.place <= begin + piece.start + piece.length + 1e-9)
+    if np.count_nonzero(inside) < FEWEST:
+        inside = (found.place >= begin - 1e-9) & (found.place <= end + 1e-9)
+    bow = interpolate().CubicSpline(found.place[inside], shape[inside])
+    x = crack_place(shaft, length) + (end if shaft.number == 1 else begin)
+    moment = float(found.wear[mode]) ** 2 * piece.material.youngs * piece.second_moment * float(bow(x, 2))
+    softer = (one * moment**2 / stiffness for one in crack_hinge(shaft, length))
+    xi, eta = (one / (1.0 + one) for one in softer)
+    return Crack(loss_xi=xi, loss_eta=eta, breathing=given.breathing)
 
 
 # How does a shaft of a drive whirl with its unbalance and a crack: steadily, while running up, joined to the next?

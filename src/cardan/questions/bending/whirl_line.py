@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.drive.body import body_length, pieces
+from cardan.drive.body import Piece, body_length, pieces
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.joints import Joint
@@ -15,7 +15,8 @@ from cardan.drive.models.machine_held import tables_proposed
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 from cardan.drive.yokes import with_yokes
-from cardan.errors import Problem, check
+from cardan.errors import InputError, Problem, check
+from cardan.formulas.crack_compliance import crack_compliance
 from cardan.maths.arrays import Array
 from cardan.maths.linear.rotor_beams import Line, layout, line, rigid_motions, round_section
 from cardan.texts import _
@@ -182,6 +183,33 @@ def crack_place(shaft: Shaft, length: float) -> float:
     """Return where the crack of a shaft is, from joint 1 on shaft 1, else from the joint before [m]."""
     given = shaft.crack.position if shaft.crack is not None else None
     return (-0.5 if shaft.number == 1 else 0.5) * length if given is None else given
+
+
+def cracked_piece(shaft: Shaft, length: float) -> Piece:
+    """Return the piece of the body in which the crack of a shaft is."""
+    x = crack_place(shaft, length) + (length if shaft.number == 1 else 0.0)
+    return [one for one in pieces(shaft, length) if one.start <= x][-1]
+
+
+def crack_hinge(shaft: Shaft, length: float) -> tuple[float, float]:
+    """Return the compliance of an open crack along and across its direction [rad/(N·m)].
+
+    By its depth; by its losses as of a crack amid a shaft between two joints that takes them of its stiffness there.
+    """
+    crack = shaft.crack
+    assert crack is not None
+    piece = cracked_piece(shaft, length)
+    youngs = piece.material.youngs
+    if crack.depth_ratio is not None:
+        try:
+            found = crack_compliance(
+                0.5 * piece.outer, crack.depth_ratio, youngs, inner=0.5 * piece.inner, poisson=piece.material.poisson
+            )
+        except InputError as error:
+            raise error.renamed(lambda field: f"shafts[{shaft.number - 1}].crack.{field}") from error
+        return float(found.along), float(found.across)
+    along, across = (loss / (1.0 - loss) * length / (3.0 * youngs * piece.second_moment) for loss in crack.losses)
+    return along, across
 
 
 def _apart(wanted: list[float], length: float) -> Array:
