@@ -13,7 +13,7 @@ from cardan import Drive, InputError
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
 from cardan.drive.material import Material
-from cardan.drive.shaft import PointMass, Shaft, ShaftCrack, Unbalance
+from cardan.drive.shaft import PointMass, Segment, Shaft, ShaftCrack, Unbalance
 from cardan.drive.support import Support
 from cardan.formulas.crack_compliance import crack_compliance
 from cardan.questions.bending.cracked_rotor import Crack, cracked_rotor
@@ -418,3 +418,40 @@ def test_what_the_file_lacks_or_is_out_of_range_is_refused():
         crack_compliance(0.035, 0.05, E, inner=0.03)
     with pytest.raises(InputError, match="depth_ratio"):
         crack_compliance(0.035, 1.9, E)
+    with pytest.raises(InputError, match="depth_ratio: is more than 1"):
+        crack_compliance(0.035, [1.0, 1.01], E)
+
+
+def overhung(**more):
+    """A bar on two bearings that carries the next shaft beyond the second one, cracked above that."""
+    line = Drive.from_points([(x, 0.0, 0.0) for x in (-1.0, 0.0, 0.8, 1.0)])
+    faint = (Unbalance(position=0.0, amount=1e-12),)
+    bar = Shaft(number=1, segments=(Segment(length=0.9, outer=0.04),), unbalance=faint, **more)
+    supports = tuple(Support(shaft=1, position=x) for x in (-0.85, -0.3))
+    return replace(line, shafts=(bar, Shaft(number=2, outer=0.06, unbalance=faint)), supports=supports)
+
+
+def test_a_crack_over_a_bearing_opens_where_it_looks_up():
+    """The overhang drops by c M l more while the crack looks up, where its weight stretches the bar."""
+    found = line_whirl(overhung(crack=ShaftCrack(depth_ratio=0.9, position=-0.3)), speed=[1.0], damping_ratio=0.02)
+    angle = 2.0 * np.pi * np.arange(64) / 64
+    end = int(np.argmin(np.abs(found.place)))
+    drop = np.exp(1j * np.outer(angle, found.order)) @ found.deflection[0, :, end]
+    assert abs(angle[np.argmax(drop.real)] - np.pi) < 1e-9  # the mark, and the crack, look down at 0
+    weight = 9.80665 * 7850.0 * np.pi / 4.0
+    moment = weight * (0.04**2 * 0.3**2 / 2.0 + 0.06**2 * 0.8 / 2.0 * 0.3)
+    more = float(crack_compliance(0.02, 0.9, 2.06e11).along) * moment * 0.3
+    assert np.ptp(drop.real) == pytest.approx(more, rel=1e-3)
+
+
+def test_speeds_of_its_own_find_the_peaks_of_a_crack():
+    """Half and a third of the critical speed of the softer line, where no unbalance shakes it twice or three times."""
+    line = replace(Drive.from_angles([0.0, 0.0]), duty=Duty(speed_range=(500 * rpm, 4000 * rpm)))
+    crack = ShaftCrack(depth_ratio=0.6, position=0.5)
+    bar = Shaft(number=2, length=1.0, outer=0.04, crack=crack, unbalance=(Unbalance(position=0.5, amount=1e-5),))
+    one = replace(line, shafts=(bar,))
+    found = line_whirl(one, damping_ratio=0.002)
+    for order in (2, 3):
+        size, speed, _place = found.peak(order)
+        near = line_whirl(one, speed=speed * np.linspace(0.97, 1.03, 601), damping_ratio=0.002)
+        assert size > 0.97 * near.peak(order)[0], order

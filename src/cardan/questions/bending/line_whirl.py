@@ -224,9 +224,8 @@ class LineModel:
         found = matrices(self.fine)
         self.inertia, self.gyroscopic = found.inertia, found.gyroscopic
         self._supports(found.stiffness)
+        self.spinning, self.couples, self.weight = self._unbalance(), self._couples(), self._weight()
         self._cracks()
-        pushed = [self._unbalance(), self._couples(), self._weight()]
-        self.spinning, self.couples, self.weight = pushed
         self._basis(damping_ratio)
 
     def _orders(self, values: Array) -> Array:
@@ -338,6 +337,7 @@ class LineModel:
         self.cracked: list[int] = []
         self.column, self.own, mean, swing = [], [], [], []
         beams = beam_stiffness(self.fine)
+        sag = np.linalg.solve(self.stiffness, self.weight[REACH].real)
         for shaft in self.drive.shafts:
             if shaft.crack is None or shaft.number not in self.origin:
                 continue
@@ -353,7 +353,9 @@ class LineModel:
             self.column.append(column)
             self.own.append(float(beams[k][1, 1]))
             unit = self.mark[shaft.number - 1] * np.exp(1j * shaft.crack.angle)
-            opened = hump(unit / np.abs(unit), shaft.crack.breathing)[0]
+            # The weight stretches the side below, or that above where the shaft hangs over what holds it.
+            stretched = -1.0 if float(column @ sag) < 0.0 else 1.0
+            opened = hump(stretched * unit / np.abs(unit), shaft.crack.breathing)[0]
             mean.append(0.5 * (along + across) * opened)
             swing.append(0.5 * (along - across) * opened * unit**2)
         self.soft = [np.fft.fft(one) / TURN for one in mean]
@@ -398,8 +400,15 @@ class LineModel:
         return found[(found > 0.0) & (found >= low) & (found <= high)]
 
     def resonances(self) -> list[tuple[float, float]]:
-        """Return the speeds at which an order that pushes the line meets a mode [rad/s], with its damping ratio."""
+        """Return the speeds at which an order that pushes the line meets a mode [rad/s], with its damping ratio.
+
+        A crack makes every order push, and the modes softer by its mean compliance.
+        """
         v, m = self.basis[self.support_row], len(self.square)
+        plain = np.diag(self.square)
+        for column, own, mean in zip(self.column, self.own, self.soft, strict=True):
+            compliance, turned_by = float(mean[0].real), column @ self.basis
+            plain -= compliance / (1.0 + compliance * own) * np.outer(turned_by, turned_by)
         turned = self.basis.T @ self.gyroscopic @ self.basis
         apart = (v.T * self.unequal) @ v
         loss = np.diag(2.0 * self.damping * np.sqrt(self.square)) + (v.T * self.damper) @ v
@@ -407,11 +416,11 @@ class LineModel:
         coupled = bool(np.any(self.unequal))
         found: list[tuple[float, float]] = []
         for n in range(1, REACH + 1):
-            there = [bool(np.any(pushed[REACH + n])), bool(np.any(pushed[REACH - n]))]
+            there = [bool(self.cracked or np.any(pushed[REACH + n])), bool(np.any(pushed[REACH - n]))]
             # Forward whirl, K - n²Ω² (1 - G/n), and backward, with the other sign; unequal supports couple them.
             ways = [(1.0, -1.0)] if coupled and any(there) else [(1.0,)] * there[0] + [(-1.0,)] * there[1]
             for way in ways:
-                stiff = scipy.linalg.block_diag(*[np.diag(self.square)] * len(way))
+                stiff = scipy.linalg.block_diag(*[plain] * len(way))
                 if len(way) > 1:
                     stiff[:m, m:] = stiff[m:, :m] = apart
                 inert = scipy.linalg.block_diag(*(n * n * np.eye(m) - sign * n * turned for sign in way))
