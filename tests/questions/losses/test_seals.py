@@ -7,11 +7,16 @@ import numpy as np
 import pytest
 
 from cardan import Drive, losses
+from cardan.answers.quantity import Quantity, told
+from cardan.answers.reader import USUAL
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Case, Duty, Harmonic
+from cardan.drive.joints import Hooke
 from cardan.drive.support import Support
 from cardan.errors import InputError
 from cardan.formulas.friction import seal_friction
+from cardan.io import example
+from cardan.questions.forces import answer as forces_answer
 from cardan.questions.losses.answer import answer, lacking
 from cardan.questions.losses.figure import loss_parts
 from cardan.questions.losses.losses import loss_map
@@ -118,6 +123,22 @@ def test_they_are_told_as_parts_of_their_own():
     assert lacking(bare)
     with pytest.raises(InputError):
         losses(bare)
+
+
+@pytest.mark.parametrize(("torque", "tone"), [(0.04, "warning"), (40.0, "plain")])
+def test_forces_say_that_the_torque_of_the_seals_is_on_top(torque, tone):
+    bare = example("instrument-joint")
+    exact = Hooke(centre=bare.joints[0].centre, cross=bare.joints[0].cross)
+    bare = replace(bare, joints=(exact,), duty=replace(bare.duty, torque=torque))
+    drive = replace(bare, supports=tuple(replace(one, friction=None, seal_diameter=8 * mm) for one in bare.supports))
+    said = {one.code: one for one in forces_answer.answer(drive, forces_answer.ask(drive)).remarks}
+    found = losses(drive)
+    more = (found.input_power - found.output_power) / found.speed  # forces count none of it
+    assert told(said["seals"].text, USUAL).startswith(
+        f"Friction of the seals, {told(Quantity(more, 'torque'), USUAL)} in"
+    )
+    assert said["seals"].tone == tone
+    assert "seals" not in {one.code for one in forces_answer.answer(bare, forces_answer.ask(bare)).remarks}
 
 
 def test_a_turn_of_work_is_two_pi_times_the_torque():

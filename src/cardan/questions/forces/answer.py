@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.answers.answer import FILE, Answer, KeyFigure, Listing, Remark, Table, closely
+from cardan.answers.answer import FILE, Answer, KeyFigure, Listing, Remark, Table, Tone, closely
 from cardan.answers.quantity import Joined, Quantity, Say, Text, Written, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
@@ -29,6 +29,7 @@ from cardan.questions.motion.articulation_answer import random_facts, random_tab
 from cardan.questions.motion.kinds import steep_joints, without_vibration
 from cardan.questions.motion.motion import motion
 from cardan.questions.motion.random_motion import RandomMotion, Results, random_motion
+from cardan.questions.seals import seal_torques
 from cardan.texts import _, mark, plural
 
 from .force_tables import (
@@ -347,7 +348,7 @@ def _pushed(pushed: Sequence[Thrust]) -> Iterator[Remark]:
 
 
 NOTED = 1e-3
-"""Share of a speed ratio from which what is left out is a warning."""
+"""Share of a speed ratio or of a torque from which what is left out is a warning."""
 
 
 def _apart(drive: Drive, found: Forces) -> Iterator[Remark]:
@@ -436,6 +437,12 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
             "journal": Written("cross.journal_mm", _("diameter of its journals")),
         }
         yield Remark(text=say(text, **keys, numbers=together(names, [i - 1 for i in loose])), tone="warning")
+    if sealed := float(np.sum(seal_torques(drive))):
+        text = _("Friction of the seals, {torque} in all, is not in these torques and forces; it is in the power loss:")
+        noted = sealed > NOTED * float(np.max(np.abs(found.input_torque)))
+        tone: Tone = "warning" if noted else "plain"
+        command = ("cardan", "losses", FILE)
+        yield Remark(text=say(text, torque=Quantity(sealed, "torque")), command=command, tone=tone, code="seals")
     light = [int(path.partition("[")[2].partition("]")[0]) + 1 for path in found.assumed if path.endswith(".inertia")]
     if "duty.speed" in found.assumed:
         yield Remark(text=_("Without a speed inertia does not count; --speed-rpm counts it."))

@@ -13,7 +13,6 @@ from cardan.drive.duty import Duty
 from cardan.drive.joints import Joint
 from cardan.drive.models.dynamics_model import Train, place_of, train
 from cardan.errors import InputError, Problem, check
-from cardan.formulas.friction import seal_friction
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.questions.forces.kinetostatics import KinematicState, inner_friction, sprung, standing
@@ -32,6 +31,7 @@ from cardan.questions.forces.reactions import (
 from cardan.questions.motion.articulation import articulation
 from cardan.questions.motion.joint_mechanism import check_turning, rubbed_share
 from cardan.questions.motion.motion import Motion
+from cardan.questions.seals import seal_torques
 from cardan.texts import _
 
 from .loss_model import Holding, Model
@@ -70,7 +70,7 @@ def counted(drive: Drive, duty: Duty) -> tuple[Parts, tuple[Uncounted, ...]]:
             [Uncounted(field=p.field, message=p.message, part="supports", missing=False) for p in error.problems],
         )
     rub, supports = _supports(drive, machine, short)
-    seal = np.asarray([one.seals * float(seal_friction(one.seal_diameter or 0.0)) for one in drive.supports])
+    seal = seal_torques(drive)
     slide, splines = _splines(drive)
     joints = list(_joints(drive))
     grip = np.zeros(len(drive.shafts))
