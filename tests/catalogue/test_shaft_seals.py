@@ -6,6 +6,7 @@ import pytest
 
 from cardan.app.state.form import OFFERED
 from cardan.catalogue import TABLES, catalogue
+from cardan.catalogue.catalogue import found
 from cardan.catalogue.completion import shortened
 from cardan.catalogue.given import sources
 from cardan.catalogue.provenance import rows_behind
@@ -83,6 +84,11 @@ def test_a_firm_adds_its_own_with_the_speed_it_allows(tmp_path) -> None:
     (tmp_path / "own.toml").write_text(text.replace("outer_mm = 50", "outer_mm = 30"), encoding="utf-8")
     with pytest.raises(InputError, match="outer_mm: is below the diameter of the shaft"):
         loads(named, folder=tmp_path)
+
+
+@pytest.mark.parametrize("words", ["seal", "lip seal", "rotary shaft"])
+def test_who_looks_for_seals_finds_them(words: str) -> None:
+    assert len(found(catalogue(), words)["shaft_seals"]) == len(ROWS)
 
 
 def test_the_app_offers_the_rows() -> None:

@@ -390,8 +390,8 @@ def loss_map(
 
     Notes
     -----
-    Friction of journals alone gives the same efficiency everywhere: the map bends where weights load the supports at
-    small torques, inertia loads the joints at high speeds, and splines slide however slowly the drive turns.
+    Friction of journals alone gives the same efficiency everywhere: the map bends where seals rub and weights load
+    supports at small torques, inertia loads the joints at high speeds, and splines slide however slowly it turns.
 
     Examples
     --------
