@@ -1,5 +1,7 @@
 """What is said of the motion: the numbers of the analysis, for any reader, of drives with joints of any kinds."""
 
+from dataclasses import replace
+
 import pytest
 
 from cardan.answers.data import data
@@ -8,13 +10,13 @@ from cardan.answers.reader import USUAL, Reader
 from cardan.book import answer as classical
 from cardan.drive.drive import Drive
 from cardan.io import example
-from cardan.joints import PinCoupling
+from cardan.joints import PinCoupling, Tripod
 from cardan.questions.motion.answer import answer, ask
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.turning import swing
 from cardan.report.block import page
 from cardan.texts import speaking
-from cardan.units import deg
+from cardan.units import deg, mm
 
 RADIANS = Reader(units={"angle": "rad", "angular_speed": "rad_s"}, decimal=",")
 
@@ -105,3 +107,12 @@ def test_the_classical_approximations_are_told_where_they_differ():
     assert "nothing to approximate" in classical.otherwise(even)
     assert classical.ask(example("front-halfshaft")) is None
     assert "laws of their own" in classical.otherwise(example("front-halfshaft"))
+
+
+def test_a_tripod_whose_shaft_pivots_beyond_is_not_called_uniform():
+    """R_B/L tan(α/2) with the radius R/2 (1/cos α - 1) of the orbit; the joint beyond makes ±0.02162° of it exactly."""
+    joint = Tripod(joint_angle=20 * deg, track_radius=20 * mm, pivot=300 * mm)
+    drive = Drive(joints=(joint,))
+    assert "uniform but for ±0.0216° of the output" in told(of(drive).sentence, USUAL)
+    held = replace(drive, joints=(replace(joint, pivot=None),))
+    assert "and so does the output" in told(of(held).sentence, USUAL)
