@@ -17,6 +17,7 @@ from cardan.drive.shaft import PointMass, Segment, Shaft, ShaftCrack, Unbalance
 from cardan.drive.support import Support
 from cardan.formulas.crack_compliance import crack_compliance
 from cardan.questions.bending.cracked_rotor import Crack, cracked_rotor
+from cardan.questions.bending.line_answer import answer
 from cardan.questions.bending.line_whirl import line_whirl
 from cardan.questions.forces.forces import forces
 from cardan.units import deg, rpm
@@ -455,3 +456,16 @@ def test_speeds_of_its_own_find_the_peaks_of_a_crack():
         size, speed, _place = found.peak(order)
         near = line_whirl(one, speed=speed * np.linspace(0.97, 1.03, 601), damping_ratio=0.002)
         assert size > 0.97 * near.peak(order)[0], order
+
+
+@pytest.mark.parametrize("torque", [None, 4.0, 200.0])
+def test_a_crack_that_other_moments_open_is_told(torque):
+    """Couples up to T tan 10° at both ends, opposite, bend a fifth along by 3/5 of that, the weight by μgx(L-x)/2."""
+    line = replace(Drive.from_angles([10 * deg, 10 * deg]), duty=Duty(speed=30.0, torque=torque))
+    crack = ShaftCrack(depth_ratio=0.6, position=0.2)
+    bar = Shaft(number=2, length=1.0, outer=0.04, crack=crack, unbalance=(Unbalance(position=0.5, amount=1e-9),))
+    whole = replace(line, shafts=(bar,))
+    found = line_whirl(whole, speed=[30.0])
+    weight = 7850 * np.pi / 4 * 0.04**2 * 9.80665 * np.cos(10 * deg) * 0.2 * 0.8 / 2
+    assert found.beside_weight == pytest.approx(0.6 * (torque or 0.0) * np.tan(10 * deg) / weight, rel=0.05, abs=1e-4)
+    assert ("beside_weight" in {one.code for one in answer(whole, found).remarks}) == (torque == 200.0)

@@ -301,6 +301,12 @@ def _remarks(drive: Drive, result: LineWhirl) -> Iterator[Remark]:
     if result.cracked:
         text = _("Cracks breathe with the weight; whether the whirl is stable, cardan rotor --shaft N tells.")
         yield Remark(text=text)
+    if result.beside_weight > 1.0:
+        text = _(
+            "At some speeds other moments at a crack exceed that of the weight: there it breathes otherwise than by "
+            "weight."
+        )
+        yield Remark(text=text, tone="warning", code="beside_weight")
     if result.residual > CLOSE:
         text = _("Check failed: modes and static shapes miss {rest} of the motion of all finite elements.")
         yield Remark(text=say(text, rest=Quantity(result.residual, digits=2)), tone="failed", alarm=True)

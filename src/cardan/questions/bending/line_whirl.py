@@ -85,6 +85,9 @@ class LineWhirl:
     # what the basis of modes and static shapes misses of all finite elements where the line whirls most, over the
     # motion there; without cracks
     residual: float
+    # largest moment at a crack that is not of the weight, over that of the weight there: above 1 the crack does not
+    # breathe by weight; 0 without cracks
+    beside_weight: float = 0.0
     assumed: tuple[str, ...] = ()  # paths of what the drive does not say and the answer assumes
 
     @cached_property
@@ -435,9 +438,12 @@ class LineModel:
         """Return the steady whirl at the speeds."""
         sources = speed[:, None, None] ** 2 * (self.spinning @ self.basis) + (self.couples + self.weight) @ self.basis
         value = self.solved(speed, sources)
+        beside = 0.0
         if self.cracked:
             columns = np.stack(self.column) @ self.basis
-            jumps = self._jumps(speed, value @ columns.T, columns)
+            moments = value @ columns.T
+            beside = self._beside_weight(moments, columns)
+            jumps = self._jumps(speed, moments, columns)
             value = value - self.solved(speed, jumps @ columns)
         deflection = np.zeros((*value.shape[:2], self.fine.beams + 1), dtype=complex)
         rows = self.number[self.at.deflection]
@@ -461,6 +467,7 @@ class LineModel:
             cracked=tuple(self.cracked),
             worn=self.worn,
             residual=0.0,
+            beside_weight=beside,
             assumed=tuple(dict.fromkeys(self.assumed)),
         )
         return replace(found, residual=self._residual(speed, found))
@@ -500,6 +507,13 @@ class LineModel:
                 )
             value[:, ahead], value[:, back] = both[:, 0], np.conj(both[:, 1])
         return value
+
+    def _beside_weight(self, moments: Array, columns: Array) -> float:
+        """Return the largest moment at a crack that is not of the weight, over that of the weight there."""
+        own = self.solved(np.zeros(1), (self.weight @ self.basis)[None])[0, REACH] @ columns.T
+        others = np.sum(np.abs(moments), axis=1) - np.abs(moments[:, REACH]) + np.abs(moments[:, REACH] - own)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return float(np.nan_to_num(np.max(others / np.abs(own)), posinf=np.inf))
 
     def _jumps(self, speed: Array, moments: Array, columns: Array) -> Array:
         """Return the jumps of slope at the cracks, complex (k, N, c), of all orders at once.
