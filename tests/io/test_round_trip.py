@@ -86,6 +86,7 @@ NAMES: dict[tuple[type, str], st.SearchStrategy[Any]] = {
     (Material, "yield_strength"): st.none(),
     (Settings, "catalogues"): st.just(()),
     (Support, "bearing"): st.just(""),
+    (Support, "seal"): st.just(""),
     (Shaft, "finish"): st.just("machined"),
     (Shaft, "notch"): st.none(),
     (Shaft, "layup"): st.none(),
@@ -242,7 +243,8 @@ hookes = things(
     cross=st.none() | crosses,
     rating=st.none() | ratings,
 )
-places = things(Support, shaft=st.just(2), position=st.just(0.5), bore=st.just(0.06), radial=st.just(True))
+fixed = {"shaft": 2, "position": 0.5, "bore": 0.06, "seal_diameter": 0.04, "radial": True}
+places = things(Support, **{name: st.just(value) for name, value in fixed.items()})
 
 
 @pytest.mark.slow
