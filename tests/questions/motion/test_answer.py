@@ -8,15 +8,19 @@ from cardan.answers.data import data
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
 from cardan.book import answer as classical
+from cardan.checks import check
 from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.joints.tripod import pivot_error
+from cardan.drive.shaft import Shaft
 from cardan.io import example
-from cardan.joints import PinCoupling, Tripod
+from cardan.joints import PinCoupling, Rzeppa, Tripod
 from cardan.questions.motion.answer import answer, ask
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.turning import swing
 from cardan.report.block import page
 from cardan.texts import speaking
-from cardan.units import deg, mm
+from cardan.units import deg, mm, rpm
 
 RADIANS = Reader(units={"angle": "rad", "angular_speed": "rad_s"}, decimal=",")
 
@@ -109,10 +113,18 @@ def test_the_classical_approximations_are_told_where_they_differ():
     assert "laws of their own" in classical.otherwise(example("front-halfshaft"))
 
 
-def test_a_tripod_whose_shaft_pivots_beyond_is_not_called_uniform():
-    """R_B/L tan(α/2) with the radius R/2 (1/cos α - 1) of the orbit; the joint beyond makes ±0.02162° of it exactly."""
+def test_a_tripod_whose_shaft_pivots_beyond_errs_as_with_the_joint_there():
+    """R_B/L tan(α/2) to first order; the joint of constant velocity beyond, in the file, makes the same motion."""
     joint = Tripod(joint_angle=20 * deg, track_radius=20 * mm, pivot=300 * mm)
-    drive = Drive(joints=(joint,))
-    assert "uniform but for ±0.0216° of the output" in told(of(drive).sentence, USUAL)
-    held = replace(drive, joints=(replace(joint, pivot=None),))
+    alone = Drive(joints=(joint,), duty=Duty(speed=1000 * rpm))
+    shaft = Shaft(number=2, length=300 * mm)
+    beyond = Drive(joints=(replace(joint, pivot=None), Rzeppa(joint_angle=0.0)), shafts=(shaft,), duty=alone.duty)
+    one, other = (ask(drive).each for drive in (alone, beyond))
+    assert one.max_angle_error[-1] / deg == pytest.approx(0.02162, abs=1e-5)
+    for name in ("max_angle_error", "speed_fluctuation", "ratio_max", "max_acceleration"):
+        assert getattr(one, name)[-1] == pytest.approx(getattr(other, name)[-1], rel=1e-9)
+    assert "and so does the output" not in told(of(alone).sentence, USUAL)
+    verdict = next(row for row in check(alone) if row.check == "acceleration")
+    assert verdict.value == pytest.approx(9 * pivot_error(20 * deg, 20 * mm, 300 * mm) * (1000 * rpm) ** 2, rel=2e-2)
+    held = replace(alone, joints=(replace(joint, pivot=None),))
     assert "and so does the output" in told(of(held).sentence, USUAL)

@@ -453,6 +453,11 @@ class Joint:
         """Whether its driven shaft wobbles while it turns, by the sizes given."""
         return False
 
+    @property
+    def felt_beyond(self) -> bool:
+        """Whether its driven shaft pivots in a joint beyond, of constant velocity, that the file does not hold."""
+        return False
+
     def head(self, stance: Stance, off: Mapping[str, Any] = EXACT) -> Array:
         """Return where its driven shaft starts, array (..., 3) [m].
 

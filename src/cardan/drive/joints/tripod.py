@@ -131,6 +131,11 @@ class Tripod(Joint):
         """Whether it is known how far its spider orbits."""
         return self.track_radius is not None
 
+    @property
+    def felt_beyond(self) -> bool:
+        """Whether it is said where its shaft pivots, and how far it wobbles there."""
+        return self.wobbles and self.pivot is not None
+
     def head(self, stance: Stance, off: Mapping[str, Any] = EXACT) -> Array:
         """Return the centre of its spider, which moves in its own plane."""
         radius = (self.track_radius or 0.0) + off.get("track_radius", 0.0)

@@ -31,9 +31,9 @@ MEAN = 48  # places in a turn over which the start of a shaft is averaged
 
 
 def wobbling(drive: Drive) -> tuple[int, ...]:
-    """Return the joints, from 0, whose driven shaft wobbles so that a further joint feels it."""
+    """Return the joints, from 0, whose driven shaft wobbles so that a further joint feels it, in the file or beyond."""
     known = known_lengths(drive)
-    joints = drive.joints[:-1]
+    joints = drive.joints if drive.joints[-1].felt_beyond else drive.joints[:-1]
     return tuple(i for i, one in enumerate(joints) if one.wobbles and one.held(known.get(i + 2)) is not None)
 
 

@@ -24,7 +24,7 @@ from cardan.texts import _, mark, plural
 from cardan.units import deg
 
 from .equivalence import FLOOR, SYNCHRONOUS, EquivalentJoint, each_uniform, equivalent_joint, is_rounding
-from .kinds import beside_turning, carried_on, inside, steep_joints
+from .kinds import beside_turning, carried_on, steep_joints
 from .motion import Motion, motion
 from .standing import standing_chain
 from .turning import Evenness, Swing, Turning
@@ -96,7 +96,6 @@ def sentence(drive: Drive, each: Evenness) -> Say:
     """
     share = float(each.speed_fluctuation[-1])
     even, erring = is_rounding(drive, share), any(joint.error is not None for joint in drive.joints)
-    pivots = 0.0
     text = _("{count}; equivalent joint angle {angle}, speed fluctuation δ = {share}.")
     if even and erring:
         text = _("{count}; by design the joints cancel each other: uniform but for the errors of its joints as made.")
@@ -104,10 +103,6 @@ def sentence(drive: Drive, each: Evenness) -> Say:
             text = _("{count}; by design every joint turns uniformly; the errors of its joints as made remain.")
     elif each_uniform(drive):
         text = _("{count}; every joint turns uniformly by itself, and so does the output.")
-        last = len(drive.joints)
-        pivots = sum(one.value for number, one in inside(drive) if (number, one.key) == (last, "pivot_error"))
-        if pivots:
-            text = _("{count}; uniform but for ±{error} of the output, whose shaft pivots in a joint beyond.")
     elif share < SYNCHRONOUS:
         text = _("{count}; synchronous: the joints cancel each other, and the output turns exactly uniformly.")
     elif even:
@@ -123,7 +118,6 @@ def sentence(drive: Drive, each: Evenness) -> Say:
         count=plural("{n} joint", "{n} joints", len(drive.joints)).format(n=len(drive.joints)),
         angle=Quantity(float(each.joint_angle[-1]), "angle", decimals=2),
         share=Quantity(share, "share"),
-        error=Quantity(pivots, "angle", 3),
     )
 
 

@@ -117,6 +117,8 @@ def _sentence(drive: Drive, found: Phasing) -> Say:
     erring = any(joint.error is not None for joint in drive.joints)
     if len(drive.joints) == 1:
         text = _("one joint, speed fluctuation δ = {now}; a single joint has no yokes to phase.")
+        if wobbling(drive):
+            text = _("a single joint has no yokes to phase; what its shaft does that wobbles is left.")
     elif erring and is_uniform(drive, now):
         text = _("{count}; the yokes are phased right, uniform but for the errors of its joints as made.")
     elif erring and found.feasible:
