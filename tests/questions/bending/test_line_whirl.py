@@ -19,6 +19,7 @@ from cardan.formulas.crack_compliance import crack_compliance
 from cardan.questions.bending.cracked_rotor import Crack, cracked_rotor
 from cardan.questions.bending.line_answer import answer
 from cardan.questions.bending.line_whirl import line_whirl
+from cardan.questions.bending.rotor import rotor, rotor_response
 from cardan.questions.forces.forces import forces
 from cardan.units import deg, rpm
 
@@ -427,7 +428,7 @@ def overhung(**more):
     """A bar on two bearings that carries the next shaft beyond the second one, cracked above that."""
     line = Drive.from_points([(x, 0.0, 0.0) for x in (-1.0, 0.0, 0.8, 1.0)])
     faint = (Unbalance(position=0.0, amount=1e-12),)
-    bar = Shaft(number=1, segments=(Segment(length=0.9, outer=0.04),), unbalance=faint, **more)
+    bar = Shaft(number=1, segments=(Segment(length=0.9, outer=0.04),), **{"unbalance": faint} | more)
     supports = tuple(Support(shaft=1, position=x) for x in (-0.85, -0.3))
     return replace(line, shafts=(bar, Shaft(number=2, outer=0.06, unbalance=faint)), supports=supports)
 
@@ -443,6 +444,59 @@ def test_a_crack_over_a_bearing_opens_where_it_looks_up():
     moment = weight * (0.04**2 * 0.3**2 / 2.0 + 0.06**2 * 0.8 / 2.0 * 0.3)
     more = float(crack_compliance(0.02, 0.9, 2.06e11).along) * moment * 0.3
     assert np.ptp(drop.real) == pytest.approx(more, rel=1e-3)
+
+
+@pytest.mark.parametrize("place", [-0.3, -0.1, -0.6])
+def test_one_shaft_and_the_whole_line_open_a_crack_on_the_same_side(place):
+    """Up over the bearing, and between the bearings too, where the overhang bends the bar upwards."""
+    out = (Unbalance(position=0.0, amount=2e-3),)
+    orders = {}
+    for angle in (0.0, np.pi):
+        drive = overhung(crack=ShaftCrack(depth_ratio=0.9, position=place, angle=angle), unbalance=out)
+        speed = [0.3 * rotor(drive, shaft=1).critical]
+        alone = rotor_response(drive, shaft=1, speed=speed).steady
+        line = line_whirl(drive, speed=speed, damping_ratio=0.02)
+        end = int(np.argmin(np.abs(line.place)))
+        orders[angle] = [
+            (float(alone.order_amplitude(k)[0]), float(abs(line.deflection[0, line.order == k, end][0])))
+            for k in (1, 2)
+        ]
+    for down, up in zip(orders[0.0], orders[np.pi], strict=True):
+        assert up[0] > down[0]
+        assert up[1] > down[1]
+        assert up[0] / down[0] == pytest.approx(up[1] / down[1], rel=0.5)
+    assert orders[np.pi][0][0] == pytest.approx(orders[np.pi][0][1], rel=0.1)
+
+
+def cracked_bar(*segments, place):
+    """A stepped bar between two joints, cracked somewhere."""
+    parts = tuple(Segment(length=length, outer=outer) for length, outer in segments)
+    crack = ShaftCrack(depth_ratio=0.8, position=place)
+    out = (Unbalance(position=0.5, amount=1e-5),)
+    bar = Shaft(number=2, length=sum(length for length, _outer in segments), segments=parts, crack=crack, unbalance=out)
+    return replace(Drive.from_angles([0.0, 0.0]), shafts=(bar,))
+
+
+def test_a_crack_at_a_shoulder_is_in_the_thinner_piece_from_either_side():
+    one = rotor(cracked_bar((0.3, 0.04), (0.7, 0.06), place=0.3), shaft=2)
+    other = rotor(cracked_bar((0.7, 0.06), (0.3, 0.04), place=0.7), shaft=2)
+    assert one.crack.losses == pytest.approx(other.crack.losses, rel=5e-3)  # the shape bends by a spline
+    near = rotor(cracked_bar((0.3, 0.04), (0.7, 0.06), place=0.299), shaft=2)
+    assert one.crack.losses == pytest.approx(near.crack.losses, rel=0.02)
+
+
+def test_a_crack_at_an_end_takes_nothing_and_one_beside_the_shaft_is_refused():
+    for place in (0.0, 1.0):
+        whole = cracked_bar((1.0, 0.04), place=place)
+        assert max(rotor(whole, shaft=2).crack.losses) < 1e-9
+        found = line_whirl(whole, speed=[100.0], damping_ratio=0.02)
+        assert np.all(np.isfinite(found.deflection))
+    for place in (-0.005, 1.2):
+        with pytest.raises(InputError) as caught:
+            cracked_bar((1.0, 0.04), place=place)
+        assert [one.field for one in caught.value.problems] == ["shafts[1].crack.position"]
+    with pytest.raises(InputError, match="outside the body of shaft 1"):
+        rotor(overhung(crack=ShaftCrack(depth_ratio=0.9, position=-1.5)), shaft=1)
 
 
 def test_speeds_of_its_own_find_the_peaks_of_a_crack():

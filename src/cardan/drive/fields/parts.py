@@ -30,7 +30,7 @@ def part_problems(drive: Described) -> Iterator[Problem]:
             path = f"shafts[{shaft.number - 1}]"
             yield from _body(shaft, path)
             yield from body_problems(shaft, length.get(shaft.number), path)
-            yield from _crack(shaft, path)
+            yield from _crack(shaft, len(drive.joints), length, path)
             for k, lump in enumerate(shaft.masses):
                 yield from place_problems(shaft.number, lump.position, len(drive.joints), length, f"{path}.masses[{k}]")
             yield from _spline(shaft, len(drive.joints), length, f"{path}.spline")
@@ -152,7 +152,7 @@ def _profile(shaft: Shaft, path: str) -> Iterator[Problem]:
             yield Problem(f"{path}", _("a tube with a profile has no {name}").format(name=name), "inconsistent")
 
 
-def _crack(shaft: Shaft, path: str) -> Iterator[Problem]:
+def _crack(shaft: Shaft, joints: int, length: dict[int, float], path: str) -> Iterator[Problem]:
     """Yield what contradicts itself in a crack."""
     crack = shaft.crack
     if crack is None:
@@ -163,6 +163,7 @@ def _crack(shaft: Shaft, path: str) -> Iterator[Problem]:
         yield Problem(f"{path}.crack.losses", _("needs two shares, along the crack and across it"), "inconsistent")
     if any(not 0.0 <= one < 1.0 for one in crack.losses):
         yield Problem(f"{path}.crack.losses", _("needs to be at least 0 and below 1"), "out_of_range")
+    yield from place_problems(shaft.number, crack.position, joints, length, f"{path}.crack")
 
 
 def _spline(shaft: Shaft, joints: int, length: dict[int, float], path: str) -> Iterator[Problem]:

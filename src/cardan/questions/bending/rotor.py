@@ -64,6 +64,8 @@ class Rotor:
     crack: Crack  # its losses of stiffness; none for a sound shaft
     crack_angle: float  # [rad]: about the axis, from the driving yoke of the shaft
     damping_ratio: float  # of the mode
+    rises: bool = False  # whether the weight of the line pushes it up where it bows most
+    stretched_above: bool = False  # whether the weight stretches the upper side at its crack, as over a bearing
     assumed: tuple[str, ...] = ()  # key paths of what the drive does not say
 
     @property
@@ -75,6 +77,16 @@ class Rotor:
     def sag(self) -> float:
         """How far the sound shaft hangs down where it bows most [m]."""
         return self.gravity / self.critical**2
+
+    @property
+    def unbalance_turned(self) -> float:
+        """Angle of its unbalance from the way in which the weight pushes it [rad], as its driving yoke hangs down."""
+        return self.unbalance_angle + math.pi * self.rises
+
+    @property
+    def crack_turned(self) -> float:
+        """The same of its crack, which opens where the weight stretches it [rad]."""
+        return self.crack_angle + math.pi * self.stretched_above
 
     @property
     def cracked(self) -> bool:
@@ -113,7 +125,7 @@ def rotor(drive: Drive, shaft: int | None = None, *, damping_ratio: float = DAMP
     across = float(np.linalg.norm(pull - np.dot(pull, axis) * axis))
     unbalance, assumed = _unbalance(drive, chosen, found, shape, (begin, end))
     stiffness = mass * float(found.actual[mode]) ** 2
-    crack = _crack(chosen, found, mode, shape, stiffness)
+    crack, bent = _crack(chosen, found, mode, shape, stiffness)
     return Rotor(
         shaft=chosen.number,
         mass=mass,
@@ -124,6 +136,8 @@ def rotor(drive: Drive, shaft: int | None = None, *, damping_ratio: float = DAMP
         crack=crack,
         crack_angle=0.0 if chosen.crack is None else chosen.crack.angle,
         damping_ratio=damping_ratio,
+        rises=push < 0.0,
+        stretched_above=bent * push > 0.0,
         assumed=(*found.assumed, *assumed),
     )
 
@@ -201,14 +215,14 @@ def _unbalance(
     return complex(summed(parts, scale=sum(one.amount for one in shaft.unbalance))), ()
 
 
-def _crack(shaft: Shaft, found: CriticalSpeeds, mode: int, shape: Array, stiffness: float) -> Crack:
-    """Return what a crack takes of the stiffness of a mode: as given, or as a hinge by its depth in the bent shaft."""
+def _crack(shaft: Shaft, found: CriticalSpeeds, mode: int, shape: Array, stiffness: float) -> tuple[Crack, float]:
+    """Return what a crack takes of the stiffness of a mode, and how the shape bends there [1/m²].
+
+    As given, or as a hinge by its depth in the bent shaft.
+    """
     given = shaft.crack
     if given is None:
-        return UNCRACKED
-    if given.losses:
-        xi, eta = given.losses
-        return Crack(loss_xi=xi, loss_eta=eta, breathing=given.breathing)
+        return UNCRACKED, 0.0
     begin, end = (float(one) for one in found.shaft_span[shaft.number - 1])
     length = end - begin
     piece = cracked_piece(shaft, length)
@@ -217,10 +231,14 @@ def _crack(shaft: Shaft, found: CriticalSpeeds, mode: int, shape: Array, stiffne
         inside = (found.place >= begin - 1e-9) & (found.place <= end + 1e-9)
     bow = interpolate().CubicSpline(found.place[inside], shape[inside])
     x = crack_place(shaft, length) + (end if shaft.number == 1 else begin)
-    moment = float(found.wear[mode]) ** 2 * piece.material.youngs * piece.second_moment * float(bow(x, 2))
+    bent = float(bow(x, 2))
+    if given.losses:
+        xi, eta = given.losses
+        return Crack(loss_xi=xi, loss_eta=eta, breathing=given.breathing), bent
+    moment = float(found.wear[mode]) ** 2 * piece.material.youngs * piece.second_moment * bent
     softer = (one * moment**2 / stiffness for one in crack_hinge(shaft, length))
     xi, eta = (one / (1.0 + one) for one in softer)
-    return Crack(loss_xi=xi, loss_eta=eta, breathing=given.breathing)
+    return Crack(loss_xi=xi, loss_eta=eta, breathing=given.breathing), bent
 
 
 # How does a shaft of a drive whirl with its unbalance and a crack: steadily, while running up, joined to the next?
@@ -350,7 +368,7 @@ def rotor_response(
         crack=one.crack,
         damping_ratio=one.damping_ratio,
         unbalance=one.unbalance,
-        unbalance_phase=one.unbalance_angle - one.crack_angle,
+        unbalance_phase=one.unbalance_turned - one.crack_turned,
         gravity=one.gravity,
         progress=progress,
     )
@@ -392,7 +410,7 @@ def rotor_run(
         crack=one.crack,
         damping_ratio=one.damping_ratio,
         unbalance=one.unbalance,
-        unbalance_phase=one.unbalance_angle - one.crack_angle,
+        unbalance_phase=one.unbalance_turned - one.crack_turned,
         gravity=one.gravity,
         progress=progress,
     )
@@ -470,9 +488,9 @@ def _whirling(drive: Drive, one: Rotor) -> WhirlingShaft:
         damping=2.0 * one.damping_ratio * math.sqrt(one.stiffness * one.mass),
         unbalance_mass=one.unbalance / radius,
         unbalance_radius=radius,
-        unbalance_angle=start + one.unbalance_angle,
+        unbalance_angle=start + one.unbalance_turned,
         crack=one.crack,
-        crack_angle=start + one.crack_angle,
+        crack_angle=start + one.crack_turned,
     )
 
 

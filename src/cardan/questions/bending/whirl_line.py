@@ -15,11 +15,12 @@ from cardan.drive.models.machine_held import tables_proposed
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 from cardan.drive.yokes import with_yokes
-from cardan.errors import InputError, Problem, check
+from cardan.errors import InputError, Problem, check, refuse
 from cardan.formulas.crack_compliance import crack_compliance
 from cardan.maths.arrays import Array
 from cardan.maths.linear.rotor_beams import Line, layout, line, rigid_motions, round_section
 from cardan.texts import _
+from cardan.units import mm
 
 SAME = 2e-4
 """Places nearer than this share of a shaft are one: a beam between them would only cost digits."""
@@ -186,9 +187,15 @@ def crack_place(shaft: Shaft, length: float) -> float:
 
 
 def cracked_piece(shaft: Shaft, length: float) -> Piece:
-    """Return the piece of the body in which the crack of a shaft is."""
-    x = crack_place(shaft, length) + (length if shaft.number == 1 else 0.0)
-    return [one for one in pieces(shaft, length) if one.start <= x][-1]
+    """Return the piece of the body in which the crack of a shaft is, at a shoulder the one that bends more easily."""
+    place = crack_place(shaft, length)
+    x, near = place + (length if shaft.number == 1 else 0.0), SAME * length
+    if not -near <= x <= length + near:
+        text = _("{position:.6g} mm is outside the body of shaft {number}, {length:.6g} mm long")
+        said = text.format(position=place / mm, number=shaft.number, length=length / mm)
+        raise refuse(f"shafts[{shaft.number - 1}].crack.position", said, "out_of_range")
+    touched = [one for one in pieces(shaft, length) if one.start - near <= x <= one.start + one.length + near]
+    return min(touched, key=lambda one: one.material.youngs * one.second_moment)
 
 
 def crack_hinge(shaft: Shaft, length: float) -> tuple[float, float]:
@@ -215,7 +222,7 @@ def crack_hinge(shaft: Shaft, length: float) -> tuple[float, float]:
 def _apart(wanted: list[float], length: float) -> Array:
     """Return places in rising order, those that nearly coincide as one, the ends as they are."""
     found: list[float] = [0.0]
-    for place in sorted(wanted):
+    for place in sorted(min(one, length) for one in wanted):
         if place - found[-1] > SAME * length:
             found.append(place)
     found[-1] = length
