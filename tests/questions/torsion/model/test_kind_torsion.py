@@ -14,9 +14,10 @@ from cardan.drive.joints import Hooke
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
 from cardan.errors import InputError
-from cardan.joints import DoubleCardan, ElasticHalfCardan, PinCoupling
+from cardan.joints import DoubleCardan, ElasticHalfCardan, PinCoupling, Tripod
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.motion import motion
+from cardan.questions.torsion.model.answer import parts_left_out
 
 ENDS = (Station(shaft=1, inertia=0.5), Station(shaft=2, inertia=2.0))
 
@@ -97,3 +98,11 @@ def test_pins_that_do_not_reach_around_are_refused():
     joint = PinCoupling(joint_angle=1.4, driving_slant=0.5, driving_distance=0.05, driven_distance=0.06)
     with pytest.raises(InputError, match=r"joints\[0\]\.joint_angle: a joint of kind pin_coupling .* does not turn"):
         torsion_modes(Drive(joints=(joint,), stations=ENDS), Duty(speed=1.0))
+
+
+def test_the_wobble_of_a_shaft_is_said_to_be_left_out():
+    """A last tripod whose shaft pivots beyond: order 3 of its motion is not in the line, and that is said."""
+    joint = Tripod(joint_angle=0.35, track_radius=0.02, pivot=0.3)
+    drive = Drive(joints=(joint,), stations=ENDS)
+    assert [one.code for one in parts_left_out(drive)] == ["wobble"]
+    assert not list(parts_left_out(replace(drive, joints=(replace(joint, pivot=None),))))

@@ -17,7 +17,7 @@ from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.assumed import yokes_estimated
-from cardan.questions.torsion.model.answer import friction_left_out, lacking, nonsynchronous, torques_left_out
+from cardan.questions.torsion.model.answer import lacking, nonsynchronous, parts_left_out, torques_left_out
 from cardan.questions.torsion.stability.proved_speeds import ProvedSpeeds
 from cardan.texts import _
 from cardan.units import deg
@@ -366,7 +366,7 @@ def cautions(found: Any) -> Iterator[Remark]:
         )
         yield Remark(text=text)
     yield from torques_left_out(found.drive)
-    yield from friction_left_out(found.drive)
+    yield from parts_left_out(found.drive)
     if found.cancelled:
         yield Remark(text=_("Warning: the search was stopped; this is the best so far."), tone="warning")
     elif not found.converged:

@@ -12,6 +12,7 @@ from cardan.answers.quantity import Joined, Quantity, Text, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.conditions import used_speeds
 from cardan.drive.drive import Drive
+from cardan.drive.models.wobble import wobbling
 from cardan.drive.torsional_layout import has_torsion
 from cardan.formulas.damping import SHAFT_SOURCE
 from cardan.later import later
@@ -528,7 +529,7 @@ def _crossing(one: Crossing) -> dict[str, Any]:
 
 def left_out(drive: Drive) -> Iterator[Remark]:
     """Yield what of a drive does not act in its torsional vibration although the file gives it."""
-    yield from friction_left_out(drive)
+    yield from parts_left_out(drive)
     if drive.movements:
         text = _(
             "Movements count instant by instant here, as if the drive stood; along the whole movement it is told by:"
@@ -560,6 +561,21 @@ def torques_left_out(drive: Drive) -> Iterator[Remark]:
         _("{acting}; left out, but counted in {where}: {parts}."), acting=acting, where=where, parts=Joined(parts)
     )
     yield Remark(text=said, tone="warning" if unloaded else "plain", code="torques_left_out")
+
+
+def parts_left_out(drive: Drive) -> Iterator[Remark]:
+    """Yield what joints and shafts of a drive do that does not act in its torsional vibration."""
+    if felt := wobbling(drive):
+        text = plural(
+            "Warning: that shaft {which} wobbles does not excite torsional vibration here; its angle error, by order, "
+            "is told by:",
+            "Warning: that shafts {which} wobble does not excite torsional vibration here; their angle error, by "
+            "order, is told by:",
+            len(felt),
+        )
+        said = say(text, which=listed([i + 2 for i in felt]))
+        yield Remark(text=said, command=("cardan", "motion", FILE), tone="warning", code="wobble")
+    yield from friction_left_out(drive)
 
 
 def friction_left_out(drive: Drive) -> Iterator[Remark]:

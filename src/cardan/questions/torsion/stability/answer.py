@@ -20,8 +20,8 @@ from cardan.questions.assumed import yokes_estimated
 from cardan.questions.torsion.model.answer import (
     assumptions,
     counted,
-    friction_left_out,
     nonsynchronous,
+    parts_left_out,
     ranges,
     torques_left_out,
 )
@@ -336,7 +336,7 @@ def _remarks(drive: Drive, found: Stability, axes: tuple[MapAxis, ...], *, signs
     yield from assumptions(found.train, sprung=True)
     if drive.duty.load is not None:  # in place of the torque of every load case
         yield from torques_left_out(drive)
-    yield from friction_left_out(drive)
+    yield from parts_left_out(drive)
     if axes and found.verdict.size > TOLD and (plays(found) or found.train.springs):
         text = _(
             "Where several motions are possible the first one found is judged; asked at a single speed, that which "
