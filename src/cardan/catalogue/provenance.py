@@ -59,9 +59,10 @@ def _row(drive: Drive, known: Catalogue, path: str) -> Row | None:
     if held:
         support = drive.supports[int(held[1])]
         for naming, (kind, names) in BORNE.items():
-            named = known.rows(kind).get(getattr(support, naming)) if held[2] in names else None
-            if named is not None and getattr(named, held[2]) == getattr(support, held[2]):
-                return named if getattr(named, held[2]) is not None else None
+            if held[2] in names:
+                named = known.rows(kind).get(getattr(support, naming))
+                usual = getattr(named, held[2], None)
+                return named if usual is not None and usual == _at(drive, path) else None
         return None
     match = _PART.match(path)
     size = known.rows(JointSize).get(drive.joints[int(match[1])].size) if match else None

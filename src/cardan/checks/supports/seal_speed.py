@@ -3,31 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
 from cardan.texts import _, mark
 
+from .support_speed import of_supports
+
 
 def _judge(design: Design) -> Iterator[Verdict]:
-    speed = design.top_speed
-    for k in range(len(design.drive.supports)):
-        path = f"supports[{k}].max_lip_speed"
-        limit, diameter = design.value(path), design.value(f"supports[{k}].seal_diameter")
-        if limit is None or diameter is None:
-            continue
-        if speed is None:
-            yield Verdict(subject=f"supports[{k}]", missing=design.unmoved)
-            continue
-        yield Verdict(
-            subject=f"supports[{k}]",
-            value=0.5 * diameter * speed,
-            limit=limit,
-            source=_("largest speed under the lip of the seal"),
-            design_variables=design.speed_design_variables,
-            rests=(path,),
-        )
+    def radius(k: int) -> Any:
+        diameter = design.value(f"supports[{k}].seal_diameter")
+        return None if diameter is None else 0.5 * diameter
+
+    yield from of_supports(design, "max_lip_speed", radius, _("largest speed under the lip of the seal"))
 
 
 CHECK = Check(
