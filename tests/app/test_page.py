@@ -217,6 +217,21 @@ def test_the_page_speaks_russian_and_remembers_it(page_of: Open, url: str) -> No
         assert re.match(r"Шарнир 1 · centre_mm y: [а-я]", told), told
 
 
+COVERED = """() => [...document.querySelectorAll("button, input, [role=tab]")].map(one => {
+  const box = one.getBoundingClientRect(), x = box.left + box.width / 2, y = box.top + box.height / 2;
+  const met = box.width ? document.elementFromPoint(x, y) : null;
+  return met && !one.contains(met) && met.matches(".q-icon") ? `${met.innerText} over ${one.outerHTML.slice(0, 120)}` : ""
+}).filter(found => found)"""
+
+
+def test_icons_without_their_font_take_no_clicks_of_their_neighbours(page_of: Open, url: str) -> None:
+    page = page_of(url, reduced_motion="reduce", allow=("net::ERR_FAILED",))
+    page.route("**/*.woff2", lambda one: one.abort())
+    page.reload()
+    ready(page)
+    assert page.evaluate(COVERED) == []
+
+
 def test_every_export_opens_with_its_own_library(page: Any, tmp_path: Path) -> None:
     opened: list[str] = []
     for kind, check in EXPORTS.items():
