@@ -144,6 +144,39 @@ def test_stopped_processes_are_gone(tmp_path):
     assert not multiprocessing.active_children()
 
 
+class Swallowing:
+    """What is interrupted as it is thrown away: Python goes on."""
+
+    met = 0
+
+    def __del__(self):
+        Swallowing.met += 1
+        signal.raise_signal(signal.SIGINT)
+        time.sleep(0)  # the handler runs here
+
+
+def test_a_ctrl_c_that_a_destructor_swallows_ends_the_run_all_the_same(tmp_path, monkeypatch):
+    told = []
+    monkeypatch.setattr(sys, "unraisablehook", told.append)
+    monkeypatch.setattr(Swallowing, "met", 0)
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+
+    def progress(_share):
+        if not Swallowing.met:
+            Swallowing()
+
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            run(WORK, chunk=CHUNK, into=tmp_path, progress=progress)
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        assert sys.unraisablehook == told.append
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert (Swallowing.met, told) == (1, [])
+    assert read_sweep(tmp_path).status == "cancelled"
+    undisturbed(run(WORK, into=tmp_path), WORK, CHUNK)
+
+
 INTERRUPTED = """
 import sys
 from pathlib import Path

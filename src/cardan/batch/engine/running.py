@@ -17,7 +17,7 @@ from cardan.errors import refuse
 from cardan.files import refusal
 from cardan.texts import _
 
-from .engines import Engine, EngineLostError, InProcess, reason
+from .engines import Engine, EngineLostError, InProcess, heeded, reason
 
 __all__ = ["Sweep", "read_sweep", "run"]
 
@@ -106,8 +106,10 @@ class _Told:
         self._progress = progress
         self._last = float("-inf")
         self.stopped = False
+        self.interrupted: Callable[[], None] = lambda: None  # raises what ctrl-C raised and nobody passed on
 
     def __call__(self, rows: int, *, now: bool = False) -> str | None:
+        self.interrupted()
         at = time.monotonic()
         if self._progress is not None and (now or at - self._last >= OFTEN):
             self._last = at
@@ -169,7 +171,8 @@ class _Running:
     def result(self) -> Sweep:
         """Run, and return what came out."""
         try:
-            why = self._run()
+            with heeded() as self.told.interrupted:
+                why = self._run()
         except KeyboardInterrupt:
             self._sweep("cancelled", _("it was stopped"))  # the folder says how far it is
             raise
