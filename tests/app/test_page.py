@@ -220,7 +220,8 @@ def test_the_page_speaks_russian_and_remembers_it(page_of: Open, url: str) -> No
 COVERED = """() => [...document.querySelectorAll("button, input, [role=tab]")].map(one => {
   const box = one.getBoundingClientRect(), x = box.left + box.width / 2, y = box.top + box.height / 2;
   const met = box.width ? document.elementFromPoint(x, y) : null;
-  return met && !one.contains(met) && met.matches(".q-icon") ? `${met.innerText} over ${one.outerHTML.slice(0, 120)}` : ""
+  const covered = met && !one.contains(met) && met.matches(".q-icon");
+  return covered ? `${met.innerText} over ${one.outerHTML.slice(0, 120)}` : "";
 }).filter(found => found)"""
 
 
