@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from cardan.maths.curves.extremes import peaks
+from cardan.maths.curves.extremes import peak, peaks
 
 
 def test_smooth_peaks_are_found_to_rounding():
@@ -15,6 +15,19 @@ def test_smooth_peaks_are_found_to_rounding():
     np.testing.assert_allclose(place, shifts, atol=2e-6)
     # The value is flat at its peak: the square of that.
     np.testing.assert_allclose(value, np.e, rtol=1e-11)
+
+
+def test_of_two_tops_nearly_as_high_the_higher_counts_whatever_samples_lie_nearer():
+    """The higher one lies half a step beside its samples, the lower one on one."""
+    step = 2.0 * np.pi / 90
+    angle = np.arange(90) * step
+    one, other = 14.5 * step, 60.0 * step
+
+    def curve(x):
+        return np.exp(8.0 * (np.cos(x - one) - 1.0)) + (1.0 - 1e-3) * np.exp(8.0 * (np.cos(x - other) - 1.0))
+
+    assert np.argmax(curve(angle)) == 60
+    assert peak(curve(angle)) == pytest.approx(curve(one), abs=1e-5)
 
 
 def test_a_single_place_is_its_own_peak():

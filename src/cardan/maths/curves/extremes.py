@@ -161,16 +161,20 @@ def level(slope: Callable[[Array], Array], left: Array, right: Array) -> Array:
 
 
 def peak(values: Array) -> Array:
-    """Return the largest values of periodic curves: of the quartic through the five samples about the largest.
+    """Return the largest values of periodic curves: of the quartics through five samples about the two highest tops.
 
+    Of two tops of nearly the same height the sample at the lower one may be the larger.
     values (..., p): at evenly spaced places of a period.
 
     >>> print(f"{float(peak(2.0 + np.cos(np.arange(120) * 2 * np.pi / 120 + 0.02))):.9f}")
     3.000000000
     """
-    at = np.argmax(values, axis=-1)[..., None]
+    first_top = np.argmax(values, axis=-1)[..., None]
     count = values.shape[-1]
-    a, b, top, c, d = (np.take_along_axis(values, (at + k) % count, axis=-1)[..., 0] for k in range(-2, 3))
+    above = (values >= np.roll(values, 1, axis=-1)) & (values >= np.roll(values, -1, axis=-1))
+    others = np.where(above & (np.arange(count) != first_top), values, -np.inf)
+    at = np.concatenate((first_top, np.argmax(others, axis=-1)[..., None]), axis=-1)
+    a, b, top, c, d = (np.take_along_axis(values, (at + k) % count, axis=-1) for k in range(-2, 3))
     first = (a - 8.0 * b + 8.0 * c - d) / 12.0
     second = (-a + 16.0 * b - 30.0 * top + 16.0 * c - d) / 12.0
     third = 0.5 * (-a + 2.0 * b - 2.0 * c + d)
@@ -182,7 +186,8 @@ def peak(values: Array) -> Array:
         rise = second + place * (third + 0.5 * place * fourth)
         place = np.where(rise < 0.0, np.clip(place - slope / np.where(rise < 0.0, rise, -1.0), -1.0, 1.0), 0.0)
     found = top + place * (first + place * (0.5 * second + place * (third / 6.0 + place * fourth / 24.0)))
-    return np.maximum(top, found)
+    highest: Array = np.max(np.maximum(top, found), axis=-1)
+    return highest
 
 
 # Series of instants with rates: what happens between the instants, by the quintic that fits both ends.
