@@ -23,10 +23,12 @@ from cardan.batch.answering.asking import evaluator
 from cardan.batch.answering.many import many
 from cardan.batch.answering.questions import questions
 from cardan.batch.work import Status
+from cardan.checks import check
 from cardan.drive.duty import Duty
 from cardan.drive.fields.paths import with_values
 from cardan.io import loads
 from cardan.questions.motion.answer import COLUMNS as MOTION
+from cardan.questions.motion.turning import each_shaft
 from cardan.questions.torsion.transient.answer import largest
 from cardan.questions.torsion.transient.run_up_answer import follow
 from cardan.register import QUESTIONS
@@ -180,6 +182,27 @@ def test_joints_with_laws_of_their_own_are_seen_over_a_turn():
         < found["speed_fluctuation_percent"][2]
     )
     assert np.allclose(found["joint_angle_deg[0]"], [0.0, 10.0, 20.0])
+
+
+@pytest.mark.parametrize("joints", [1, 2])
+def test_one_row_tells_of_a_wobble_what_motion_and_verdicts_tell(joints):
+    tripod = '[[joints]]\nkind = "tripod"\njoint_angle_deg = 20\ntrack_radius_mm = 20\n'
+    cross = "[[joints]]\njoint_angle_deg = 15\n[[shafts]]\nnumber = 2\nlength_mm = 300\n"
+    drive = loads(f"format = 1\nduty.speed_rpm = 1000\n{tripod}{'pivot_mm = 300' if joints == 1 else cross}")
+    ask = evaluator(drive, ["joints[0].joint_angle_deg"], ["speed_fluctuation", "phasing", "acceleration"])
+    found = ask(np.asarray([[10.0], [20.0]]))
+    assert np.all(found["status"] == 0)
+    uneven, least = found["speed_fluctuation_percent"], found["least_speed_fluctuation_percent"]
+    assert np.all(least <= uneven * (1.0 + 1e-9))
+    assert np.all(uneven <= found["largest_speed_fluctuation_percent"] * (1.0 + 1e-9))
+    if joints == 1:
+        assert least == pytest.approx(uneven, rel=1e-9)
+    told = [f"{name}_acceleration_rad_s2" for name in ("output", "drive", "coast")[: 1 if joints == 1 else 3]]
+    for k, angle in enumerate((10.0, 20.0)):
+        here = with_values(drive, {"joints[0].joint_angle_deg": angle})
+        assert uneven[k] == pytest.approx(100.0 * each_shaft(here).speed_fluctuation[-1], rel=1e-9)
+        judged = [float(row.value) for row in check(here) if row.check == "acceleration"]
+        assert sorted(judged) == pytest.approx(sorted(found[name][k] for name in told), rel=1e-9)
 
 
 def test_every_question_tells_columns_of_its_own():

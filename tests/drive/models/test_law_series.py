@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from cardan.drive.drive import Drive
 from cardan.drive.joints import JOINTS
 from cardan.drive.models.kinematics_model import Chain, turning
 from cardan.drive.models.law_series import beside_maps
@@ -13,9 +14,16 @@ from tests.drive.joints.test_protocol import SHARP, UNEVEN
 
 
 def chain(bends) -> Chain:
-    """Return one joint at several joint angles."""
-    none = np.zeros((len(bends), 0))
-    return Chain(joint_angle=bends[:, None], plane_twist=none, yoke_angle=none, start_phase=np.zeros(len(bends)))
+    """Return two joints at several joint angles, the same for both."""
+    none, both = np.zeros((len(bends), 1)), np.stack([bends, bends], axis=-1)
+    return Chain(joint_angle=both, plane_twist=none, yoke_angle=none, start_phase=np.zeros(len(bends)))
+
+
+def pair(joint) -> Drive:
+    """Return a drive of two such joints, as sharp as no file may have them."""
+    drive = Drive.from_angles([0.1, 0.1])
+    object.__setattr__(drive, "joints", (joint,) * 2)
+    return drive
 
 
 @pytest.mark.parametrize("kind", SHARP)
@@ -26,8 +34,8 @@ def test_sums_and_map_together_are_the_law(kind):
     theta = np.linspace(0.0, 6.2, 41)
     for bends in (np.radians(np.linspace(0.3, 0.8, 70) * min(steep, 60.0)), np.radians([30.0, 12.3, 0.3 * steep])):
         given = chain(bends)
-        near = turning(given, (joint,), near=True)
-        sums = beside_maps((joint,), given, near)
+        near = turning(given, (joint,) * 2, near=True)
+        sums = beside_maps(pair(joint), given, near)
         for k in (0, 1, len(bends) - 1):
             tau = np.tan(0.5 * near.joint_angle[k, 0]) ** 2
             at = theta + near.laws.ahead[k, 0]  # the Hooke joint's yoke stands ahead of the mark
@@ -44,11 +52,11 @@ def test_a_law_is_asked_at_many_bends_at_once_and_once_for_each(monkeypatch):
     law = Clemens.deviation
     monkeypatch.setattr(Clemens, "deviation", lambda self, *at: asked.append(np.size(at[1])) or law(self, *at))
     joint, given = Clemens(**UNEVEN["clemens"], mass=1.2345), chain(np.linspace(0.05, 0.6, 100))
-    near = turning(given, (joint,), near=True)
+    near = turning(given, (joint,) * 2, near=True)
     asked.clear()
-    first = beside_maps((joint,), given, near)
+    first = beside_maps(pair(joint), given, near)
     assert sum(asked) >= 100
     assert len(asked) <= 6
     asked.clear()
-    assert np.array_equal(beside_maps((joint,), given, near), first)
+    assert np.array_equal(beside_maps(pair(joint), given, near), first)
     assert not asked

@@ -13,6 +13,8 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.joints.tripod import pivot_error
 from cardan.drive.shaft import Shaft
+from cardan.drive.support import Support
+from cardan.errors import InputError
 from cardan.io import example
 from cardan.joints import PinCoupling, Rzeppa, Tripod
 from cardan.questions.motion.answer import answer, ask
@@ -126,5 +128,32 @@ def test_a_tripod_whose_shaft_pivots_beyond_errs_as_with_the_joint_there():
     assert "and so does the output" not in told(of(alone).sentence, USUAL)
     verdict = next(row for row in check(alone) if row.check == "acceleration")
     assert verdict.value == pytest.approx(9 * pivot_error(20 * deg, 20 * mm, 300 * mm) * (1000 * rpm) ** 2, rel=2e-2)
+    straight = replace(alone, joints=(replace(joint, joint_angle=0.0),))
+    assert "every joint turns uniformly by itself" in told(of(straight).sentence, USUAL)
     held = replace(alone, joints=(replace(joint, pivot=None),))
     assert "and so does the output" in told(of(held).sentence, USUAL)
+
+
+@pytest.mark.parametrize(
+    ("support", "binds"),
+    [
+        (Support(shaft=2, position=100 * mm), True),
+        (Support(shaft=2, position=300 * mm), False),
+        (Support(shaft=2, position=300 * mm, tilt=True), True),
+        (Support(shaft=2, position=100 * mm, radial=False, axial=True), False),
+    ],
+)
+def test_supports_that_keep_a_shaft_from_wobbling_are_told(support, binds):
+    """Behind a joint in the file the motion warns; where the file says that the shaft pivots, it is refused."""
+    joint = Tripod(joint_angle=20 * deg, track_radius=20 * mm)
+    inner = Drive(
+        joints=(joint, Rzeppa(joint_angle=0.1)), shafts=(Shaft(number=2, length=300 * mm),), supports=(support,)
+    )
+    assert any(one.code == "binding" for one in of(inner).remarks) == binds
+    last = Drive(joints=(joint,), supports=(support,))
+    pivoting = (replace(joint, pivot=300 * mm),)
+    if binds:
+        with pytest.raises(InputError, match=r"supports\[0\].position: shaft 2 pivots 300 mm behind joint 1"):
+            replace(last, joints=pivoting)
+    else:
+        replace(last, joints=pivoting)

@@ -7,11 +7,11 @@ import pytest
 
 from cardan import Drive, InputError, phases
 from cardan.drive.joints import JOINTS
-from cardan.drive.models.wobble import wobbling
 from cardan.drive.settings import Pose, Steering
 from cardan.io.drive_file import loads
 from cardan.questions.motion.motion import motion
-from cardan.questions.phases.own_laws import Search, course_of
+from cardan.questions.motion.turning import each_shaft
+from cardan.questions.phases.own_laws import Search, WobblingCourse, course_of
 from cardan.register import QUESTIONS
 from cardan.units import deg
 from tests.questions.test_every_joint import drive_of
@@ -129,6 +129,45 @@ def test_a_steering_column_needs_the_form():
         phases(replace(two(), steering=Steering(lock=8.0)))
 
 
+def wobbling_drive(second):
+    """Return a drive with a tripod whose shaft wobbles, before a cross or alone, with what it pivots about."""
+    tripod = '[[joints]]\nkind = "tripod"\njoint_angle_deg = 20\ntrack_radius_mm = 20\n'
+    return loads("format = 1\n" + tripod + second)
+
+
+CROSS = "[[joints]]\njoint_angle_deg = 20\nplane_twist_deg = 30\n[[shafts]]\nnumber = 2\nlength_mm = 300\n"
+
+
+def test_yokes_beside_a_wobble_leave_what_the_motion_leaves():
+    drive = wobbling_drive(CROSS)
+    found = phases(drive)
+    assert found.followed
+    assert found.as_built.shaft_speed_fluctuation == pytest.approx(each_shaft(drive).speed_fluctuation, rel=1e-9)
+    settings = [found.settings[0].yoke_angle, np.asarray([1.0]), np.asarray([2.5])]
+    for yokes in settings:
+        moved = with_yokes(drive, yokes)
+        here = WobblingCourse(drive).fluctuation(yokes)
+        assert here == pytest.approx(each_shaft(moved).speed_fluctuation, rel=1e-9)
+        assert WobblingCourse(drive).initial_phases(yokes) == pytest.approx(motion(moved, [0.0]).yoke_rotation[:, 0])
+    tried = [fluctuation(with_yokes(drive, [angle])) for angle in np.arange(0.0, 2.0 * np.pi, 10 * deg)]
+    assert found.speed_fluctuation_min <= min(tried) + 1e-9
+    assert found.speed_fluctuation_max >= max(tried) * (1.0 - 1e-6)
+    assert min(tried) < found.speed_fluctuation_max - 5e-4  # the yokes count
+
+
+def test_a_last_tripod_that_pivots_leaves_by_its_yokes_what_the_motion_leaves():
+    drive = wobbling_drive("pivot_mm = 300\n")
+    question = QUESTIONS["phasing"]
+    found = question.ask(drive)
+    assert found.speed_fluctuation_min == pytest.approx(float(each_shaft(drive).speed_fluctuation[-1]), rel=1e-9)
+    assert [one.name for one in question.answer(drive, found).keys] == ["speed_fluctuation"]
+
+
+def test_a_steering_column_has_no_wobbling_shaft():
+    with pytest.raises(InputError, match=r"joints\[0\]\.kind: its driven shaft wobbles"):
+        phases(replace(wobbling_drive(CROSS), steering=Steering(lock=8.0)))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", JOINTS)
 @pytest.mark.parametrize("first", [True, False])
@@ -136,7 +175,7 @@ def test_yokes_behind_and_before_every_kind_are_phased(kind, first):
     drive = drive_of(kind, first)
     question = QUESTIONS["phasing"]
     told = question.answer(drive, question.ask(drive))
-    assert told.keys or wobbling(drive)
+    assert told.keys
 
 
 def test_a_joint_alone_has_no_yokes_to_turn():

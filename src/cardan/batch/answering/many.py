@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.checks.angles.acceleration import swings
+from cardan.checks.angles.acceleration import swings, swings_of_laws
 from cardan.drive.drive import Drive
 from cardan.drive.fields.validity import COINCIDENT, TINY, axis_points
 from cardan.drive.models.geometry import Number, Vector, columns, geometry, polyline, table
@@ -75,7 +75,7 @@ class Many:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FollowedDrive(Many):
-    """One drive with joints that turn by laws of their own, as its motion over a turn shows it; n = 1."""
+    """One drive that no chain of Hooke joints turns like, as its motion over a turn shows it; n = 1."""
 
     seen: Swing
 
@@ -91,8 +91,8 @@ class FollowedDrive(Many):
 
     @property
     def swings(self) -> Array:
-        """Refused: inside shafts in coast have no closed form here."""
-        raise refuse("joints", _("not answered for joints that turn by laws of their own"))
+        """Largest accelerations over the square of the speed (1, k)."""
+        return swings_of_laws(self.seen)[None]
 
 
 def one(drive: Drive) -> Many:

@@ -35,7 +35,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
     if design.joints > 1:
         said.append((_("inertia excitation, drive"), "", norm.inertia_drive))
         said.append((_("inertia excitation, coast"), "", norm.inertia_coast))
-    drawn_swings = None if speed is None else _of_laws(design.swing) if design.swing else swings(design.chain)
+    drawn_swings = None if speed is None else swings_of_laws(design.swing) if design.swing else swings(design.chain)
     moved = None if speed is None else design.while_moving(swings)
     rigid = _("of rigid shafts: torsional vibration is not in it")
     for k, (title, subject, limit) in enumerate(said):
@@ -58,8 +58,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
         )
 
 
-def _of_laws(seen: Swing) -> Array:
-    """Return the same as `swings` of a drive whose joints turn by laws of their own, seen over a turn."""
+def swings_of_laws(seen: Swing) -> Array:
+    """Return the same as `swings` of a drive that no chain of Hooke joints turns like, seen over a turn (k,)."""
     inside = seen.max_acceleration[:-1], seen.coast_acceleration
     return np.asarray([seen.max_acceleration[-1], *(float(np.max(one)) for one in inside if one.size)])
 

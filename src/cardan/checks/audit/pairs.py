@@ -106,7 +106,7 @@ def _seen_uneven(asked: Asked) -> Values:
 
 
 def _phased(asked: Asked) -> Values:
-    if unmapped(asked.drive.joints) or wobbling(asked.drive):
+    if unmapped(asked.drive.joints):
         return {}  # the phasing says what it leaves out, and seeks yoke angles long
     found = asked.phasing
     return {} if found is None else of_parts("shafts", found.as_built.shaft_speed_fluctuation, 2)

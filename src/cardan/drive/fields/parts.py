@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import fields
 
 from cardan.drive.body import body_problems
@@ -36,6 +36,7 @@ def part_problems(drive: Described) -> Iterator[Problem]:
             yield from _spline(shaft, len(drive.joints), length, f"{path}.spline")
     for k, support in enumerate(drive.supports):
         yield from _support(support, len(drive.joints), length, f"supports[{k}]")
+        yield from _binding(support, drive.joints, f"supports[{k}]")
     ranges = [("duty", drive.duty.speed_range)]
     ranges += [(f"duty.cases[{k}]", case.speed_range) for k, case in enumerate(drive.duty.cases)]
     for path, between in ranges:
@@ -195,6 +196,17 @@ def _support(support: Support, joints: int, length: dict[int, float], path: str)
         yield Problem(f"{path}.bore", _("missing: friction acts at the bore"))
     if (support.seals > 1 or support.max_lip_speed is not None) and support.seal_diameter is None and not support.seal:
         yield Problem(f"{path}.seal_diameter", _("missing: seals rub on the shaft under their lips"))
+
+
+def _binding(support: Support, joints: Sequence[Joint], path: str) -> Iterator[Problem]:
+    """Yield that a support keeps an output shaft from pivoting where its joint says that it does."""
+    place = joints[-1].held(None) if joints[-1].felt_beyond else None
+    if support.shaft != len(joints) + 1 or place is None:
+        return
+    if support.tilt or (support.radial and abs(support.position - float(place)) > 1e-5):
+        text = _("shaft {shaft} pivots {place:.6g} mm behind joint {joint}: it binds here")
+        said = text.format(shaft=support.shaft, joint=len(joints), place=float(place) / mm)
+        yield Problem(f"{path}.position", said, "inconsistent")
 
 
 def place_problems(

@@ -141,11 +141,26 @@ def geometry(drive: Drive) -> Geometry:
         points = np.concatenate((-steps[:1], np.zeros((1, 3)), np.cumsum(steps[1:], axis=0)))
         found = geometry_from_points(points)
         return replace(found, assumed=assumed)
-    joint_angle, twist = given_angles(drive)
+    return replace(geometry_from_angles(*given_angles(drive), length), assumed=assumed)
+
+
+def geometry_from_angles(joint_angle: Array, twist: Array, length: Array) -> Geometry:
+    """Return where a drive lies that is given by joint angles and plane twists (n,) [rad] and lengths (n+1,) [m].
+
+    twist: β_1 … β_n, the first that of the plane of joint 1 about shaft 1.
+    """
     points = points_from_angles(joint_angle, twist[1:], length, first_twist=twist[0])
     found = geometry_from_points(points)
     normal = _normals(found.axis, twist)
-    return replace(found, length=length, normal=normal, joint_angle=joint_angle, plane_twist=twist[1:], assumed=assumed)
+    return replace(found, length=length, normal=normal, joint_angle=joint_angle, plane_twist=twist[1:])
+
+
+def one_of(place: Geometry, k: int) -> Geometry:
+    """Return one of many geometries, counted through all their leading axes."""
+    parts = {"points": 2, "length": 1, "axis": 2, "normal": 2, "joint_angle": 1, "plane_twist": 1}
+    rows = {name: getattr(place, name) for name in parts}
+    many = math.prod(place.points.shape[:-2])
+    return Geometry(**{name: np.reshape(row, (many, *row.shape[-parts[name] :]))[k] for name, row in rows.items()})
 
 
 def given_angles(drive: Drive) -> tuple[Array, Array]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -72,10 +72,14 @@ def chain(drive: Drive) -> Chain:
 
 def turning_chain(drive: Drive) -> Chain:
     """Return the Hooke joints that turn like the joints of a drive, those of other kinds among them."""
-    felt = wobbling(drive)
-    text = _("its driven shaft wobbles, which the next joint feels: no chain of Hooke joints turns as this drive does")
-    check(Problem(f"joints[{i}].kind", text, "unknown_kind") for i in felt)
+    check(wobble_problems(drive))
     return turning(given_chain(drive), drive.joints)
+
+
+def wobble_problems(drive: Drive) -> Iterator[Problem]:
+    """Yield the problems of a question that takes the joints of a drive by Hooke joints, where a shaft wobbles."""
+    text = _("its driven shaft wobbles, which the next joint feels: no chain of Hooke joints turns as this drive does")
+    yield from (Problem(f"joints[{i}].kind", text, "unknown_kind") for i in wobbling(drive))
 
 
 def turning(whole: Chain, joints: Sequence[Joint], *, near: bool = False) -> Chain:

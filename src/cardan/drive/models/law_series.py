@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
 from functools import lru_cache
 
 import numpy as np
 
+from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array, unit_complex
 from cardan.maths.kernel import mobius
 from cardan.texts import _
 
+from .geometry import Geometry, geometry, geometry_from_angles, one_of
 from .kinematics_model import NEGLIGIBLE, Chain, unmapped
+from .wobble import leads, wobbling
 
 PLACES = (128, 512, 2048)
 """Places of a turn at which a law is taken: more where it has more harmonics."""
 
 POINTS = 64 * PLACES[0]
 """Places of all bends at which a law is taken at once."""
+
+SEEN = 512
+"""Places of a turn at which the laws of joints are seen that wobbling shafts change."""
 
 KEPT = 4096
 """Bends of a joint whose sums are kept."""
@@ -31,28 +37,34 @@ ROUGH = 1e-9
 """Largest harmonic of the upper quarter [rad] of a law that is not followed closely enough."""
 
 
-def beside_maps(joints: Sequence[Joint], given: Chain, near: Chain) -> Array | None:
+def beside_maps(drive: Drive, given: Chain, near: Chain, place: Geometry | None = None) -> Array | None:
     """Return what each joint turns beside the Hooke joint of a chain, or None where no joint is far from its map.
 
-    joints; given (..., n): their bends as they are; near (..., n): the Hooke joints nearest to them.
+    given (..., n): bends of the joints of a drive as they are; near (..., n): the Hooke joints nearest to them.
+    place (...): where the joints are then; from their angles, with lengths as drawn, when not given.
+    What a joint feels of a wobbling shaft before it is in its law, see `leads`.
     Returns complex (..., K+1, n) [rad]: c_k of T(θ) - T_near(θ) = Re Σ c_k e^(ikθ), θ the angle of the driving yoke of
     the Hooke joint from the plane of its shafts; 0 for a joint that no more than `NEGLIGIBLE` is off its map.
     Raises InputError: a law so sharp that no sum follows it.
     """
-    own = unmapped(joints)
-    if not own or near.laws is None:
-        return None
+    joints = drive.joints
     shape = np.shape(given.joint_angle)
+    if near.laws is None:
+        return None
     ahead = np.broadcast_to(near.laws.ahead, shape)
     found: dict[int, Array] = {}
-    for i in own:
-        bends, place = np.unique(np.asarray(given.joint_angle)[..., i], return_inverse=True)
+    felt = wobbling(drive)
+    if felt:
+        seen = _beside_wobbles(drive, given, near.joint_angle, ahead, place)
+        found = {i: np.stack(row).reshape(*shape[:-1], -1) for i, row in seen.items()}
+    for i in () if felt else unmapped(joints):
+        bends, spot = np.unique(np.asarray(given.joint_angle)[..., i], return_inverse=True)
         alike = np.asarray(near.joint_angle)[..., i].reshape(-1)
         turned = ahead[..., i].reshape(-1)
-        first = np.unique(place.reshape(-1), return_index=True)[1]
+        first = np.unique(spot.reshape(-1), return_index=True)[1]
         rows = _rows(joints[i], i, bends, alike[first], turned[first])
         wide = max(len(row) for row in rows)
-        sums = np.stack([np.pad(row, (0, wide - len(row))) for row in rows])[place.reshape(-1)]
+        sums = np.stack([np.pad(row, (0, wide - len(row))) for row in rows])[spot.reshape(-1)]
         found[i] = sums.reshape(*shape[:-1], wide)
     if not any(np.any(one) for one in found.values()):
         return None
@@ -60,6 +72,28 @@ def beside_maps(joints: Sequence[Joint], given: Chain, near: Chain) -> Array | N
     for i, one in found.items():
         sums[..., : one.shape[-1], i] = one
     return sums
+
+
+def _beside_wobbles(
+    drive: Drive, given: Chain, alike: Array, ahead: Array, place: Geometry | None
+) -> dict[int, list[Array]]:
+    """Return the same where shafts wobble: c_k of each joint at every bend, array (K+1,) each, of one length."""
+    n, many = given.joints, np.shape(given.joint_angle)[:-1]
+    theta = np.arange(SEEN) * (2.0 * np.pi / SEEN)
+    each = (given.joint_angle, given.plane_twist, given.yoke_angle, alike, ahead)
+    wide = (np.broadcast_to(one, (*many, np.shape(one)[-1])) for one in each)
+    rows = zip(*(np.reshape(one, (math.prod(many), one.shape[-1])) for one in wide), strict=True)
+    found: dict[int, list[Array]] = {i: [] for i in range(n)}
+    length = geometry(drive).length
+    for k, (bends, twists, yokes, hooke, turned) in enumerate(rows):
+        there = geometry_from_angles(bends, np.append(0.0, twists), length) if place is None else one_of(place, k)
+        led = leads(drive, there, yokes, theta - turned[:, None])
+        rest = led - mobius.angle_error(mobius.hooke(hooke[:, None]), unit_complex(2.0 * theta))
+        for i in range(n):
+            row = _sums(rest[i], i, last=True)
+            found[i].append(np.zeros(1, dtype=complex) if row is None else row)
+    longest = max(len(row) for one in found.values() for row in one)
+    return {i: [np.pad(row, (0, longest - len(row))) for row in one] for i, one in found.items()}
 
 
 @lru_cache(maxsize=64)
@@ -125,5 +159,5 @@ def _sums(rest: Array, i: int, *, last: bool) -> Array | None:
     text = _("its law is too sharp to be followed: at order {order} of the turn it still has {size:.2g}°")
     sharp = text.format(order=len(wave) - 1, size=float(np.degrees(upper)))
     check([Problem(f"joints[{i}].joint_angle", sharp, "out_of_range")] if upper > ROUGH else [])
-    kept = np.flatnonzero(size > max(FLOOR, 4.0 * upper))
-    return np.asarray(wave[: kept[-1] + 1])
+    there = size > max(FLOOR, 4.0 * upper)
+    return np.asarray(np.where(there, wave, 0.0)[: np.flatnonzero(there)[-1] + 1])

@@ -12,12 +12,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cardan.drive.described import Described
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.joints import Joint
 from cardan.drive.joints.common.inner import Stance
 from cardan.drive.joints.joint import EXACT
 from cardan.maths.arrays import Array
+from cardan.maths.curves.extremes import sampled_series, series_at
 from cardan.maths.kernel import frames
 
 from .floating import Way, gives_way, swivels_at_next
@@ -25,16 +27,33 @@ from .geometry import STRAIGHT, Geometry, geometry
 
 SAMPLES = 720  # places in a turn at which wobbling shafts are looked at; between them by the harmonics
 ROUNDS = 60  # rounds in which a shaft finds its place; each leaves less than the radius of its orbit over its length
+BESIDE = 1e-5  # [m]: so near the place about which a shaft wobbles a support does not hinder it
 CLOSE = 1e-15  # change of a direction at which that place is found
 NODES = 14  # joint angles at which a law without a map is asked; between them by the polynomial through these
+PLACES = 512  # places in a turn by which the laws of joints are told that wobbling shafts change
+STEPS = 8  # Newton's steps from the angle of a driving yoke to that of the input
 MEAN = 48  # places in a turn over which the start of a shaft is averaged
 
 
-def wobbling(drive: Drive) -> tuple[int, ...]:
+def wobbling(drive: Described) -> tuple[int, ...]:
     """Return the joints, from 0, whose driven shaft wobbles so that a further joint feels it, in the file or beyond."""
     known = known_lengths(drive)
     joints = drive.joints if drive.joints[-1].felt_beyond else drive.joints[:-1]
     return tuple(i for i, one in enumerate(joints) if one.wobbles and one.held(known.get(i + 2)) is not None)
+
+
+def binding(drive: Described) -> Iterator[tuple[int, int]]:
+    """Yield joints whose driven shaft would wobble, and supports that hold it beside the place about which it does.
+
+    Both from 0.
+    """
+    known = known_lengths(drive)
+    for i in wobbling(drive):
+        place = drive.joints[i].held(known.get(i + 2))
+        for k, one in enumerate(drive.supports):
+            beside = one.radial and abs(one.position - float(np.asarray(place))) > BESIDE
+            if one.shaft == i + 2 and (one.tilt or beside):
+                yield i, k
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -59,12 +78,14 @@ def course(
     phase: float | None = None,
     still: bool = False,
     off: Sequence[Mapping[str, Array]] = (),
+    yokes: Array | None = None,
 ) -> Course:
     """Return where the shafts of a drive are at input angles (p,), or (..., p), [rad] from the start position.
 
     place: where its joints are; as drawn when not given. phase [rad]: ψ_1; as the drive says when not given.
     still: whether a joint that does not turn at its joint angle passes on its mark as one of constant velocity would.
     off: errors of each joint by which its driven shaft leaves its place, see `Joint.head`, as wide as the angles.
+    yokes (..., n-1) [rad]: γ of shafts 2 … n in place of those of the drive, with the axes of the angles before p.
     A shaft that starts off the centre of its joint swivels where it is held: in the ball of an offset cross, in its
     next joint otherwise. An end shaft that nothing holds keeps its direction. Beyond its ball a shaft carries the
     next joint around: at its length from where it starts, or, where it slides in a spline, as far along as drawn. Where
@@ -107,7 +128,8 @@ def course(
         else:
             centre = head + (length - _ahead(joint, place, i)) * stance.after
         before = stance.after
-        mark = frames.rotate(stance.driven, before, np.asarray(-drive.shafts[i + 1].yoke_angle))
+        yoke = np.asarray(drive.shafts[i + 1].yoke_angle) if yokes is None else yokes[..., i, None]
+        mark = frames.rotate(stance.driven, before, -yoke)
     return Course(
         start=np.stack(starts),
         axis=np.stack([np.broadcast_to(place.axis[0], (*phi.shape, 3)), *(one.after for one in rows)]),
@@ -253,6 +275,29 @@ def _ahead(joint: Joint, place: Geometry, i: int) -> float:
     return float(np.mean((joint.head(stance) - place.points[i + 1]) @ place.axis[i + 1]))
 
 
+def leads(drive: Drive, place: Geometry, yokes: Array, theta: Array) -> Array:
+    """Return how far ahead each joint turns where shafts wobble, at angles of its driving yoke, array (n, q) [rad].
+
+    place: where the joints are; yokes (n-1,) [rad]: γ of shafts 2 … n; theta (n, q) [rad]: of the driving yokes from
+    the planes of the joints as drawn. What a wobble does to a joint goes with the angle of that joint, as on shafts
+    that do not twist: a twist shifts it by as little as it is.
+    """
+    turn = np.arange(PLACES) * (2.0 * np.pi / PLACES)
+    found = course(drive, turn, place, phase=0.0, yokes=yokes)
+    rows, driving = [], turn
+    for i, joint in enumerate(drive.joints):
+        wave = sampled_series(np.unwrap(np.stack((driving - turn, found.turned[i + 1] - driving)), axis=-1))
+        at = theta[i]
+        for _step in range(STEPS):  # the input angle at which the driving yoke stands there
+            ahead, slope, _bow = (part[:, 0] for part in series_at(wave[:1], at))
+            at = at - (at + ahead - theta[i]) / (1.0 + slope)
+        rows.append(series_at(wave[1:], at)[0][:, 0])
+        if i + 1 < len(drive.joints):
+            quarter = 0.5 * np.pi if joint.crossed else 0.0
+            driving = found.turned[i + 1] + quarter - yokes[i] - place.plane_twist[i]
+    return np.stack(rows)
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Wobble:
     """How far shaft and joint behind a joint leave their places, over a turn."""
@@ -274,7 +319,7 @@ def wobbles(drive: Drive) -> Iterator[Wobble]:
     for i in range(found[0], len(drive.joints)):
         axis = lying.axis[i + 1]
         lean = float(np.max(frames.angle_between(axis, np.broadcast_to(place.axis[i + 1], axis.shape))))
-        if lean <= STRAIGHT and i not in found:
+        if lean <= STRAIGHT:
             continue
         way = 0.5 * _widest(lying.centre[i + 1]) if i + 1 < len(drive.joints) else 0.0
         gives, slide = None, 0.0

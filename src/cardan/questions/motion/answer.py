@@ -96,12 +96,13 @@ def sentence(drive: Drive, each: Evenness) -> Say:
     """
     share = float(each.speed_fluctuation[-1])
     even, erring = is_rounding(drive, share), any(joint.error is not None for joint in drive.joints)
+    alone = each_uniform(drive) or (even and len(drive.joints) == 1)
     text = _("{count}; equivalent joint angle {angle}, speed fluctuation δ = {share}.")
     if even and erring:
         text = _("{count}; by design the joints cancel each other: uniform but for the errors of its joints as made.")
-        if each_uniform(drive):
+        if alone:
             text = _("{count}; by design every joint turns uniformly; the errors of its joints as made remain.")
-    elif each_uniform(drive):
+    elif alone:
         text = _("{count}; every joint turns uniformly by itself, and so does the output.")
     elif share < SYNCHRONOUS:
         text = _("{count}; synchronous: the joints cancel each other, and the output turns exactly uniformly.")

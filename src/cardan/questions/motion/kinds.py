@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import groupby
+from operator import itemgetter
 
 from cardan.answers.answer import FILE, Remark
 from cardan.answers.quantity import Joined, Quantity, Say, say
@@ -11,7 +13,7 @@ from cardan.drive.joints import Joint
 from cardan.drive.joints.joint import Inside
 from cardan.drive.models.floating import Way
 from cardan.drive.models.kinematics_model import given_chain
-from cardan.drive.models.wobble import Wobble, wobbles
+from cardan.drive.models.wobble import Wobble, binding, wobbles
 from cardan.drive.torsional_layout import has_torsion
 from cardan.texts import _, plural
 
@@ -94,6 +96,13 @@ def made_true(drive: Drive) -> Iterator[Remark]:
 def carried_on(drive: Drive) -> Iterator[Remark]:
     """Yield what shafts that wobble do to the joints behind them."""
     last = len(drive.joints) - 1
+    for i, held in groupby(binding(drive), key=itemgetter(0)):
+        text = _(
+            "Shaft {shaft} would wobble behind joint {joint} as told here, but {supports} on it keep it from that: the "
+            "drive binds; take them away or put them where it swivels."
+        )
+        named = Joined([f"supports[{k}]" for _i, k in held], last=_(" and "))
+        yield Remark(text=say(text, shaft=i + 2, joint=i + 1, supports=named), tone="warning", code="binding")
     for one in wobbles(drive):
         text = _("Shaft {shaft} wobbles behind joint {joint}, by ±{angle}.")
         if one.joint < last:

@@ -10,7 +10,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.models.dynamics_model import Train
-from cardan.drive.models.geometry import geometry, geometry_from_points, in_form
+from cardan.drive.models.geometry import Geometry, geometry, geometry_from_points, in_form
 from cardan.drive.models.kinematics_model import Chain, turning, unmapped
 from cardan.drive.movement import Movement, Oscillation, Random
 from cardan.drive.shaft import Shaft
@@ -168,12 +168,12 @@ def standing_chain(drive: Drive, times: ArrayLike) -> tuple[Chain, Array]:
 
 def chain_at(drive: Drive, points: Array) -> tuple[Chain, Array]:
     """Return the kinematic half of a drive with its points elsewhere (t, n+2, 3) [m], see `standing_chain`."""
-    chain, possible = given_at(drive, points)
+    chain, _place, possible = given_at(drive, points)
     return turning(chain, drive.joints, near=True), possible
 
 
-def given_at(drive: Drive, points: Array) -> tuple[Chain, Array]:
-    """Return the same with its joints as they are, not as the Hooke joints that turn alike."""
+def given_at(drive: Drive, points: Array) -> tuple[Chain, Geometry, Array]:
+    """Return the same with its joints as they are, not as the Hooke joints that turn alike, and where they are."""
     possible = np.all(_joint_angles(points) < LIMIT, axis=-1)
     straight = np.arange(points.shape[-2])[:, None] * np.asarray((1.0, 0.0, 0.0))
     place = geometry_from_points(np.where(possible[:, None, None], points, straight))
@@ -183,7 +183,7 @@ def given_at(drive: Drive, points: Array) -> tuple[Chain, Array]:
         yoke_angle=np.asarray([shaft.yoke_angle for shaft in drive.shafts[1:-1]], dtype=float),
         start_phase=np.asarray(drive.input.start_phase),
     )
-    return chain, possible
+    return chain, place, possible
 
 
 def worst_instants(drive: Drive, course: Callable[[Array], Array], *, rounds: int = ROUNDS) -> tuple[float, ...]:

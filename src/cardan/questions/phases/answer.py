@@ -117,8 +117,6 @@ def _sentence(drive: Drive, found: Phasing) -> Say:
     erring = any(joint.error is not None for joint in drive.joints)
     if len(drive.joints) == 1:
         text = _("one joint, speed fluctuation δ = {now}; a single joint has no yokes to phase.")
-        if wobbling(drive):
-            text = _("a single joint has no yokes to phase; what its shaft does that wobbles is left.")
     elif erring and is_uniform(drive, now):
         text = _("{count}; the yokes are phased right, uniform but for the errors of its joints as made.")
     elif erring and found.feasible:
@@ -126,8 +124,6 @@ def _sentence(drive: Drive, found: Phasing) -> Say:
             "{count}; speed fluctuation δ = {now} as specified, with other yoke angles uniform but for the errors of "
             "its joints as made."
         )
-    elif wobbling(drive) and now < SYNCHRONOUS:
-        text = _("{count}; the yokes are phased right: only what shafts do that wobble is left.")
     elif each_uniform(drive):
         text = _("{count}; every joint turns uniformly by itself, the yokes may stand anyhow.")
         elsewhere = drive.movements or drive.poses
@@ -314,22 +310,24 @@ def _remarks(drive: Drive, found: Phasing, fixed: Mapping[int, float], nearest: 
     if found.poses:
         text = _("δ beside the yoke angles is that of the drive as drawn; the poses have a table of their own.")
         yield Remark(text=text, depth="full")
-    if found.followed:
+    felt = wobbling(drive)
+    if felt and found.free:
+        text = plural(
+            "A shaft wobbles behind joint {which}: the yokes were sought with what later joints make of it, without "
+            "proof that none are better.",
+            "Shafts wobble behind joints {which}: the yokes were sought with what later joints make of it, without "
+            "proof that none are better.",
+            len(felt),
+        )
+        yield Remark(text=say(text, which=Joined([str(i + 1) for i in felt], last=_(" and "))))
+    elif found.followed and not felt:
         text = _(
             "Some joints turn by laws of their own: the yokes were sought by these, without proof that none are better."
         )
         yield Remark(text=text)
-    elif unmapped(drive.joints):
+    elif unmapped(drive.joints) and not found.followed:
         text = _("What joints leave by laws of their own, below {most}, is not in these figures.")
         yield Remark(text=say(text, most=Quantity(1e-6, "angle", 1, unit="rad")))
-    if felt := wobbling(drive):
-        text = plural(
-            "A shaft wobbles behind joint {which}: what later joints make of that is told by the motion alone.",
-            "Shafts wobble behind joints {which}: what later joints make of that is told by the motion alone.",
-            len(felt),
-        )
-        which = Joined([str(i + 1) for i in felt], last=_(" and "))
-        yield Remark(text=say(text, which=which), tone="warning", command=("cardan", "motion", FILE))
     if found.spline_refusal:
         yield Remark(text=_("Warning: splines: {reason}.").format(reason=found.spline_refusal), tone="warning")
     yield from steep_joints(drive)
@@ -642,8 +640,6 @@ def spread(found: Phasing) -> Iterator[Remark]:
 
 
 def _keys(drive: Drive, found: Phasing) -> Iterator[KeyFigure]:
-    if wobbling(drive):
-        return  # what later joints make of the wobble is in the motion alone
     verdict, tone = _uniformity(drive, found)
     title, share = _("speed fluctuation δ of the output"), float(found.as_built.speed_fluctuation)
     drawn, value = _("as drawn") if drive.movements or drive.poses else "", Quantity(share, "share")

@@ -1,4 +1,4 @@
-"""Yoke angles of a drive some of whose joints turn by laws of their own: sought by the laws, not by a polygon.
+"""Yoke angles of a drive some of whose joints turn by laws of their own, or whose shafts wobble: sought, not closed.
 
 A law that is no tan θ' = κ tan θ has orders besides the second; yokes that stand half a turn on turn otherwise, so that
 yoke angles are told in (-π, π]. What the joints leave is seen at `PLACES` of a turn, joint behind joint, exactly.
@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 import scipy
@@ -17,7 +17,9 @@ import scipy
 from cardan.drive.drive import Drive
 from cardan.drive.joints.common.laws import waved
 from cardan.drive.models.kinematics_model import given_chain
+from cardan.drive.models.wobble import course, wobbling
 from cardan.maths.arrays import Array
+from cardan.maths.curves.extremes import peak
 from cardan.questions.motion.equivalence import SYNCHRONOUS
 from cardan.texts import _
 from cardan.units import deg
@@ -32,11 +34,8 @@ PLACES = 360
 SAMPLES = 256
 """Places of a turn by which the law of a joint is told, with all orders that a joint has."""
 
-TRIED = 256
-"""Settings looked at before the search, for each free yoke."""
-
-STARTS = 6
-"""Best settings from which it starts."""
+FOLLOWED, DENSE = 120, 720
+"""Places of a turn at which wobbling shafts are followed, and at which their ratio is seen by its harmonics."""
 
 BATCH = 128
 """Settings looked at at once."""
@@ -45,9 +44,25 @@ OPTIONS: Any = {"xatol": 1e-9, "fatol": 1e-13, "maxiter": 400}
 """For the search (Nelder and Mead); the least fluctuation has corners, where slopes tell nothing."""
 
 
+class Course(Protocol):
+    """How a drive turns as drawn, whatever its yoke angles."""
+
+    tried: ClassVar[int]  # settings looked at before the search, for each free yoke
+    starts: ClassVar[int]  # best of them from which it starts
+
+    def fluctuation(self, yoke_angle: Array) -> Array:
+        """Return δ of shafts 2 … n+1 for yoke angles (..., n-1) [rad], array (..., n)."""
+
+    def initial_phases(self, yoke_angle: Array) -> Array:
+        """Return ψ of every joint for yoke angles (n-1,) [rad], array (n,)."""
+
+
 @dataclass(frozen=True, eq=False)
-class Course:
+class LawCourse:
     """The laws of the joints of a drive as drawn, and how one stands against the next."""
+
+    tried: ClassVar[int] = 256
+    starts: ClassVar[int] = 6
 
     laws: tuple[Array, ...]  # leads of every joint at `SAMPLES` even places of a turn [rad]
     shift: Array  # (n-1,) [rad]: what is added from joint to joint, less the yoke angle
@@ -78,14 +93,41 @@ class Course:
         return np.stack(found, axis=-1)
 
 
+@dataclass(frozen=True, eq=False)
+class WobblingCourse:
+    """A drive whose shafts wobble, followed over a turn as its motion is."""
+
+    tried: ClassVar[int] = 64  # a wobble changes little of what the yokes do, and each setting takes milliseconds
+    starts: ClassVar[int] = 2
+
+    drive: Drive
+
+    def fluctuation(self, yoke_angle: Array) -> Array:
+        """Return δ of shafts 2 … n+1 for yoke angles (..., n-1) [rad], array (..., n)."""
+        if 0 in yoke_angle.shape[:-1]:
+            return np.zeros((*yoke_angle.shape[:-1], len(self.drive.joints)))
+        turn = np.arange(FOLLOWED) * (2.0 * np.pi / FOLLOWED)
+        found = course(self.drive, np.broadcast_to(turn, (*yoke_angle.shape[:-1], FOLLOWED)), yokes=yoke_angle)
+        wave = np.fft.rfft(np.unwrap(found.turned[1:] - turn, axis=-1))
+        ratio = np.fft.irfft(1j * np.arange(wave.shape[-1]) * wave, DENSE, axis=-1) * (DENSE / FOLLOWED)
+        return np.moveaxis(peak(ratio) + peak(-ratio), 0, -1)
+
+    def initial_phases(self, yoke_angle: Array) -> Array:
+        """Return ψ of every joint for yoke angles (n-1,) [rad], array (n,)."""
+        found: Array = course(self.drive, np.zeros(1), yokes=yoke_angle).theta[:, 0]
+        return found
+
+
 def course_of(drive: Drive) -> Course:
     """Return how a drive turns as drawn, each joint by its own law."""
+    if wobbling(drive):
+        return WobblingCourse(drive)
     whole = given_chain(drive)
     theta = np.arange(SAMPLES) * (2.0 * np.pi / SAMPLES)
     angles = np.asarray(whole.joint_angle)
     laws = [joint.deviation(theta, alpha)[0] for joint, alpha in zip(drive.joints, angles, strict=True)]
     quarter = np.asarray([0.5 * np.pi if joint.crossed else 0.0 for joint in drive.joints[:-1]])
-    return Course(tuple(laws), quarter - np.asarray(whole.plane_twist), float(whole.start_phase))
+    return LawCourse(tuple(laws), quarter - np.asarray(whole.plane_twist), float(whole.start_phase))
 
 
 def _peak(values: Array) -> Array:
@@ -122,11 +164,11 @@ class Search:
         """Return the setting (n-1,) [rad] that a judge calls least; a tie goes to the one nearest to the present."""
         if not self.free:
             return self.start
-        count = TRIED * 2 ** math.ceil(math.log2(len(self.free)))
+        count = self.poses[0].tried * 2 ** math.ceil(math.log2(len(self.free)))
         tried = np.repeat(self.start[None], count + 1, axis=0)
         tried[1:, list(self.free)] += 2.0 * np.pi * scipy.stats.qmc.Sobol(len(self.free), rng=0).random(count)
         cost = judge(self.left(tried))
-        near = tried[np.argsort(cost, kind="stable")[:STARTS]]
+        near = tried[np.argsort(cost, kind="stable")[: self.poses[0].starts]]
         rows = np.stack([*near, *(self._down(one, judge) for one in near)])
         cost = judge(self.left(rows))
         away = np.sum(1.0 - np.cos(rows - self.start), axis=-1)

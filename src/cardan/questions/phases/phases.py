@@ -13,7 +13,8 @@ from cardan.drive.conditions import in_poses
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import pose_drives
 from cardan.drive.fields.validity import wrong_count
-from cardan.drive.models.kinematics_model import Chain, far_laws, lawless, nearly_turning_chain
+from cardan.drive.models.kinematics_model import Chain, far_laws, lawless, nearly_turning_chain, wobble_problems
+from cardan.drive.models.wobble import wobbling
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import polygon
@@ -71,8 +72,8 @@ def phases(
 
     Notes
     -----
-    A drive with joints that turn far from tan θ' = κ tan θ is followed joint by joint, and the yokes are sought:
-    without proof, and without a goal among equals.
+    A drive with joints that turn far from tan θ' = κ tan θ, or whose shafts wobble, is followed joint by joint, and the
+    yokes are sought: without proof, and without a goal among equals.
 
     Exact: with L_i = -ln cos α_i the drive can be synchronous if and only if the largest L is no more than the sum of
     the others; joints of other kinds count as the Hooke joints that turn alike,
@@ -87,7 +88,7 @@ def phases(
     >>> found.feasible, [s.speed_fluctuation < 1e-14 for s in found.settings]
     (True, [True, True])
     """
-    if far_laws(drive):
+    if far_laws(drive) or wobbling(drive):
         return _by_laws(drive, _held(drive, fixed or {}), poses)
     whole = nearly_turning_chain(drive, _("yoke angles"))
     as_built = np.asarray(whole.yoke_angle)
@@ -141,9 +142,10 @@ def phases(
 
 
 def _by_laws(drive: Drive, held: Mapping[int, float], poses: Mapping[str, Drive] | None) -> Phasing:
-    """Return what the yoke angles can do where joints turn by laws of their own, which no polygon tells."""
+    """Return what the yoke angles can do where joints turn by laws of their own or shafts wobble: no polygon tells."""
     if drive.steering is not None:
-        check(lawless(i, drive.joints[i], _("yoke angles of a steering column")) for i in far_laws(drive))
+        text = _("yoke angles of a steering column")
+        check([*(lawless(i, drive.joints[i], text) for i in far_laws(drive)), *wobble_problems(drive)])
     free = [shaft.number - 2 for shaft in drive.shafts[1:-1] if shaft.number not in held]
     teeth = _teeth(drive, free)
     names, drives, said = _poses(drive, poses)

@@ -11,13 +11,17 @@ import pytest
 from cardan import Drive, stability, torsion_modes, torsion_response
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke
+from cardan.drive.joints.tripod import pivot_error
+from cardan.drive.models.geometry import geometry
+from cardan.drive.models.kinematics_model import given_chain
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
 from cardan.errors import InputError
-from cardan.joints import DoubleCardan, ElasticHalfCardan, PinCoupling, Tripod
+from cardan.joints import DoubleCardan, ElasticHalfCardan, OffsetCross, PinCoupling, Rzeppa, Tripod
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.motion import motion
-from cardan.questions.torsion.model.answer import parts_left_out
+from cardan.questions.torsion.model.joint_bends import bends
+from cardan.questions.torsion.model.torsional_balance import joint_law
 
 ENDS = (Station(shaft=1, inertia=0.5), Station(shaft=2, inertia=2.0))
 
@@ -100,9 +104,61 @@ def test_pins_that_do_not_reach_around_are_refused():
         torsion_modes(Drive(joints=(joint,), stations=ENDS), Duty(speed=1.0))
 
 
-def test_the_wobble_of_a_shaft_is_said_to_be_left_out():
-    """A last tripod whose shaft pivots beyond: order 3 of its motion is not in the line, and that is said."""
-    joint = Tripod(joint_angle=0.35, track_radius=0.02, pivot=0.3)
-    drive = Drive(joints=(joint,), stations=ENDS)
-    assert [one.code for one in parts_left_out(drive)] == ["wobble"]
-    assert not list(parts_left_out(replace(drive, joints=(replace(joint, pivot=None),))))
+WOBBLING = {
+    "a last tripod": (Tripod(joint_angle=0.35, track_radius=0.02, pivot=0.3),),
+    "a tripod before a cross": (Tripod(joint_angle=0.35, track_radius=0.02), Hooke(joint_angle=0.3, plane_twist=0.8)),
+    "a tripod before a Rzeppa joint": (
+        Tripod(joint_angle=0.35, track_radius=0.02),
+        Rzeppa(joint_angle=0.3, plane_twist=0.8, balls=6),
+    ),
+    "offset crosses": (OffsetCross(joint_angle=0.4, offset=0.02, reach=0.2),) * 2,
+}
+
+
+def wobbling_drive(name):
+    joints = WOBBLING[name]
+    last = len(joints) + 1
+    shafts = (Shaft(number=2, length=0.3, yoke_angle=0.4 if last > 2 else 0.0),)
+    return Drive(joints=joints, shafts=shafts, stations=(ENDS[0], replace(ENDS[1], shaft=last)))
+
+
+@pytest.mark.parametrize("name", WOBBLING)
+def test_what_a_wobble_makes_of_joints_is_in_the_line_as_in_the_motion(name):
+    """The laws of the line, one after the other, turn as the drive does that is followed pin by pin."""
+    drive = wobbling_drive(name)
+    given = given_chain(drive)
+    found = bends(drive, given, geometry(drive))
+    angle = np.linspace(0.0, 2.0 * np.pi, 97)
+    turned, joints = angle, len(drive.joints)
+    sums = np.reshape(found["sums"], (-1, 2, joints))
+    for i in range(joints):
+        own = sums[:, 0, i] + 1j * sums[:, 1, i]
+        bend, phase = found["joint_angle"][i], found["phase"][i]
+        turned = joint_law(turned + phase, bend, own)[0] - joint_law(phase, bend, own)[0]
+    course = motion(drive, angle).shaft_angle[-1]
+    assert np.ptp(course - angle) > 1e-4
+    assert turned == pytest.approx(course - course[0], abs=2e-6)  # what is below a microradian is left out
+    rows = np.stack([given.joint_angle, given.joint_angle])
+    many = bends(drive, replace(given, joint_angle=rows))  # as for maps of joint angles: lengths as drawn
+    assert many["sums"] == pytest.approx(np.stack([found["sums"]] * 2), abs=1e-12)
+
+
+@pytest.mark.parametrize("turns", [100.0, 300.0, 318.3, 500.0])
+def test_the_third_order_of_a_shaft_that_wobbles_excites_the_line(turns):
+    """A last tripod whose shaft pivots beyond shakes a disk on a spring three times a turn, by its closed form."""
+    k, c, inertia, angle, radius, length = 1000.0, 0.4, 0.1, 0.35, 0.02, 0.3
+    joint = Tripod(joint_angle=angle, track_radius=radius, pivot=length)
+    shafts = (Shaft(number=2, stiffness=k, damping=c, length=0.3),)
+    ends = (Station(shaft=1, inertia=0.5), Station(shaft=2, position=0.3, inertia=inertia))
+    drive = Drive(joints=(joint,), shafts=shafts, stations=ends)
+    speed = turns * math.pi / 30.0
+    found = torsion_response(drive, Duty(speed=speed, torque=100.0))
+    omega, spring = 3.0 * speed, k + 3j * c * speed
+    by_hand = pivot_error(angle, radius, length) * abs(spring * omega**2 * inertia / (spring - omega**2 * inertia))
+    assert found.swing[0] == pytest.approx(by_hand, rel=2e-3)  # the closed form is of first order in the tilt
+    bare = replace(drive, joints=(replace(joint, pivot=None),))
+    assert torsion_response(bare, Duty(speed=speed, torque=100.0)).swing[0] < 1e-6
+    modes = torsion_modes(drive, Duty(speed=speed))
+    assert (modes.main, modes.order[0]) == (3.0, 3.0)
+    assert modes.main_speed == pytest.approx(modes.omega / 3.0)
+    assert [one.order for one in modes.crossings if one.mode == 1] == [3.0]

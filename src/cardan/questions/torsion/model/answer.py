@@ -119,13 +119,14 @@ def answer(drive: Drive, result: TorsionModes, *, exact: Exact | None = None) ->
 def modes_said(drive: Drive, found: TorsionModes, *, exact: Exact | None = None) -> tuple[Tone, Text]:
     """Return what the modes come to, without the full stop, and how good that is."""
     text = _(
-        "the first torsional natural frequency is {frequency}; joints excite it at {second} (order 2) and at "
+        "the first torsional natural frequency is {frequency}; joints excite it at {main} (order {order}) and at "
         "{principal} (parametric resonance)"
     )
     first = say(
         text,
         frequency=Quantity(float(found.omega[0]), "frequency", 3),
-        second=_speed(found.order2_speed[0], 3),
+        main=_speed(found.main_speed[0], 3),
+        order=_order(found.main),
         principal=_speed(found.parametric_speed[0], 3),
     )
     tone, more = _judged(drive, found, exact)
@@ -240,7 +241,7 @@ def _mode_table(drive: Drive, found: TorsionModes, exact: Exact | None) -> Table
         columns=(
             Column(key="", heading=_("mode"), values=list(range(1, count + 1))),
             Column(key="", heading=_("frequency"), values=found.omega[:count], dimension="frequency"),
-            Column(key="", heading=_("order 2"), values=found.order2_speed[:count], dimension="angular_speed"),
+            Column(key="", heading=_main(found), values=found.main_speed[:count], dimension="angular_speed"),
             *_order_column(found, count),
             Column(key="", heading=_("parametric"), values=found.parametric_speed[:count], dimension="angular_speed"),
             Column(key="", heading=_("modulation"), values=found.modulation[:count], dimension="share", digits=3),
@@ -260,6 +261,11 @@ def _mode_table(drive: Drive, found: TorsionModes, exact: Exact | None) -> Table
             "unstable where the modulation exceeds the damping 2ζ (parametric resonance)."
         ),
     )
+
+
+def _main(found: TorsionModes) -> str:
+    """Return what the order at which the joints change the speed most is called."""
+    return _("order {order:g}").format(order=found.main)
 
 
 def _order_column(found: TorsionModes, count: int) -> Iterator[Column]:
@@ -429,9 +435,9 @@ def _node(found: TorsionModes, node: Node) -> Text:
 def _keys(found: TorsionModes) -> Iterator[KeyFigure]:
     first = Quantity(float(found.omega[0]), "frequency")
     yield KeyFigure(name="torsional_frequency", title=_("first torsional natural frequency"), value=first, better="")
-    second = _speed(found.order2_speed[0])
-    title = _("speed at which order 2 meets the first torsional mode")
-    yield KeyFigure(name="torsional_order_2", title=title, value=second, better="")
+    title = _("speed at which order {order:g} meets the first torsional mode").format(order=found.main)
+    speed = _speed(found.main_speed[0])
+    yield KeyFigure(name=f"torsional_order_{found.main:g}", title=title, value=speed, better="")
 
 
 def _everything(found: TorsionModes) -> Table:
@@ -502,6 +508,7 @@ def _mode(found: TorsionModes, k: int, used: tuple[float, float] | None) -> dict
         "frequency": Quantity(float(found.omega[k]), "frequency"),
         "order_2": _speed(found.order2_speed[k]),
         "principal": _speed(found.parametric_speed[k]),
+        **({} if found.main == SECOND else {"order": found.main, "order_speed": _speed(found.main_speed[k])}),
         **({} if found.order[k] == SECOND else {"modulation_order": float(found.order[k])}),
         "shape": found.shape[k],
         "joint_weight": found.joint_weight[k],
@@ -564,17 +571,14 @@ def torques_left_out(drive: Drive) -> Iterator[Remark]:
 
 
 def parts_left_out(drive: Drive) -> Iterator[Remark]:
-    """Yield what joints and shafts of a drive do that does not act in its torsional vibration."""
+    """Yield what joints and shafts of a drive do that acts in its torsional vibration nearly, or not."""
     if felt := wobbling(drive):
         text = plural(
-            "Warning: that shaft {which} wobbles does not excite torsional vibration here; its angle error, by order, "
-            "is told by:",
-            "Warning: that shafts {which} wobble does not excite torsional vibration here; their angle error, by "
-            "order, is told by:",
+            "What the wobble of shaft {which} makes of joints excites the drive as on shafts that do not twist.",
+            "What the wobbles of shafts {which} make of joints excite the drive as on shafts that do not twist.",
             len(felt),
         )
-        said = say(text, which=listed([i + 2 for i in felt]))
-        yield Remark(text=said, command=("cardan", "motion", FILE), tone="warning", code="wobble")
+        yield Remark(text=say(text, which=listed([i + 2 for i in felt])), depth="full", code="wobble")
     yield from friction_left_out(drive)
 
 

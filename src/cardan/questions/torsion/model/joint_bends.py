@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import TypedDict
 
 import numpy as np
 
-from cardan.drive.joints import Joint
+from cardan.drive.drive import Drive
+from cardan.drive.models.geometry import Geometry
 from cardan.drive.models.kinematics_model import Chain, turning
 from cardan.drive.models.law_series import beside_maps
 from cardan.maths.arrays import Array
@@ -26,14 +26,15 @@ class Bends(TypedDict):
     sums: Array | None
 
 
-def bends(joints: Sequence[Joint], given: Chain) -> Bends:
+def bends(drive: Drive, given: Chain, place: Geometry | None = None) -> Bends:
     """Return how joints turn, as fields of a torsional model: each as the Hooke joint nearest to it and what is beside.
 
-    given (..., n): joint angles, planes and yokes as they are.
+    given (..., n): joint angles, planes and yokes of the drive as they are; place (...): where its joints are then; by
+    these angles when not given.
     Raises InputError: a joint that does not turn at its joint angle, or whose law is too sharp to be followed.
     """
-    near = turning(given, joints, near=True)
-    sums = beside_maps(joints, given, near)
+    near = turning(given, drive.joints, near=True)
+    sums = beside_maps(drive, given, near, place)
     if sums is None:
         phase = initial_phases(replace(near, laws=None))
     else:

@@ -10,6 +10,7 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.machine import HarmonicTorque
+from cardan.drive.models.geometry import geometry
 from cardan.drive.models.kinematics_model import NEGLIGIBLE, given_chain, turning
 from cardan.drive.models.law_series import beside_maps
 from cardan.errors import refuse
@@ -22,7 +23,7 @@ from .inputs import Swinging
 from .side_bands import side_waves
 from .torsional_layouts import Turning, chosen, period_of
 from .torsional_model import Torque
-from .torsional_modes import joint_orders, main_order, meeting_speeds, modulation, straight_modes
+from .torsional_modes import changing_orders, main_order, meeting_speeds, modulation, straight_modes
 from .torsional_train import TorsionalTrain, in_time, torsional_train
 
 STRAIGHT = 1e-9
@@ -83,6 +84,8 @@ class TorsionModes:
         Share by which the joints together modulate the stiffness of the mode.
     order : array (m,)
         Order of the turn at which they modulate it most, ν: 2 but with joints that turn by laws of their own.
+    main : float
+        Order at which the joints change the speed most, all of them together.
     nodes : tuple of m tuples of Node
         Where each mode stands still.
     speed : float [rad/s]
@@ -102,6 +105,7 @@ class TorsionModes:
     joint_weight: Array
     modulation: Array
     order: Array
+    main: float
     nodes: tuple[tuple[Node, ...], ...]
     speed: float
     speed_range: tuple[float, float] | None
@@ -126,6 +130,11 @@ class TorsionModes:
     def order2_speed(self) -> Array:
         """Input speed at which two swings a turn meet each natural frequency, ω/2: array (m,) [rad/s]."""
         return 0.5 * self.omega
+
+    @property
+    def main_speed(self) -> Array:
+        """Input speed at which the main order of the joints meets each natural frequency: array (m,) [rad/s]."""
+        return self.omega / self.main
 
     @property
     def parametric_speed(self) -> Array:
@@ -237,7 +246,7 @@ def modes_of(drive: Drive, chosen: Duty, *, pieces: int = 1, crossings: bool = T
         text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")
         raise refuse("shafts[0].stiffness", text)
     largest = np.max(np.abs(found.shape), axis=-1, keepdims=True)
-    swinging = np.asarray([2.0, *(order for order in joint_orders(train.model) if order != 2.0)])
+    swinging = np.asarray(changing_orders(train.model))
     modulations = np.abs([modulation(train.model, found.joint_weight, order) for order in swinging.tolist()])
     return TorsionModes(
         train=train,
@@ -247,6 +256,7 @@ def modes_of(drive: Drive, chosen: Duty, *, pieces: int = 1, crossings: bool = T
         joint_weight=found.joint_weight,
         modulation=np.max(modulations, axis=0),
         order=swinging[np.argmax(modulations, axis=0)],
+        main=main_order(train.model),
         nodes=tuple(tuple(_nodes(train, shape)) for shape in found.shape / largest),
         speed=abs(chosen.speed or 0.0),
         speed_range=chosen.speed_range,
@@ -277,7 +287,7 @@ def orders(drive: Drive, duty: Duty) -> list[tuple[float, str]]:
     near = turning(whole, drive.joints, near=True)
     if np.any(near.joint_angle > STRAIGHT):
         found |= {2.0: _("joints"), 4.0: _("joints")}
-    own = beside_maps(drive.joints, whole, near)
+    own = beside_maps(drive, whole, near, geometry(drive))
     size = np.zeros(0) if own is None else np.max(np.abs(own[: HIGHEST + 1]), axis=-1)
     found |= {float(one): _("joints") for one in np.flatnonzero(size > NEGLIGIBLE) if one}
     engine = duty.engine

@@ -184,6 +184,13 @@ def joint_orders(model: TorsionalModel) -> tuple[float, ...]:
     return tuple(float(order) for order in np.flatnonzero(there) if order)
 
 
+def changing_orders(model: TorsionalModel) -> tuple[float, ...]:
+    """Return the orders at which joints change the speed, the main one first: 2 of crosses, and those of other laws."""
+    main, own = main_order(model), joint_orders(model)
+    crosses = (2.0,) if np.any(model.joint_angle > 0.0) else ()
+    return (main, *(order for order in dict.fromkeys((*crosses, *own)) if order != main))
+
+
 def base_order(model: TorsionalModel) -> float:
     """Return the order of which all those of the joints are multiples: 2, or 1 with laws of their own."""
     return 1.0 if any(order % 2.0 for order in joint_orders(model)) else 2.0

@@ -161,7 +161,7 @@ def torsional_train(
     if pieces < 1:
         raise refuse("pieces", _("{given} given; at least 1").format(given=pieces))
     problems: list[Problem] = []
-    turns = bends(drive.joints, given_chain(drive))
+    turns = bends(drive, given_chain(drive), geometry(drive))
     lines = [shaft_line(drive, shaft, pieces, problems) for shaft in drive.shafts]
     lines = [lines[0], *(_softened(line, joint) for line, joint in zip(lines[1:], drive.joints, strict=True))]
     base = _joined(drive, lines, turns)

@@ -106,8 +106,8 @@ class Standing:
 
         start (t,) [rad]: by how much the first yoke is ahead of where it starts as drawn.
         """
-        chain, possible = given_at(self.drive, points)
-        return bends(self.drive.joints, replace(chain, start_phase=chain.start_phase + start)), possible
+        chain, place, possible = given_at(self.drive, points)
+        return bends(self.drive, replace(chain, start_phase=chain.start_phase + start), place), possible
 
     def at(self, points: Array, progress: Progress | None = None) -> Places:
         """Return the vibration at places of the points (t, n+2, 3) [m], all of the same share.

@@ -491,7 +491,7 @@ def _bent(drive: Drive, model: TorsionalModel, largest: float) -> TorsionalModel
     """Return a model whose most bent joint bends so much [rad], the others in proportion, its yokes as they are."""
     whole = given_chain(drive)
     bent = replace(whole, joint_angle=whole.joint_angle * (largest / np.max(whole.joint_angle)))
-    return replace(model, **bends(drive.joints, bent))
+    return replace(model, **bends(drive, bent))
 
 
 class _Variants:
