@@ -485,6 +485,16 @@ def test_a_crack_at_a_shoulder_is_in_the_thinner_piece_from_either_side():
     assert one.crack.losses == pytest.approx(near.crack.losses, rel=0.02)
 
 
+@pytest.mark.parametrize("wide", [0.002, 0.004, 0.01])
+def test_a_crack_in_a_groove_feels_the_moment_beside_it(wide):
+    """A groove of millimetres changes neither mode nor moment; the hinge is that of its section, by d^-3."""
+    plain = rotor(cracked_bar((1.0, 0.04), place=0.4), shaft=2).crack.losses
+    parts = ((0.4 - 0.5 * wide, 0.04), (wide, 0.036), (0.6 - 0.5 * wide, 0.04))
+    grooved = rotor(cracked_bar(*parts, place=0.4), shaft=2).crack.losses
+    for one, other in zip(grooved, plain, strict=True):
+        assert one / (1.0 - one) == pytest.approx(other / (1.0 - other) * (40.0 / 36.0) ** 3, rel=0.015)
+
+
 def test_a_crack_at_an_end_takes_nothing_and_one_beside_the_shaft_is_refused():
     for place in (0.0, 1.0):
         whole = cracked_bar((1.0, 0.04), place=place)

@@ -6,6 +6,7 @@ import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from operator import itemgetter
 
 import numpy as np
 
@@ -48,7 +49,7 @@ SAMPLES = 200
 """Places of a stretch at which the shape is summed."""
 
 FEWEST = 6
-"""Places of a stretch that tell how it bends; where it has fewer, all of its shaft are taken."""
+"""Places of a stretch that tell how it bends; where it has fewer, those of the nearest other stretch do."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -226,19 +227,36 @@ def _crack(shaft: Shaft, found: CriticalSpeeds, mode: int, shape: Array, stiffne
     begin, end = (float(one) for one in found.shaft_span[shaft.number - 1])
     length = end - begin
     piece = cracked_piece(shaft, length)
-    inside = (found.place >= begin + piece.start - 1e-9) & (found.place <= begin + piece.start + piece.length + 1e-9)
-    if np.count_nonzero(inside) < FEWEST:
-        inside = (found.place >= begin - 1e-9) & (found.place <= end + 1e-9)
-    bow = interpolate().CubicSpline(found.place[inside], shape[inside])
-    x = crack_place(shaft, length) + (end if shaft.number == 1 else begin)
-    bent = float(bow(x, 2))
+    stiff = piece.material.youngs * piece.second_moment
+    bent = _moment(shaft, found, shape, (begin, end), crack_place(shaft, length)) / stiff
     if given.losses:
         xi, eta = given.losses
         return Crack(loss_xi=xi, loss_eta=eta, breathing=given.breathing), bent
-    moment = float(found.wear[mode]) ** 2 * piece.material.youngs * piece.second_moment * bent
+    moment = float(found.wear[mode]) ** 2 * stiff * bent
     softer = (one * moment**2 / stiffness for one in crack_hinge(shaft, length))
     xi, eta = (one / (1.0 + one) for one in softer)
     return Crack(loss_xi=xi, loss_eta=eta, breathing=given.breathing), bent
+
+
+def _moment(shaft: Shaft, found: CriticalSpeeds, shape: Array, span: tuple[float, float], place: float) -> float:
+    """Return E I φ'' at a place of a shaft [N·m per m], which goes on over shoulders and short grooves as φ'' does not.
+
+    By the nearest of the stretches of one section that have places enough to tell how they bend.
+    """
+    begin, end = span
+    x, reach = place + (end if shaft.number == 1 else begin), 1e-9
+    told: list[tuple[float, float, Array]] = []
+    for one in pieces(shaft, end - begin):
+        low, high = begin + one.start, begin + one.start + one.length
+        inside = np.flatnonzero((found.place >= low - reach) & (found.place <= high + reach))
+        if len(inside) >= FEWEST:
+            told.append((max(low - x, x - high, 0.0), one.material.youngs * one.second_moment, inside))
+    if not told:
+        piece = cracked_piece(shaft, end - begin)
+        whole = np.flatnonzero((found.place >= begin - reach) & (found.place <= end + reach))
+        told.append((0.0, piece.material.youngs * piece.second_moment, whole))
+    _far, stiff, inside = min(told, key=itemgetter(0, 1))
+    return stiff * float(interpolate().CubicSpline(found.place[inside], shape[inside])(x, 2))
 
 
 # How does a shaft of a drive whirl with its unbalance and a crack: steadily, while running up, joined to the next?
