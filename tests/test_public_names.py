@@ -10,7 +10,7 @@ HEAVY = ("scipy", "matplotlib", "plotly", "numba", "jinja2", "tomlkit", "typer",
 
 
 def run(code):
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     return done.stdout.split()
 

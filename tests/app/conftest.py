@@ -24,10 +24,10 @@ from cardan.app.server import COOKIE
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 ARGUMENTS = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-PATIENCE = 120_000
+PATIENCE = 300_000
 """Milliseconds a page may take to show what is waited for; how fast it is, benchmarks tell."""
 
-START = 60.0
+START = 300.0
 """Seconds a server may take until it answers."""
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from cardan.io import example_text, loads
-from tests.app.conftest import refuse_complaints
+from tests.app.conftest import PATIENCE, refuse_complaints
 from tests.app.test_kept import opened, speed, state, stored
 from tests.app.test_page import mark, ready, text_of, typed
 
@@ -105,7 +105,7 @@ def test_a_working_hour_loses_nothing(
 
     # The report tells of the drive that is seen, and undo leads back through all of it.
     mark(page, "report-menu").click()
-    with page.expect_download(timeout=120_000) as waiting:
+    with page.expect_download(timeout=PATIENCE) as waiting:
         mark(page, "report-html").click()
     report = folder / "report.html"
     waiting.value.save_as(report)

@@ -14,6 +14,7 @@ import pytest
 
 from cardan import equivalent_joint
 from cardan.io import example_text, load, loads
+from tests.app.conftest import PATIENCE
 
 Open = Callable[..., Any]
 
@@ -237,7 +238,7 @@ def test_every_export_opens_with_its_own_library(page: Any, tmp_path: Path) -> N
     opened: list[str] = []
     for kind, check in EXPORTS.items():
         mark(page, "report-menu").click()
-        with page.expect_download(timeout=90_000) as waiting:
+        with page.expect_download(timeout=PATIENCE) as waiting:
             mark(page, kind).click()
         place = tmp_path / waiting.value.suggested_filename
         waiting.value.save_as(place)

@@ -92,7 +92,7 @@ def test_ctrl_c_ends_long_work_in_one_line(process):
     )
     assert child.stdout.readline().startswith(b"angle_deg")
     child.send_signal(signal.SIGINT)
-    _out, err = child.communicate(timeout=60)
+    _out, err = child.communicate(timeout=300)
     assert child.returncode == 130
     assert err.decode().splitlines() == ["error: interrupted; nothing was written"]
 
@@ -129,7 +129,7 @@ def test_a_reader_that_leaves_is_no_error(process, arguments):
     child.stdout.close()
     with child.stderr:
         assert child.stderr.read() == b""
-    assert child.wait(timeout=60) == 0
+    assert child.wait(timeout=300) == 0
 
 
 @pytest.mark.slow

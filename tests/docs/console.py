@@ -100,7 +100,7 @@ def run(command: str, where: Path, environment: dict[str, str]) -> str:
 def shelled(command: str, where: Path, environment: dict[str, str]) -> bytes:
     """Return what a command line prints."""
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
-    return subprocess.run(["sh", "-c", command], cwd=where, env=environment, timeout=120, check=False, **pipes).stdout
+    return subprocess.run(["sh", "-c", command], cwd=where, env=environment, timeout=300, check=False, **pipes).stdout
 
 
 def called(command: str, where: Path, environment: dict[str, str]) -> bytes:

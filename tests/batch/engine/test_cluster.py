@@ -159,7 +159,7 @@ def wait_for_worker(outside):
     from distributed import Client
 
     with Client(outside.address, set_as_default=False) as client:
-        client.wait_for_workers(1, timeout=30)
+        client.wait_for_workers(1, timeout=300)
 
 
 def test_a_scheduler_without_workers_is_told(outside):

@@ -17,7 +17,7 @@ CHUNKS = Chunks("a sweep", size=23, rows=4)
 ROWS = {k: list(range(chunk.start, chunk.stop)) for k, chunk in enumerate(CHUNKS)}
 
 
-def gone(number, patience=5.0):
+def gone(number, patience=60.0):
     """Whether a process ends within a time; one that nobody has waited for yet counts as ended."""
     end = time.monotonic() + patience
     while time.monotonic() < end:

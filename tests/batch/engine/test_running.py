@@ -215,7 +215,7 @@ def test_an_interrupted_program_leaves_nobody_and_can_go_on(engine, how, tmp_pat
     while 0.0 <= float(program.stdout.readline()) < 0.1:
         pass
     os.killpg(program.pid, how) if how == signal.SIGINT else os.kill(program.pid, how)
-    _rest, errors = program.communicate(timeout=30)  # ends when nobody holds the line to it any more, workers neither
+    _rest, errors = program.communicate(timeout=300)  # ends when nobody holds the line to it any more, workers neither
     assert program.returncode == -how
     if how == signal.SIGINT:
         assert errors.count("KeyboardInterrupt") == 1

@@ -224,7 +224,7 @@ def test_processes_may_fork_after_a_kernel():
         "one = run(0)\n"
         "with m.get_context('fork').Pool(2) as pool: print(pool.map(run, range(4)) == [one] * 4)\n"
     )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=100, check=False)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=300, check=False)
     assert done.stdout.strip() == "True", done.stderr
 
 

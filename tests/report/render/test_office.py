@@ -20,7 +20,7 @@ def saved_again(book: bytes, folder) -> bytes:
     (folder / "report.xlsx").write_bytes(book)
     profile = f"-env:UserInstallation={(folder / 'profile').as_uri()}"
     order = [OFFICE, profile, "--headless", "--convert-to", "xlsx", "--outdir", str(folder / "again")]
-    subprocess.run([*order, str(folder / "report.xlsx")], check=True, capture_output=True, timeout=120)
+    subprocess.run([*order, str(folder / "report.xlsx")], check=True, capture_output=True, timeout=300)
     return (folder / "again" / "report.xlsx").read_bytes()  # is not there where the file could not be loaded
 
 
