@@ -133,7 +133,7 @@ def test_a_design_is_found_and_written(cardan, rig, tmp_path):
     text = plain(done.out)
     assert "the largest alternating torque falls from" in text
     assert "Joint 1 stands in the node" in text
-    assert "The 2nd-order excitations cancel" in text
+    assert "The excitations of order 2 cancel" in text
     written = (tmp_path / "better.toml").read_text("utf-8")
     assert "# as found" in written
     assert files.load(tmp_path / "better.toml") == found.drive

@@ -8,6 +8,8 @@ from cardan.units import plain, quantity
 
 from .joints.joint import Point
 
+APART = 0.5e-3  # [m]: a bearing so near to the place about which a shaft swivels lets it
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Support:
@@ -52,3 +54,7 @@ class Support:
     )
     seals: int = plain(1, doc="how many lip seals it has, where it has any", low=1)
     offset: Point = quantity("length", (0.0, 0.0, 0.0), doc="displacement of the housing there [x, y, z]")
+
+    def hinders(self, place: float) -> bool:
+        """Tell whether it keeps its shaft from swivelling about a place [m]."""
+        return self.tilt or (self.radial and abs(self.position - place) > APART)

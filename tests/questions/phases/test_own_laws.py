@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError, phases
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.drive.joints import JOINTS
 from cardan.drive.settings import Pose, Steering
 from cardan.io.drive_file import loads
@@ -161,6 +163,29 @@ def test_a_last_tripod_that_pivots_leaves_by_its_yokes_what_the_motion_leaves():
     found = question.ask(drive)
     assert found.speed_fluctuation_min == pytest.approx(float(each_shaft(drive).speed_fluctuation[-1]), rel=1e-9)
     assert [one.name for one in question.answer(drive, found).keys] == ["speed_fluctuation"]
+
+
+SHAFT = "[[shafts]]\nnumber = {}\nlength_mm = 300\n"
+
+
+def test_of_settings_beside_a_wobble_that_leave_the_same_the_nearest_counts():
+    """Behind a tripod a yoke by a sixth of a turn on leaves the same."""
+    second = "[[joints]]\njoint_angle_deg = 15\nplane_twist_deg = 40\n"
+    third = "[[joints]]\njoint_angle_deg = 12\nplane_twist_deg = 20\n"
+    drive = wobbling_drive(second + third + SHAFT.format(2) + SHAFT.format(3))
+    best = phases(drive).settings[0]
+    assert abs(best.yoke_angle[0]) <= 30 * deg
+    for turn in (60 * deg, -60 * deg):
+        moved = WobblingCourse(drive).fluctuation(best.yoke_angle + np.asarray([turn, 0.0]))[-1]
+        assert moved >= best.speed_fluctuation - 1e-9
+
+
+def test_yokes_that_change_nothing_are_said_to_change_nothing():
+    drive = wobbling_drive('[[joints]]\nkind = "rzeppa"\njoint_angle_deg = 15\n' + SHAFT.format(2))
+    question = QUESTIONS["phasing"]
+    said = question.answer(drive, question.ask(drive))
+    assert "however the yokes stand" in told(said.sentence, USUAL)
+    assert not any("free yokes reach" in told(one.text, USUAL) for one in said.remarks)
 
 
 def test_a_steering_column_has_no_wobbling_shaft():

@@ -203,7 +203,7 @@ def _binding(support: Support, joints: Sequence[Joint], path: str) -> Iterator[P
     place = joints[-1].held(None) if joints[-1].felt_beyond else None
     if support.shaft != len(joints) + 1 or place is None:
         return
-    if support.tilt or (support.radial and abs(support.position - float(place)) > 1e-5):
+    if support.hinders(float(place)):
         text = _("shaft {shaft} pivots {place:.6g} mm behind joint {joint}: it binds here")
         said = text.format(shaft=support.shaft, joint=len(joints), place=float(place) / mm)
         yield Problem(f"{path}.position", said, "inconsistent")

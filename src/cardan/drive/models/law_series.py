@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -57,7 +58,7 @@ def beside_maps(drive: Drive, given: Chain, near: Chain, place: Geometry | None 
     if felt:
         seen = _beside_wobbles(drive, given, near.joint_angle, ahead, place)
         found = {i: np.stack(row).reshape(*shape[:-1], -1) for i, row in seen.items()}
-    for i in () if felt else unmapped(joints):
+    for i in unmapped(joints) if not felt else ():
         bends, spot = np.unique(np.asarray(given.joint_angle)[..., i], return_inverse=True)
         alike = np.asarray(near.joint_angle)[..., i].reshape(-1)
         turned = ahead[..., i].reshape(-1)
@@ -78,22 +79,36 @@ def _beside_wobbles(
     drive: Drive, given: Chain, alike: Array, ahead: Array, place: Geometry | None
 ) -> dict[int, list[Array]]:
     """Return the same where shafts wobble: c_k of each joint at every bend, array (K+1,) each, of one length."""
-    n, many = given.joints, np.shape(given.joint_angle)[:-1]
-    theta = np.arange(SEEN) * (2.0 * np.pi / SEEN)
+    many = np.shape(given.joint_angle)[:-1]
     each = (given.joint_angle, given.plane_twist, given.yoke_angle, alike, ahead)
     wide = (np.broadcast_to(one, (*many, np.shape(one)[-1])) for one in each)
     rows = zip(*(np.reshape(one, (math.prod(many), one.shape[-1])) for one in wide), strict=True)
-    found: dict[int, list[Array]] = {i: [] for i in range(n)}
     length = geometry(drive).length
+    parts = drive.joints, drive.supports, tuple((one.number, one.length, one.spline) for one in drive.shafts)
+    found: list[tuple[Array, ...]] = []
     for k, (bends, twists, yokes, hooke, turned) in enumerate(rows):
         there = geometry_from_angles(bends, np.append(0.0, twists), length) if place is None else one_of(place, k)
-        led = leads(drive, there, yokes, theta - turned[:, None])
-        rest = led - mobius.angle_error(mobius.hooke(hooke[:, None]), unit_complex(2.0 * theta))
-        for i in range(n):
-            row = _sums(rest[i], i, last=True)
-            found[i].append(np.zeros(1, dtype=complex) if row is None else row)
-    longest = max(len(row) for one in found.values() for row in one)
-    return {i: [np.pad(row, (0, longest - len(row))) for row in one] for i, one in found.items()}
+        key = (parts, *(one.tobytes() for one in (there.points, there.normal, yokes, hooke, turned)))
+        if key not in _WOBBLES:
+            if len(_WOBBLES) >= KEPT:
+                _WOBBLES.clear()
+            _WOBBLES[key] = _beside_wobble(drive, there, yokes, hooke, turned)
+        found.append(_WOBBLES[key])
+    longest = max(len(row) for one in found for row in one)
+    return {i: [np.pad(one[i], (0, longest - len(one[i]))) for one in found] for i in range(given.joints)}
+
+
+def _beside_wobble(drive: Drive, place: Geometry, yokes: Array, hooke: Array, turned: Array) -> tuple[Array, ...]:
+    """Return c_k of each joint of one drive, array (K+1,) each, beside Hooke joints at angles, turned ahead (n,)."""
+    theta = np.arange(SEEN) * (2.0 * np.pi / SEEN)
+    led = leads(drive, place, yokes, theta - turned[:, None])
+    rest = led - mobius.angle_error(mobius.hooke(hooke[:, None]), unit_complex(2.0 * theta))
+    rows = (_sums(one, i, last=True) for i, one in enumerate(rest))
+    return tuple(np.zeros(1, dtype=complex) if row is None else row for row in rows)
+
+
+_WOBBLES: dict[Any, tuple[Array, ...]] = {}
+"""What is known of joints behind shafts that wobble: variants of a drive, and verdicts, ask for the same again."""
 
 
 @lru_cache(maxsize=64)

@@ -27,10 +27,10 @@ from .geometry import STRAIGHT, Geometry, geometry
 
 SAMPLES = 720  # places in a turn at which wobbling shafts are looked at; between them by the harmonics
 ROUNDS = 60  # rounds in which a shaft finds its place; each leaves less than the radius of its orbit over its length
-BESIDE = 1e-5  # [m]: so near the place about which a shaft wobbles a support does not hinder it
 CLOSE = 1e-15  # change of a direction at which that place is found
 NODES = 14  # joint angles at which a law without a map is asked; between them by the polynomial through these
 PLACES = 512  # places in a turn by which the laws of joints are told that wobbling shafts change
+ROUNDED = 1e-13  # harmonics and steps [rad] that are rounding
 STEPS = 8  # Newton's steps from the angle of a driving yoke to that of the input
 MEAN = 48  # places in a turn over which the start of a shaft is averaged
 
@@ -49,11 +49,8 @@ def binding(drive: Described) -> Iterator[tuple[int, int]]:
     """
     known = known_lengths(drive)
     for i in wobbling(drive):
-        place = drive.joints[i].held(known.get(i + 2))
-        for k, one in enumerate(drive.supports):
-            beside = one.radial and abs(one.position - float(np.asarray(place))) > BESIDE
-            if one.shaft == i + 2 and (one.tilt or beside):
-                yield i, k
+        place = float(np.asarray(drive.joints[i].held(known.get(i + 2))))
+        yield from ((i, k) for k, one in enumerate(drive.supports) if one.shaft == i + 2 and one.hinders(place))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -280,17 +277,21 @@ def leads(drive: Drive, place: Geometry, yokes: Array, theta: Array) -> Array:
 
     place: where the joints are; yokes (n-1,) [rad]: γ of shafts 2 … n; theta (n, q) [rad]: of the driving yokes from
     the planes of the joints as drawn. What a wobble does to a joint goes with the angle of that joint, as on shafts
-    that do not twist: a twist shifts it by as little as it is.
+    that do not twist: a twist of the shaft shifts order k of it by k times that.
     """
     turn = np.arange(PLACES) * (2.0 * np.pi / PLACES)
     found = course(drive, turn, place, phase=0.0, yokes=yokes)
     rows, driving = [], turn
     for i, joint in enumerate(drive.joints):
         wave = sampled_series(np.unwrap(np.stack((driving - turn, found.turned[i + 1] - driving)), axis=-1))
+        wave = wave[:, : 2 + np.flatnonzero(np.max(np.abs(wave), axis=0) > ROUNDED)[-1:].sum()]
         at = theta[i]
         for _step in range(STEPS):  # the input angle at which the driving yoke stands there
             ahead, slope, _bow = (part[:, 0] for part in series_at(wave[:1], at))
-            at = at - (at + ahead - theta[i]) / (1.0 + slope)
+            step = (at + ahead - theta[i]) / (1.0 + slope)
+            at = at - step
+            if np.max(np.abs(step)) < ROUNDED:
+                break
         rows.append(series_at(wave[1:], at)[0][:, 0])
         if i + 1 < len(drive.joints):
             quarter = 0.5 * np.pi if joint.crossed else 0.0

@@ -96,6 +96,12 @@ def answer(drive: Drive, result: Phasing, *, fixed: Mapping[int, float] | None =
     )
 
 
+def indifferent(found: Phasing) -> bool:
+    """Tell whether the yokes of a drive that was followed change nothing."""
+    spread = found.speed_fluctuation_max - found.speed_fluctuation_min
+    return found.followed and bool(found.free) and spread <= UTMOST
+
+
 def is_uniform(drive: Drive, share: float) -> bool:
     """Tell whether a speed fluctuation of a drive is none, or only the rounding of its figures."""
     return share < SYNCHRONOUS or is_rounding(drive, share)
@@ -135,6 +141,8 @@ def _sentence(drive: Drive, found: Phasing) -> Say:
         text = _("{count}; the yokes are phased right, the output is exactly uniform as specified.")
     elif is_rounding(drive, now):
         text = _("{count}; the yokes are phased right, uniform but for the rounding of its figures: δ = {now}.")
+    elif indifferent(found):
+        text = _("{count}; speed fluctuation δ = {now}, however the yokes stand.")
     elif found.feasible:
         text = _("{count}; speed fluctuation δ = {now} as specified, exactly uniform with other yoke angles.")
     elif is_rounding(drive, least):
@@ -311,7 +319,7 @@ def _remarks(drive: Drive, found: Phasing, fixed: Mapping[int, float], nearest: 
         text = _("δ beside the yoke angles is that of the drive as drawn; the poses have a table of their own.")
         yield Remark(text=text, depth="full")
     felt = wobbling(drive)
-    if felt and found.free:
+    if felt and found.free and not indifferent(found):
         text = plural(
             "A shaft wobbles behind joint {which}: the yokes were sought with what later joints make of it, without "
             "proof that none are better.",
@@ -619,7 +627,7 @@ def noiseless(slope: Iterable[float], largest: float) -> list[float]:
 
 def spread(found: Phasing) -> Iterator[Remark]:
     """Yield what an error of the yokes costs, or what the free yokes reach."""
-    if not found.settings or not found.free:
+    if not found.settings or not found.free or indifferent(found):
         return
     if not found.feasible:
         text = _("The free yokes reach every speed fluctuation from {low:bare} to {high}.")

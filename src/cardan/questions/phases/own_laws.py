@@ -7,7 +7,7 @@ yoke angles are told in (-π, π]. What the joints leave is seen at `PLACES` of 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol
 
@@ -29,7 +29,7 @@ from .setting import YokeSetting
 from .spline_pitch import EVERY, on_teeth, steps
 
 PLACES = 360
-"""Places of a turn at which the ratio of a shaft is looked at; between them a parabola tells its extremes."""
+"""Places of a turn at which the ratio of a shaft is looked at."""
 
 SAMPLES = 256
 """Places of a turn by which the law of a joint is told, with all orders that a joint has."""
@@ -40,7 +40,10 @@ FOLLOWED, DENSE = 120, 720
 BATCH = 128
 """Settings looked at at once."""
 
-OPTIONS: Any = {"xatol": 1e-9, "fatol": 1e-13, "maxiter": 400}
+SIXTHS = np.arange(1, 6) * (np.pi / 3.0)
+"""Turns by which what crosses and tripods make repeats."""
+
+OPTIONS: Any = {"fatol": 1e-13, "maxiter": 400}
 """For the search (Nelder and Mead); the least fluctuation has corners, where slopes tell nothing."""
 
 
@@ -49,6 +52,7 @@ class Course(Protocol):
 
     tried: ClassVar[int]  # settings looked at before the search, for each free yoke
     starts: ClassVar[int]  # best of them from which it starts
+    near: ClassVar[float]  # [rad]: how near to the best it ends
 
     def fluctuation(self, yoke_angle: Array) -> Array:
         """Return δ of shafts 2 … n+1 for yoke angles (..., n-1) [rad], array (..., n)."""
@@ -63,6 +67,7 @@ class LawCourse:
 
     tried: ClassVar[int] = 256
     starts: ClassVar[int] = 6
+    near: ClassVar[float] = 1e-9
 
     laws: tuple[Array, ...]  # leads of every joint at `SAMPLES` even places of a turn [rad]
     shift: Array  # (n-1,) [rad]: what is added from joint to joint, less the yoke angle
@@ -87,7 +92,7 @@ class LawCourse:
         for k, law in enumerate(self.laws):
             lead, own, _slope = waved(theta, law)
             ratio = ratio * own
-            found.append(_peak(ratio) + _peak(-ratio))
+            found.append(peak(ratio) + peak(-ratio))
             if k + 1 < len(self.laws):
                 theta = theta + lead + (self.shift[k] - rows[:, k])[:, None]
         return np.stack(found, axis=-1)
@@ -99,6 +104,7 @@ class WobblingCourse:
 
     tried: ClassVar[int] = 64  # a wobble changes little of what the yokes do, and each setting takes milliseconds
     starts: ClassVar[int] = 2
+    near: ClassVar[float] = 1e-7
 
     drive: Drive
 
@@ -128,15 +134,6 @@ def course_of(drive: Drive) -> Course:
     laws = [joint.deviation(theta, alpha)[0] for joint, alpha in zip(drive.joints, angles, strict=True)]
     quarter = np.asarray([0.5 * np.pi if joint.crossed else 0.0 for joint in drive.joints[:-1]])
     return LawCourse(tuple(laws), quarter - np.asarray(whole.plane_twist), float(whole.start_phase))
-
-
-def _peak(values: Array) -> Array:
-    """Return the largest of values (s, p) at even places of a turn, by the parabola through it and its neighbours."""
-    k = np.argmax(values, axis=-1)
-    rows = np.arange(len(values))
-    here, before, after = (values[rows, (k + step) % values.shape[-1]] for step in (0, -1, 1))
-    bow = before - 2.0 * here + after
-    return here - np.where(bow < 0.0, (after - before) ** 2 / np.where(bow < 0.0, 8.0 * bow, 1.0), 0.0)
 
 
 def whole_turn(angle: Array) -> Array:
@@ -169,17 +166,25 @@ class Search:
         tried[1:, list(self.free)] += 2.0 * np.pi * scipy.stats.qmc.Sobol(len(self.free), rng=0).random(count)
         cost = judge(self.left(tried))
         near = tried[np.argsort(cost, kind="stable")[: self.poses[0].starts]]
-        rows = np.stack([*near, *(self._down(one, judge) for one in near)])
+        ends = [self._down(one, judge) for one in near]
+        rows = np.stack([*near, *(like for one in ends for like in self._alike(one))])
         cost = judge(self.left(rows))
         away = np.sum(1.0 - np.cos(rows - self.start), axis=-1)
         least = np.flatnonzero(cost <= np.min(cost) + 1e-9)
         return whole_turn(rows[least[int(np.argmin(np.round(away[least], 6)))]])
 
+    def _alike(self, row: Array) -> Iterator[Array]:
+        """Yield a setting, and those with one yoke by sixths of a turn on, which often leave the same."""
+        yield row
+        for k in self.free:
+            yield from (self._put(row, row[list(self.free)] + turn * (np.asarray(self.free) == k)) for turn in SIXTHS)
+
     def _down(self, start: Array, judge: Judge) -> Array:
         def cost(x: Array) -> float:
             return float(judge(self.left(self._put(start, x))))
 
-        found = scipy.optimize.minimize(cost, start[list(self.free)], method="Nelder-Mead", options=OPTIONS)
+        options = OPTIONS | {"xatol": self.poses[0].near}
+        found = scipy.optimize.minimize(cost, start[list(self.free)], method="Nelder-Mead", options=options)
         return self._put(start, found.x)
 
     def _put(self, start: Array, x: Array) -> Array:

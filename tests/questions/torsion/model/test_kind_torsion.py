@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from cardan import Drive, stability, torsion_modes, torsion_response
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke
 from cardan.drive.joints.tripod import pivot_error
@@ -22,6 +24,10 @@ from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.motion import motion
 from cardan.questions.torsion.model.joint_bends import bends
 from cardan.questions.torsion.model.torsional_balance import joint_law
+from cardan.questions.torsion.model.torsional_modes import base_order
+from cardan.questions.torsion.model.torsional_train import torsional_train
+from cardan.questions.torsion.optimise.answer import rule_reasons
+from cardan.questions.torsion.optimise.modal_excitation import node_rules
 
 ENDS = (Station(shaft=1, inertia=0.5), Station(shaft=2, inertia=2.0))
 
@@ -162,3 +168,21 @@ def test_the_third_order_of_a_shaft_that_wobbles_excites_the_line(turns):
     assert (modes.main, modes.order[0]) == (3.0, 3.0)
     assert modes.main_speed == pytest.approx(modes.omega / 3.0)
     assert [one.order for one in modes.crossings if one.mode == 1] == [3.0]
+
+
+def test_what_joints_do_to_a_mode_is_told_of_the_order_that_does_most():
+    """Two tripods on a line make its orders 3, 6, …: neither zones nor excitation are of order 2."""
+    drive = wobbling_drive("a tripod before a Rzeppa joint")
+    drive = replace(drive, shafts=tuple(replace(one, stiffness=2e4) for one in drive.shafts))
+    train = torsional_train(drive, Duty(speed=80.0, torque=50.0))
+    assert base_order(train.model) == 3.0
+    (rule,) = node_rules(train, speed=80.0)
+    assert rule.order == 3.0
+    modes = torsion_modes(drive, Duty(speed=80.0))
+    assert rule.modulation == pytest.approx(modes.modulation[0], rel=1e-12)
+    said = [told(one, USUAL) for one in rule_reasons(rule)]
+    assert "order 3 excites it at" in said[0]
+    assert "No joint changes the speed: nothing excites it." not in said
+    zone = stability(drive, Duty(speed=80.0, torque=50.0)).zone
+    assert zone.name(()) == "principal zone of mode 1"
+    assert float(zone.speed) == pytest.approx(2.0 * modes.omega[0] / 3.0)

@@ -103,5 +103,5 @@ def test_two_masses_give_the_reduction_of_mathieu() -> None:
 
 def test_straight_joints_do_nothing() -> None:
     rule, _model = slowest(replace(FREE, joints=tuple(replace(one, joint_angle=0.0) for one in FREE.joints)))
-    assert rule_reasons(rule)[1:] == ("All joints are straight: nothing excites it twice a turn.",)
+    assert rule_reasons(rule)[1:] == ("No joint changes the speed: nothing excites it.",)
     assert (rule.modulation, rule.push, rule.left, rule.resonance_torque) == (0.0, 0.0, 0.0, 0.0)

@@ -42,6 +42,9 @@ FAR = 3.0
 NEAR = 0.1
 """Speeds nearer than this share are too near."""
 
+RANGES = 3
+"""So many ranges of speed of which something is not proved are told."""
+
 SECOND = 2.0
 """Order at which cross joints modulate the stiffness of modes."""
 
@@ -165,11 +168,14 @@ def _exactly(exact: Exact, used: tuple[float, float], reach: tuple[float, float]
             text = _("parametrically unstable in the operating range, from {low:bare} to {high} ({zone})")
         ends = {"low": _speed(exact.lowest[k], 5), "high": _speed(exact.highest[k], 5)}
         return "failed" if len(inside) else "warning", say(text, zone=exact.zone.name((int(k),)), **ends)
-    for low, high in exact.unproved:
-        if low < used[1] and used[0] < high:
-            text = _("whether it is parametrically stable from {low:bare} to {high} is not proved")
-            return "warning", say(text, low=_speed(low), high=_speed(high))
-    return None
+    open_ = [(low, high) for low, high in exact.unproved if low < used[1] and used[0] < high]
+    if not open_:
+        return None
+    ranges = [say(_("{low:bare} to {high}"), low=_speed(low), high=_speed(high)) for low, high in open_[:RANGES]]
+    text = _("whether it is parametrically stable from {ranges} is not proved")
+    if len(open_) > RANGES:
+        text = _("whether it is parametrically stable from {ranges} and in further ranges is not proved")
+    return "warning", say(text, ranges=Joined(ranges))
 
 
 def _by_first_order(
@@ -578,7 +584,7 @@ def parts_left_out(drive: Drive) -> Iterator[Remark]:
             "What the wobbles of shafts {which} make of joints excite the drive as on shafts that do not twist.",
             len(felt),
         )
-        yield Remark(text=say(text, which=listed([i + 2 for i in felt])), depth="full", code="wobble")
+        yield Remark(text=say(text, which=listed([i + 2 for i in felt])), aside=True, code="wobble")
     yield from friction_left_out(drive)
 
 

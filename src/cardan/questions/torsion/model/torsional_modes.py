@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 import scipy
 
+from cardan.drive.models.kinematics_model import NEGLIGIBLE
 from cardan.maths.arrays import Array, ArrayLike
 
 from .torsional_model import TorsionalModel
@@ -192,8 +194,13 @@ def changing_orders(model: TorsionalModel) -> tuple[float, ...]:
 
 
 def base_order(model: TorsionalModel) -> float:
-    """Return the order of which all those of the joints are multiples: 2, or 1 with laws of their own."""
-    return 1.0 if any(order % 2.0 for order in joint_orders(model)) else 2.0
+    """Return the order of which all those of the joints are multiples: 2 of crosses, 3 of a tripod that pivots."""
+    own = model.own_laws
+    if own is None:
+        return 2.0
+    size = np.max(np.abs(own), axis=(*range(own.ndim - 2), own.ndim - 1))
+    there = [int(order) for order in np.flatnonzero(size > NEGLIGIBLE) if order]
+    return float(math.gcd(*there, *([2] if np.any(model.joint_angle > 0.0) else ()))) or 2.0
 
 
 def main_order(model: TorsionalModel) -> float:

@@ -259,24 +259,25 @@ def rule_reasons(rule: NodeRule) -> tuple[Text, ...]:
 
 
 def _rule_reasons(rule: NodeRule) -> Iterator[Text]:
+    order = Quantity(rule.order, trim=True)
     text = _(
-        "Mode {mode} at {frequency}: order 2 excites it at {speed}; its principal zone of parametric resonance is at "
+        "Mode {mode} at {frequency}: order {order} excites it at {speed}, and parametric resonance of that order is at "
         "{zone}."
     )
     yield say(
         text,
         mode=rule.mode,
         frequency=Quantity(rule.omega, "frequency", 3),
-        speed=speed(0.5 * rule.omega, 4),
-        zone=speed(rule.omega, 4),
+        order=order,
+        speed=speed(rule.omega / rule.order, 4),
+        zone=speed(2.0 * rule.omega / rule.order, 4),
     )
     if rule.others:
-        yield _(
-            "Joints that turn by laws of their own excite it at other orders too; what follows is of order 2 alone."
-        )
+        text = _("Joints excite it at other orders too; what follows is of order {order} alone.")
+        yield say(text, order=order)
     bent = np.flatnonzero(rule.joint_angle_share > BENT)
     if not bent.size:
-        yield _("All joints are straight: nothing excites it twice a turn.")
+        yield _("No joint changes the speed: nothing excites it.")
         return
     size = np.abs(rule.parametric)
     whole = float(np.sum(size))
@@ -297,16 +298,16 @@ def _rule_reasons(rule: NodeRule) -> Iterator[Text]:
         share, limit = Quantity(rule.modulation, "share", 2), Quantity(2.0 * rule.damping_ratio, "share", 2)
         yield say(text, share=share, limit=limit)
     if bent.size == 1:
-        yield _("Its 2nd-order excitation stands alone: no other joint can cancel it.")
+        yield say(_("Its excitation of order {order} stands alone: no other joint can cancel it."), order=order)
     elif rule.left < CANCELS:
-        text = _("The 2nd-order excitations cancel; residual {left} of the in-phase sum.")
-        yield say(text, left=Quantity(rule.left, "share", 2))
+        text = _("The excitations of order {order} cancel; residual {left} of the in-phase sum.")
+        yield say(text, order=order, left=Quantity(rule.left, "share", 2))
     else:
-        text = _("The 2nd-order excitations add up to {left} of the in-phase sum.")
-        yield say(text, left=Quantity(rule.left, "share", decimals=0))
+        text = _("The excitations of order {order} add up to {left} of the in-phase sum.")
+        yield say(text, order=order, left=Quantity(rule.left, "share", decimals=0))
     if np.isfinite(rule.resonance_torque):
-        text = _("By this mode alone the alternating torque is ±{torque} where order 2 excites it.")
-        yield say(text, torque=torque(rule.resonance_torque))
+        text = _("By this mode alone the alternating torque is ±{torque} where order {order} excites it.")
+        yield say(text, order=order, torque=torque(rule.resonance_torque))
 
 
 def _where(rule: NodeRule, joint: int) -> str:

@@ -9,7 +9,14 @@ import numpy as np
 
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.model.torsional_layouts import Turning
-from cardan.questions.torsion.model.torsional_modes import joint_orders, joint_waves, mean_phases, straight_modes
+from cardan.questions.torsion.model.torsional_modes import (
+    changing_orders,
+    joint_orders,
+    joint_waves,
+    main_order,
+    mean_phases,
+    straight_modes,
+)
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
 from cardan.questions.torsion.steady.orbit import at_rest
 
@@ -24,20 +31,22 @@ class NodeRule:
     # (n,): position of each joint relative to the node of the mode, 0 in it: its angle in the mode times Σ J u behind
     # it
     kappa: Array
-    joint_angle_share: Array  # (n,): τ = tan²(α/2) of each joint, or by its law what it leads by twice a turn [rad]
-    # (n,), complex: share by which each joint modulates the stiffness twice a turn, with its phase: 2 τ κ e^(2iψ̄)
+    # (n,): by what each joint leads at the order ν, a [rad], τ = tan²(α/2) of a cross twice a turn
+    joint_angle_share: Array
+    # (n,), complex: share by which each joint modulates the stiffness at that order, with its phase: ν a κ e^(iνψ̄)
     parametric: Array
-    # (n,) [√(kg m²)], complex: how each joint pushes the mode twice a turn where order 2 meets it, with its phase, over
-    # ω²: τ e^(2iψ̄) (S (1 + 2iδ) - 2i u t/ω²) with S = Σ J u behind it, its mean torque t and lag δ under load
+    # (n,) [√(kg m²)], complex: how each joint pushes the mode where the order ν meets it, with its phase, over ω²:
+    # a e^(iνψ̄) (S (1 + iνδ) - iν u t/ω²) with S = Σ J u behind it, its mean torque t and lag δ under load
     forced: Array
     torque_of_mode: float  # [N·m/√(kg m²)]: largest torque of an element of the mode at unit amplitude
     position: Array  # (n,) [m]: of the joints along the line of the shafts
     nodes: tuple[float, ...]  # [m]: where the mode stands still; the input is one where its speed is forced
+    order: float = 2.0  # ν: at which joints change the speed most
     others: bool = False  # whether joints that turn by laws of their own excite it at other orders too
 
     @property
     def modulation(self) -> float:
-        """Share by which all joints together modulate the stiffness of the mode twice a turn."""
+        """Share by which all joints together modulate the stiffness of the mode at that order."""
         return float(np.abs(np.sum(self.parametric)))
 
     @property
@@ -47,7 +56,7 @@ class NodeRule:
 
     @property
     def push(self) -> float:
-        """How all joints together push the mode twice a turn [√(kg m²)]."""
+        """How all joints together push the mode at that order [√(kg m²)]."""
         return float(np.abs(np.sum(self.forced)))
 
     @property
@@ -58,7 +67,7 @@ class NodeRule:
 
     @property
     def resonance_torque(self) -> float:
-        """Largest torque where order 2 meets the mode, by this mode alone [N·m]; infinite without damping."""
+        """Largest torque where that order meets the mode, by this mode alone [N·m]; infinite without damping."""
         if self.push == 0.0:
             return 0.0
         return self.torque_of_mode * self.push / (2.0 * self.damping_ratio) if self.damping_ratio > 0.0 else np.inf
@@ -85,7 +94,8 @@ def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, 
     phase of joint k follows its own swing u_k, each push also changes with the swing: the parametric part, 2 τ_k κ_k of
     the stiffness with κ_k = u_k S_k. For one mass at either end κ_k = Σ_{i≤k} c/c_i - J_b/(J_a + J_b): a joint in the
     node of the mode excites no parametric vibration. ψ̄ as in `torsional_modes.modulation`. A drive under load pushes
-    a little otherwise, by its twist: each joint lags by δ, and its mean torque works on its swing.
+    a little otherwise, by its twist: each joint lags by δ, and its mean torque works on its swing. Joints that turn by
+    laws of their own may change the speed most at another order than 2, see `torsional_modes.main_order`: that counts.
 
     Examples
     --------
@@ -104,8 +114,9 @@ def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, 
     """
     model = train.model
     modes = straight_modes(model, speed=speed)
-    wave = joint_waves(model, 2.0)
-    turn = np.exp(2j * mean_phases(model))
+    order = main_order(model)
+    wave = joint_waves(model, order)
+    turn = np.exp(1j * order * mean_phases(model))
     shaft = np.asarray(model.shaft)
     lag, carried = _under_load(train, speed)
     driving = [one for one, _driven in train.joints]
@@ -113,7 +124,7 @@ def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, 
     for k, omega in enumerate(modes.omega):
         shape = modes.shape[k]
         behind = np.asarray([np.sum((model.inertia * shape)[shaft >= shaft[driven]]) for _one, driven in train.joints])
-        push = behind * (1.0 + 2j * lag) - 2j * shape[driving] * carried / omega**2
+        push = behind * (1.0 + 1j * order * lag) - 1j * order * shape[driving] * carried / omega**2
         twist = [shape[a] - shape[b] for a, b in model.elements]
         rules.append(
             NodeRule(
@@ -122,12 +133,13 @@ def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, 
                 damping_ratio=float(modes.damping_ratio[k]),
                 kappa=modes.joint_weight[k],
                 joint_angle_share=np.abs(wave),
-                parametric=2.0 * wave * modes.joint_weight[k] * turn,
+                parametric=order * wave * modes.joint_weight[k] * turn,
                 forced=wave * push * turn,
                 torque_of_mode=float(np.max(np.abs(model.stiffness * np.asarray(twist)), initial=0.0)),
                 position=train.position[driving],
                 nodes=tuple(_nodes(train, shape)),
-                others=bool(joint_orders(model)),
+                order=order,
+                others=any(one != order for one in changing_orders(model)) and bool(joint_orders(model)),
             )
         )
     return tuple(rules)

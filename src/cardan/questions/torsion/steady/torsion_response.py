@@ -330,7 +330,8 @@ def order_jumps(model: TorsionalModel) -> Array:
         return np.zeros(0)
     omega = straight_modes(replace(model, torques=())).omega
     i, j = np.triu_indices(len(omega))
-    orders = base_order(model) * np.arange(1.0, SECOND / base_order(model) + 1.0)
+    base = base_order(model)
+    orders = base * np.arange(1.0, SECOND // base + 1.0)
     multiple = np.repeat(orders, len(i))
     where = np.tile(omega[i] + omega[j], len(orders)) / multiple
     order = np.argsort(where)
