@@ -15,6 +15,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.machine import HarmonicTorque
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station, ToNext
+from cardan.io import loads
 from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.stability import answer as home
 from cardan.questions.torsion.stability import torsion_stability as asking
@@ -212,3 +213,30 @@ def test_who_stops_amid_these_orders_is_told_so() -> None:
     found = stability(engined(120.0), over={"shafts[0].damping_Nms_per_rad": np.linspace(1.0, 3.0, 80)}, progress=stop)
     assert found.cancelled
     assert 0 < np.sum(found.together) < 80
+
+
+FREE_TRIPOD = """
+format = 1
+joints = [
+  { kind = "tripod", joint_angle_deg = 20, track_radius_mm = 20 },
+  { joint_angle_deg = 15, plane_twist_deg = 40 },
+]
+shafts = [
+  { number = 2, length_mm = 300, yoke_angle_deg = 25, stiffness_Nm_per_rad = 6000, damping_Nms_per_rad = 0.3 },
+  { number = 3, stiffness_Nm_per_rad = 9000, damping_Nms_per_rad = 0.3 },
+]
+stations = [{ shaft = 1, inertia_kg_m2 = 0.9 }, { shaft = 3, inertia_kg_m2 = 0.1 }]
+duty = { input = "free", torque_Nm = 200, speed_rpm = SPEED }
+"""
+
+
+@pytest.mark.parametrize(("turns", "jumps"), [(1700, False), (1910, True)])
+def test_a_motion_to_which_another_grows_is_no_good_news(turns: int, jumps: bool) -> None:
+    """Amid a parametric zone order 1 of a wobble leads to a wide steady motion, stable in itself."""
+    drive = loads(FREE_TRIPOD.replace("SPEED", str(turns)))
+    found = stability(drive)
+    said = home.answer(drive, found)
+    assert bool(found.stable)
+    assert (bool(found.jumped), said.tone) == (jumps, "warning" if jumps else "good")
+    assert any(one.code == "jumped" for one in said.remarks) == jumps
+    assert ("another_motion_grows" in said.facts) == jumps

@@ -130,7 +130,23 @@ def _point(found: Stability) -> tuple[Tone, Text]:
         return "failed", said
     if verdict == Verdict.NEUTRAL:
         return "warning", say(_("neutral at {speed}: vibration neither grows nor decays."), speed=speed)
-    return "good", say(_("stable at {speed}: vibration decays to a tenth in {time}."), speed=speed, time=time)
+    tone: Tone = "warning" if found.jumped else "good"
+    return tone, say(_("stable at {speed}: vibration decays to a tenth in {time}."), speed=speed, time=time)
+
+
+def _jumped(found: Stability) -> Iterator[Remark]:
+    """Yield where another steady motion grows than the one that is judged."""
+    share = float(np.mean(found.jumped))
+    if not share:
+        return
+    text = _("Warning: another steady motion grows here until it settles to the one that is judged; how wide this is:")
+    if found.over:
+        text = _(
+            "Warning: at {share} of the points another steady motion grows until it settles to the one that is judged; "
+            "how wide this is:"
+        )
+    said = say(text, share=Quantity(share, "share", 2))
+    yield Remark(text=said, tone="warning", command=("cardan", "torsion", "response", FILE), code="jumped")
 
 
 def _mapped(found: Stability, axes: tuple[MapAxis, ...]) -> tuple[Tone, Text]:
@@ -302,6 +318,7 @@ def _remarks(drive: Drive, found: Stability, axes: tuple[MapAxis, ...], *, signs
         text = _("Warning: stopped; {done} of {all} points are done.")
         done = int(np.sum(found.verdict != Verdict.UNKNOWN))
         yield Remark(text=text.format(done=done, all=found.verdict.size), tone="warning")
+    yield from _jumped(found)
     if len(axes) == 1 and found.proof is not None:
         yield from _unproved(found, axes[0])
     if (len(axes) == 2 or np.any(found.together)) and found.proof is not None and found.proof.looked_at:
@@ -389,6 +406,7 @@ def _facts(drive: Drive, found: Stability) -> dict[str, Any]:
         "speed": Quantity(np.abs(found.speed), "angular_speed"),
         "verdict": names[found.verdict],
         "stable": found.stable,
+        **({"another_motion_grows": found.jumped} if np.any(found.jumped) else {}),
         "counts_nonsynchronous": found.together if nonsynchronous(drive) is not None else None,
         "spectral_radius": found.spectral_radius,
         "growth_rate": Quantity(found.growth_rate, "rate"),

@@ -123,6 +123,8 @@ class Stability:
         Whether torques of orders that do not repeat within two turns count, by the motion with them: at up to a
         thousand points, where that motion is known. All else is judged without them, the proof and the least loss
         factor too.
+    jumped : array of bool (...)
+        Whether a steady motion found first grows there and another is judged, to which vibration settles.
     """
 
     over: tuple[tuple[str, Array], ...]
@@ -136,6 +138,7 @@ class Stability:
     zone: Zone
     multipliers: Array
     together: Array
+    jumped: Array
     here: tuple[tuple[str, float], ...] = ()
     cancelled: bool = False
     units: tuple[tuple[str, str], ...] = ()
@@ -409,7 +412,7 @@ def _judged(
     """
     if alone and several_looked_for(model):
         verdict, cancelled = judged(model, speed), False
-        together = np.zeros(np.shape(verdict.verdict), dtype=bool)
+        together = jumped = np.zeros(np.shape(verdict.verdict), dtype=bool)
     else:
         share = ALONE if loose else 1.0
         found = floquet_map(model, speed=speed, progress=within(progress, 0.0, share))
@@ -420,11 +423,13 @@ def _judged(
             said.append(rest(done) if rest is not None else None)
             return said[-1]
 
-        verdict, together = _with_torques(found, _settled(found), loose, told)
+        settled = _settled(found)
+        jumped = (found.floquet.verdict == Verdict.UNSTABLE) & (settled.verdict != Verdict.UNSTABLE)
+        verdict, together = _with_torques(found, settled, loose, told)
         cancelled = found.cancelled or "stop" in said
     zone = {f"zone_{one.name}": getattr(verdict.zone, one.name) for one in fields(Zone)}
     names = ("verdict", "kind", "growth_rate", "spectral_radius", "order", "multipliers")
-    own = {"speed": speed, "together": together}
+    own = {"speed": speed, "together": together, "jumped": jumped}
     return {name: getattr(verdict, name) for name in names} | zone | own, cancelled
 
 
