@@ -631,8 +631,8 @@ def _bows(asked: Asked) -> Values:
 def _twice(asked: Asked) -> Values:
     """Return how many of the redundant constraints load what holds the shafts; others stay within a joint."""
     found = asked.mobility
-    if found is None or not found.certain:
-        return {}
+    if found is None or not found.certain or found.mobility < 1:
+        return {}  # of a drive that is locked the assembly counts what binds as one hold too many
     if not found.redundant:
         return {"": 0.0}
     system = constraints(found.mechanism)

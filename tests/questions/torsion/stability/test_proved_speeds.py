@@ -13,9 +13,10 @@ from cardan.answers.data import data
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.drive.station import ToNext
+from cardan.questions.torsion.model.torsional_model import torsional_line
 from cardan.questions.torsion.stability.answer import answer
 from cardan.questions.torsion.stability.floquet_map import floquet_map
-from cardan.questions.torsion.stability.proved_speeds import proved_speeds
+from cardan.questions.torsion.stability.proved_speeds import _Drive, proved_speeds
 from cardan.questions.torsion.stability.torsion_stability import proved_in_band
 from cardan.questions.torsion.steady import steady
 from cardan.questions.torsion.steady.run_stability import Verdict, floquet
@@ -153,3 +154,14 @@ def test_friction_that_sticks_is_proved_and_motions_in_which_it_slips_are_not_se
     assert proved_in_band(rubbing(sticks), 45.0, 50.0).stable
     found = proved_in_band(rubbing(slips), 45.0, 50.0)
     assert found.unproved.tolist() == found.open.tolist() == [[45.0, 50.0]]
+
+
+def test_where_a_drive_that_turns_backwards_has_no_motion_its_matrix_is_none_and_no_rounding():
+    """The basis without the shift in time needs a direction there too, not one against itself."""
+    model = torsional_line([[0.5], [0.1, 0.3]], stiffness=[[], [900.0]], damping=[[], [0.2]], joint_angle=[0.4])
+    drive = _Drive(model, 40.0, None)
+    turning = drive._turning(np.asarray([-40.0, 40.0]))
+    size = len(drive.energy)
+    coefficient = np.full((2, turning.coordinates, 5), np.nan + 0j)
+    found = drive._reduced(np.zeros((2, size, size)), coefficient, turning)
+    assert np.all(found == 0.0)

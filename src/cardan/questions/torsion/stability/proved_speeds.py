@@ -438,7 +438,7 @@ class _Drive:
         tangent = np.concatenate([rate, acceleration], axis=-1) @ self.energy.T
         with np.errstate(invalid="ignore", divide="ignore"):
             unit = tangent / np.linalg.norm(tangent, axis=-1, keepdims=True)
-        unit = np.where(np.isfinite(unit), unit, self.even) * np.sign(turning.speed)[:, None]
+        unit = np.where(np.isfinite(unit), unit * np.sign(turning.speed)[:, None], self.even)
         normal = unit + self.even
         normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
         turn = np.eye(matrix.shape[-1]) - 2.0 * normal[:, :, None] * normal[:, None, :]
