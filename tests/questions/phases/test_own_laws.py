@@ -186,6 +186,8 @@ def test_yokes_that_change_nothing_are_said_to_change_nothing():
     said = question.answer(drive, question.ask(drive))
     assert "however the yokes stand" in told(said.sentence, USUAL)
     assert not any("free yokes reach" in told(one.text, USUAL) for one in said.remarks)
+    held = phases(drive, fixed={2: 1.0})
+    assert "however the yokes stand" not in told(question.answer(drive, held).sentence, USUAL)
 
 
 def test_a_steering_column_has_no_wobbling_shaft():

@@ -89,11 +89,12 @@ def _beside_wobbles(
     for k, (bends, twists, yokes, hooke, turned) in enumerate(rows):
         there = geometry_from_angles(bends, np.append(0.0, twists), length) if place is None else one_of(place, k)
         key = (parts, *(one.tobytes() for one in (there.points, there.normal, yokes, hooke, turned)))
-        if key not in _WOBBLES:
+        known = _WOBBLES.get(key)
+        if known is None:
             if len(_WOBBLES) >= KEPT:
                 _WOBBLES.clear()
-            _WOBBLES[key] = _beside_wobble(drive, there, yokes, hooke, turned)
-        found.append(_WOBBLES[key])
+            known = _WOBBLES[key] = _beside_wobble(drive, there, yokes, hooke, turned)
+        found.append(known)
     longest = max(len(row) for one in found for row in one)
     return {i: [np.pad(one[i], (0, longest - len(one[i]))) for one in found] for i in range(given.joints)}
 
@@ -104,7 +105,7 @@ def _beside_wobble(drive: Drive, place: Geometry, yokes: Array, hooke: Array, tu
     led = leads(drive, place, yokes, theta - turned[:, None])
     rest = led - mobius.angle_error(mobius.hooke(hooke[:, None]), unit_complex(2.0 * theta))
     rows = (_sums(one, i, last=True) for i, one in enumerate(rest))
-    return tuple(np.zeros(1, dtype=complex) if row is None else row for row in rows)
+    return tuple(np.zeros(1, dtype=complex) if row is None else row.copy() for row in rows)
 
 
 _WOBBLES: dict[Any, tuple[Array, ...]] = {}

@@ -97,9 +97,9 @@ def answer(drive: Drive, result: Phasing, *, fixed: Mapping[int, float] | None =
 
 
 def indifferent(found: Phasing) -> bool:
-    """Tell whether the yokes of a drive that was followed change nothing."""
-    spread = found.speed_fluctuation_max - found.speed_fluctuation_min
-    return found.followed and bool(found.free) and spread <= UTMOST
+    """Tell whether the yokes of a drive that was followed, all free, change nothing."""
+    every = bool(found.free) and len(found.free) == len(found.as_built.yoke_angle)
+    return found.followed and every and found.speed_fluctuation_max - found.speed_fluctuation_min <= UTMOST
 
 
 def is_uniform(drive: Drive, share: float) -> bool:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from cardan import Drive, stability, torsion_modes, torsion_response
 from cardan.answers.quantity import told
-from cardan.answers.reader import USUAL
+from cardan.answers.reader import USUAL, Reader
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke
 from cardan.drive.joints.tripod import pivot_error
@@ -22,12 +24,14 @@ from cardan.errors import InputError
 from cardan.joints import DoubleCardan, ElasticHalfCardan, OffsetCross, PinCoupling, Rzeppa, Tripod
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.motion.motion import motion
+from cardan.questions.torsion.model.answer import _exactly
 from cardan.questions.torsion.model.joint_bends import bends
 from cardan.questions.torsion.model.torsional_balance import joint_law
 from cardan.questions.torsion.model.torsional_modes import base_order
 from cardan.questions.torsion.model.torsional_train import torsional_train
-from cardan.questions.torsion.optimise.answer import rule_reasons
+from cardan.questions.torsion.optimise.answer import _as_built, rule_reasons
 from cardan.questions.torsion.optimise.modal_excitation import node_rules
+from cardan.questions.torsion.optimise.optimise import _rules
 
 ENDS = (Station(shaft=1, inertia=0.5), Station(shaft=2, inertia=2.0))
 
@@ -186,3 +190,32 @@ def test_what_joints_do_to_a_mode_is_told_of_the_order_that_does_most():
     zone = stability(drive, Duty(speed=80.0, torque=50.0)).zone
     assert zone.name(()) == "principal zone of mode 1"
     assert float(zone.speed) == pytest.approx(2.0 * modes.omega[0] / 3.0)
+
+
+def test_modes_are_explained_where_their_own_order_meets_them():
+    """Of two modes shaken three times a turn the one whose order 3 lies in the band; another order is no ratio."""
+    drive = wobbling_drive("a tripod before a Rzeppa joint")
+    ends = (ENDS[0], Station(shaft=2, position=0.3, inertia=0.3), replace(ENDS[1], shaft=3, position=0.3))
+    shafts = (Shaft(number=2, length=0.3, stiffness=6000.0), Shaft(number=3, length=0.3, stiffness=9000.0))
+    train = torsional_train(replace(drive, shafts=shafts, stations=ends), Duty(speed=80.0, torque=50.0))
+    slow, fast = node_rules(train, speed=80.0)
+    line: Any = SimpleNamespace(trains=(train,), speed=80.0)
+    for one in (slow, fast):
+        for at in (one.omega / 3.0, 2.0 * one.omega / 3.0):
+            assert [rule.mode for rule in _rules(line, (0.99 * at, 1.01 * at))] == [one.mode]
+    (said,) = _as_built(replace(slow, order=2.0), slow)
+    assert "order 2 excited it most" in told(said, USUAL)
+    assert "times" not in told(said, USUAL)
+
+
+def test_ranges_of_speed_that_touch_are_one_where_stability_is_not_proved():
+    pieces = [(300.0, 310.0), (100.0, 110.0), (110.0, 120.0), (500.0, 510.0), (700.0, 710.0), (2e3, 3e3)]
+    exact: Any = SimpleNamespace(overlapping=lambda *_used: np.zeros(0, dtype=int), unproved=np.asarray(pieces))
+    tone, said = _exactly(exact, (0.0, 600.0), (0.0, 700.0))
+    assert tone == "warning"
+    assert told(said, Reader(units={"angular_speed": "rad_s"})) == (
+        "whether it is parametrically stable from 100.0 to 120.0 rad/s, 300.0 to 310.0 rad/s and 500.0 to "
+        "510.0 rad/s is not proved"
+    )
+    _tone, said = _exactly(exact, (0.0, 1000.0), (0.0, 1100.0))
+    assert "in further ranges" in told(said, USUAL)

@@ -79,8 +79,8 @@ def test_a_design_shows_how_its_joints_excite() -> None:
     figure = drawn(found)
     assert len(figure.panels) == 3  # a search of one round has no course
     assert [panel.heading for panel in figure.panels][1:3] == [
-        "2nd-order excitation of mode 1, as built",
-        "2nd-order excitation of mode 1, best values",
+        "Excitation of order 2, mode 1, as built",
+        "Excitation of order 2, mode 1, best values",
     ]
     for panel, rule in zip(figure.panels[1:3], (found.rules_before[0], found.rules_after[0]), strict=True):
         *arrows, total = [item for item in panel.series if isinstance(item, Curve)]

@@ -168,14 +168,17 @@ def _exactly(exact: Exact, used: tuple[float, float], reach: tuple[float, float]
             text = _("parametrically unstable in the operating range, from {low:bare} to {high} ({zone})")
         ends = {"low": _speed(exact.lowest[k], 5), "high": _speed(exact.highest[k], 5)}
         return "failed" if len(inside) else "warning", say(text, zone=exact.zone.name((int(k),)), **ends)
-    open_ = [(low, high) for low, high in exact.unproved if low < used[1] and used[0] < high]
+    open_: list[tuple[float, float]] = []
+    for low, high in sorted((low, high) for low, high in exact.unproved if low < used[1] and used[0] < high):
+        joined = bool(open_) and low <= open_[-1][1]
+        open_[-1:] = [(open_[-1][0], max(high, open_[-1][1]))] if joined else [*open_[-1:], (low, high)]
     if not open_:
         return None
     ranges = [say(_("{low:bare} to {high}"), low=_speed(low), high=_speed(high)) for low, high in open_[:RANGES]]
     text = _("whether it is parametrically stable from {ranges} is not proved")
     if len(open_) > RANGES:
         text = _("whether it is parametrically stable from {ranges} and in further ranges is not proved")
-    return "warning", say(text, ranges=Joined(ranges))
+    return "warning", say(text, ranges=Joined(ranges, last=_(" and ") if len(open_) <= RANGES else ", "))
 
 
 def _by_first_order(

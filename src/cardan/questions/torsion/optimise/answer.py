@@ -244,6 +244,9 @@ def reasons(result: OptimisedTorsion) -> tuple[Text, ...]:
 def _as_built(old: NodeRule, new: NodeRule) -> list[Text]:
     """Return what a mode was as built, where that was something else."""
     values = {"frequency": Quantity(old.omega, "frequency", 3), "share": Quantity(old.modulation, "share", 2)}
+    if old.order != new.order:
+        text = _("As built: {frequency}, order {order} excited it most, stiffness modulation of that order {share}.")
+        return [say(text, order=Quantity(old.order, trim=True), **values)]
     times = old.push / new.push if new.push > 0.0 else np.inf
     if abs(times - 1.0) > SAME:
         text = _("As built: {frequency}, {times} times this excitation, stiffness modulation {share}.")

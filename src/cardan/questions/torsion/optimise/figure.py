@@ -47,15 +47,15 @@ def calm_figure(found: OptimisedTorsion) -> Figure:
         new = found.rules_after[0]
         old = next((one for one in found.rules_before if one.mode == new.mode), found.rules_before[0])
         reach = max(0.5 * max(np.ptp(one.real), np.ptp(one.imag)) for one in (_chain(old), _chain(new)))
-        arrows = reach > 0.0
+        arrows = reach > 0.0 and old.order == new.order
         if arrows:
             titles = (
-                _("2nd-order excitation of mode {mode}, as built"),
-                _("2nd-order excitation of mode {mode}, best values"),
+                _("Excitation of order {order}, mode {mode}, as built"),
+                _("Excitation of order {order}, mode {mode}, best values"),
             )
             below = [
                 *(
-                    _excitations(one, reach, text.format(mode=one.mode))
+                    _excitations(one, reach, text.format(mode=one.mode, order=f"{one.order:g}"))
                     for one, text in zip((old, new), titles, strict=True)
                 ),
                 *below,
@@ -63,11 +63,11 @@ def calm_figure(found: OptimisedTorsion) -> Figure:
     return Figure(
         name="calm-running",
         title=_("Least torsional vibration: before and after"),
-        sentence=_("Arrows: how each joint excites the mode twice a turn, head to tail; dashed: their sum.")
+        sentence=_("Arrows: how each joint excites the mode at that order, head to tail; dashed: their sum.")
         if arrows
         else "",
         source=_(
-            "periodic solution of the exact equations of motion; excitation of order 2 of the straight line's mode"
+            "periodic solution of the exact equations of motion; excitation of one order of the straight line's mode"
         ),
         rows=(Row(panels=(upper,), height=2.4), *([Row(panels=tuple(below), height=1.9)] if below else [])),
     )

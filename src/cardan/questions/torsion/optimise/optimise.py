@@ -296,9 +296,12 @@ def _worse_within(designs: Designs, at: Array) -> bool:
 
 
 def _rules(line: Lines, band: tuple[float, float]) -> tuple[NodeRule, ...]:
-    """Return what the joints do to the modes that order 2 or a principal zone meets in the band, or the slowest one."""
+    """Return what joints do to the modes that their main order or its parametric resonance meets in the band.
+
+    To the slowest mode where the band meets none.
+    """
     every = node_rules(line.trains[0], speed=line.speed)
-    met = [one for one in every if any(band[0] <= at <= band[1] for at in (0.5 * one.omega, one.omega))]
+    met = [one for one in every if any(band[0] <= k * one.omega / one.order <= band[1] for k in (1.0, 2.0))]
     return tuple(met or every[:1])
 
 

@@ -136,17 +136,17 @@ def _point(found: Stability) -> tuple[Tone, Text]:
 
 def _jumped(found: Stability) -> Iterator[Remark]:
     """Yield where another steady motion grows than the one that is judged."""
-    share = float(np.mean(found.jumped))
+    known = found.verdict != Verdict.UNKNOWN
+    share = float(np.sum(found.jumped)) / max(1, int(np.sum(known)))
     if not share:
         return
-    text = _("Warning: another steady motion grows here until it settles to the one that is judged; how wide this is:")
     if found.over:
-        text = _(
-            "Warning: at {share} of the points another steady motion grows until it settles to the one that is judged; "
-            "how wide this is:"
-        )
-    said = say(text, share=Quantity(share, "share", 2))
-    yield Remark(text=said, tone="warning", command=("cardan", "torsion", "response", FILE), code="jumped")
+        text = _("Warning: at {share} of the points another steady motion grows; that judged is stable beside it.")
+        yield Remark(text=say(text, share=Quantity(share, "share", 2)), tone="warning", code="jumped")
+        return
+    text = _("Warning: another steady motion grows here; that judged is stable beside it, and as wide as told by:")
+    asked = ("--speed-rpm", f"{abs(float(found.speed)) / rpm:.6g}")
+    yield Remark(text=text, tone="warning", command=("cardan", "torsion", "response", FILE, *asked), code="jumped")
 
 
 def _mapped(found: Stability, axes: tuple[MapAxis, ...]) -> tuple[Tone, Text]:

@@ -124,7 +124,7 @@ class Stability:
         thousand points, where that motion is known. All else is judged without them, the proof and the least loss
         factor too.
     jumped : array of bool (...)
-        Whether a steady motion found first grows there and another is judged, to which vibration settles.
+        Whether a steady motion found first grows there, and another is judged that is stable beside it.
     """
 
     over: tuple[tuple[str, Array], ...]
@@ -426,6 +426,7 @@ def _judged(
         settled = _settled(found)
         jumped = (found.floquet.verdict == Verdict.UNSTABLE) & (settled.verdict != Verdict.UNSTABLE)
         verdict, together = _with_torques(found, settled, loose, told)
+        jumped &= verdict.verdict != Verdict.UNSTABLE
         cancelled = found.cancelled or "stop" in said
     zone = {f"zone_{one.name}": getattr(verdict.zone, one.name) for one in fields(Zone)}
     names = ("verdict", "kind", "growth_rate", "spectral_radius", "order", "multipliers")
@@ -451,7 +452,7 @@ def _settled(found: FloquetMap) -> Floquet:
 
 def _unknown(like: dict[str, Array], count: int) -> dict[str, Array]:
     """Return points that were not looked at."""
-    empty = {name: np.nan if values.dtype.kind in "fc" else 0 for name, values in like.items()}
+    empty = {name: np.nan if values.dtype.kind in "fc" else values.dtype.type(0) for name, values in like.items()}
     found = {name: np.full((count, *values.shape[1:]), empty[name]) for name, values in like.items()}
     return found | {"verdict": np.full(count, int(Verdict.UNKNOWN))}
 
