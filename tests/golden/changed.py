@@ -83,7 +83,7 @@ NUMBERS: tuple[tuple[str, str, str], ...] = (
         WORST,
     ),
     (r"bending examples/((car|composite)-propshaft|mill-spindle|pto-drive)\.toml", r"modes\.(deflection|slope)", SIGN),
-    (r"motion examples/front-halfshaft", r".*", WOBBLE),
+    (r"(motion|phases) examples/front-halfshaft", r".*", WOBBLE),
     (r"mobility examples/", r"(repairs|remedies)\..*", MADE),
     (r"check examples/front-halfshaft", r"verdicts\.(utilisation|value)", WOBBLE),
     (

@@ -102,7 +102,7 @@ def _uneven(asked: Asked) -> Values:
 
 def _seen_uneven(asked: Asked) -> Values:
     ratio = asked.motion.shaft_ratio[1:]
-    return of_parts("shafts", peak(ratio[:, :-1]) + peak(-ratio[:, :-1]), 2)
+    return of_parts("shafts", peak(ratio[:, :-1], smooth=True) + peak(-ratio[:, :-1], smooth=True), 2)
 
 
 def _phased(asked: Asked) -> Values:

@@ -160,20 +160,22 @@ def level(slope: Callable[[Array], Array], left: Array, right: Array) -> Array:
     return middle
 
 
-def peak(values: Array) -> Array:
-    """Return the largest values of periodic curves: of the quartics through five samples about the two highest tops.
+def peak(values: Array, *, smooth: bool = False) -> Array:
+    """Return the largest values of periodic curves: of the quartic through the five samples about the largest.
 
-    Of two tops of nearly the same height the sample at the lower one may be the larger.
     values (..., p): at evenly spaced places of a period.
+    smooth: whether the curves have no kinks; then the two highest tops are looked at, for of two of nearly the same
+    height the sample at the lower one may be the larger.
 
     >>> print(f"{float(peak(2.0 + np.cos(np.arange(120) * 2 * np.pi / 120 + 0.02))):.9f}")
     3.000000000
     """
-    first_top = np.argmax(values, axis=-1)[..., None]
+    at = np.argmax(values, axis=-1)[..., None]
     count = values.shape[-1]
-    above = (values >= np.roll(values, 1, axis=-1)) & (values >= np.roll(values, -1, axis=-1))
-    others = np.where(above & (np.arange(count) != first_top), values, -np.inf)
-    at = np.concatenate((first_top, np.argmax(others, axis=-1)[..., None]), axis=-1)
+    if smooth:
+        above = (values >= np.roll(values, 1, axis=-1)) & (values >= np.roll(values, -1, axis=-1))
+        others = np.where(above & (np.arange(count) != at), values, -np.inf)
+        at = np.concatenate((at, np.argmax(others, axis=-1)[..., None]), axis=-1)
     a, b, top, c, d = (np.take_along_axis(values, (at + k) % count, axis=-1) for k in range(-2, 3))
     first = (a - 8.0 * b + 8.0 * c - d) / 12.0
     second = (-a + 16.0 * b - 30.0 * top + 16.0 * c - d) / 12.0

@@ -445,7 +445,7 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
         yield Remark(text=say(text, torque=Quantity(sealed, "torque")), command=command, tone=tone, code="seals")
     if any(one.friction and one.bore for one in drive.supports):
         text = _("Friction of the supports is not in these torques and forces; it is in the power loss:")
-        yield Remark(text=text, command=("cardan", "losses", FILE), depth="full", code="supports")
+        yield Remark(text=text, command=("cardan", "losses", FILE), depth="full", aside=True, code="supports")
     light = [int(path.partition("[")[2].partition("]")[0]) + 1 for path in found.assumed if path.endswith(".inertia")]
     if "duty.speed" in found.assumed:
         yield Remark(text=_("Without a speed inertia does not count; --speed-rpm counts it."))

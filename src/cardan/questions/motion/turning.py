@@ -97,18 +97,24 @@ def swing(drive: Drive) -> Swing:
     angle = np.arange(PLACES) * (2.0 * np.pi / PLACES)
     found = motion(drive, angle)
     ratio, slope, angle_error = (part[1:] for part in (found.shaft_ratio, found.shaft_slope, found.angle_error))
-    high, low = peak(ratio), -peak(-ratio)
+    high, low = peak(ratio, smooth=True), -peak(-ratio, smooth=True)
     inside, output = (part[:-1] for part in (ratio, slope)), (part[-1] for part in (ratio, slope))
     coast = backward(*inside, *output)
+
+    def largest(values: Array) -> Array:
+        return np.maximum(peak(values, smooth=True), peak(-values, smooth=True))
+
     wave = np.abs(np.fft.rfft(angle_error)) * (2.0 / PLACES)
     return Swing(
         speed_fluctuation=high - low,
         ratio_min=low,
         ratio_max=high,
-        max_angle_error=0.5 * (peak(angle_error) + peak(-angle_error)),
-        max_acceleration=np.maximum(peak(slope), peak(-slope)),
+        max_angle_error=0.5 * (peak(angle_error, smooth=True) + peak(-angle_error, smooth=True)),
+        max_acceleration=largest(slope),
         amplitude=wave[:, 1 : PLACES // 8],
-        coast_acceleration=np.maximum(peak(coast), peak(-coast)) if coast.size else np.zeros(0),
+        coast_acceleration=np.maximum(peak(coast, smooth=True), peak(-coast, smooth=True))
+        if coast.size
+        else np.zeros(0),
     )
 
 

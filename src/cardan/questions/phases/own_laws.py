@@ -92,7 +92,7 @@ class LawCourse:
         for k, law in enumerate(self.laws):
             lead, own, _slope = waved(theta, law)
             ratio = ratio * own
-            found.append(peak(ratio) + peak(-ratio))
+            found.append(peak(ratio, smooth=True) + peak(-ratio, smooth=True))
             if k + 1 < len(self.laws):
                 theta = theta + lead + (self.shift[k] - rows[:, k])[:, None]
         return np.stack(found, axis=-1)
@@ -116,7 +116,7 @@ class WobblingCourse:
         found = course(self.drive, np.broadcast_to(turn, (*yoke_angle.shape[:-1], FOLLOWED)), yokes=yoke_angle)
         wave = np.fft.rfft(np.unwrap(found.turned[1:] - turn, axis=-1))
         ratio = np.fft.irfft(1j * np.arange(wave.shape[-1]) * wave, DENSE, axis=-1) * (DENSE / FOLLOWED)
-        return np.moveaxis(peak(ratio) + peak(-ratio), 0, -1)
+        return np.moveaxis(peak(ratio, smooth=True) + peak(-ratio, smooth=True), 0, -1)
 
     def initial_phases(self, yoke_angle: Array) -> Array:
         """Return ψ of every joint for yoke angles (n-1,) [rad], array (n,)."""
@@ -167,7 +167,7 @@ class Search:
         cost = judge(self.left(tried))
         near = tried[np.argsort(cost, kind="stable")[: self.poses[0].starts]]
         ends = [self._down(one, judge) for one in near]
-        rows = np.stack([*near, *(like for one in ends for like in self._alike(one))])
+        rows = np.stack([self.start, *near, *(like for one in ends for like in self._alike(one))])
         cost = judge(self.left(rows))
         away = np.sum(1.0 - np.cos(rows - self.start), axis=-1)
         least = np.flatnonzero(cost <= np.min(cost) + 1e-9)
