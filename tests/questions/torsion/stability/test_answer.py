@@ -240,3 +240,9 @@ def test_a_motion_to_which_another_grows_is_no_good_news(turns: int, jumps: bool
     assert (bool(found.jumped), said.tone) == (jumps, "warning" if jumps else "good")
     assert any(one.code == "jumped" for one in said.remarks) == jumps
     assert ("another_motion_grows" in said.facts) == jumps
+    near = {"duty.speed_rpm": [turns - 2.0, turns, turns + 2.0]}
+    for over in (near, {**near, "shafts[1].damping_Nms_per_rad": [0.3, 0.31]}):
+        mapped = stability(drive, over=over)
+        assert not np.any(mapped.verdict)
+        assert np.all(mapped.jumped == jumps)
+        assert (home.answer(drive, mapped).tone != "good") == jumps

@@ -94,6 +94,8 @@ def answer(drive: Drive, result: Stability, *, signs: bool = False) -> Answer:
     """
     axes = map_axes(result)
     tone, said = _mapped(result, axes) if axes else _point(result)
+    if tone == "good" and np.any(result.jumped):
+        tone = "warning"
     drawn = signs or not axes or bool(np.any(result.verdict != Verdict.STABLE))
     return Answer(
         name="stability",
@@ -130,8 +132,7 @@ def _point(found: Stability) -> tuple[Tone, Text]:
         return "failed", said
     if verdict == Verdict.NEUTRAL:
         return "warning", say(_("neutral at {speed}: vibration neither grows nor decays."), speed=speed)
-    tone: Tone = "warning" if found.jumped else "good"
-    return tone, say(_("stable at {speed}: vibration decays to a tenth in {time}."), speed=speed, time=time)
+    return "good", say(_("stable at {speed}: vibration decays to a tenth in {time}."), speed=speed, time=time)
 
 
 def _jumped(found: Stability) -> Iterator[Remark]:
