@@ -186,7 +186,7 @@ def test_what_joints_do_to_a_mode_is_told_of_the_order_that_does_most():
     assert rule.modulation == pytest.approx(modes.modulation[0], rel=1e-12)
     said = [told(one, USUAL) for one in rule_reasons(rule)]
     assert "order 3 excites it at" in said[0]
-    assert "No joint changes the speed: nothing excites it." not in said
+    assert not any("no joint changes the speed" in one for one in said)
     zone = stability(drive, Duty(speed=80.0, torque=50.0)).zone
     assert zone.name(()) == "principal zone of mode 1"
     assert float(zone.speed) == pytest.approx(2.0 * modes.omega[0] / 3.0)

@@ -263,25 +263,20 @@ def rule_reasons(rule: NodeRule) -> tuple[Text, ...]:
 
 def _rule_reasons(rule: NodeRule) -> Iterator[Text]:
     order = Quantity(rule.order, trim=True)
+    named = {"mode": rule.mode, "frequency": Quantity(rule.omega, "frequency", 3)}
+    bent = np.flatnonzero(rule.joint_angle_share > BENT)
+    if not bent.size:
+        yield say(_("Mode {mode} at {frequency}: no joint changes the speed, so nothing excites it."), **named)
+        return
     text = _(
         "Mode {mode} at {frequency}: order {order} excites it at {speed}, and parametric resonance of that order is at "
         "{zone}."
     )
-    yield say(
-        text,
-        mode=rule.mode,
-        frequency=Quantity(rule.omega, "frequency", 3),
-        order=order,
-        speed=speed(rule.omega / rule.order, 4),
-        zone=speed(2.0 * rule.omega / rule.order, 4),
-    )
+    at, zone = speed(rule.omega / rule.order, 4), speed(2.0 * rule.omega / rule.order, 4)
+    yield say(text, **named, order=order, speed=at, zone=zone)
     if rule.others:
         text = _("Joints excite it at other orders too; what follows is of order {order} alone.")
         yield say(text, order=order)
-    bent = np.flatnonzero(rule.joint_angle_share > BENT)
-    if not bent.size:
-        yield _("No joint changes the speed: nothing excites it.")
-        return
     size = np.abs(rule.parametric)
     whole = float(np.sum(size))
     largest = float(np.max(np.abs(rule.kappa[bent])))
