@@ -101,6 +101,7 @@ def test_a_cluster_of_this_machine_outlives_a_killed_worker(tmp_path):
 
 def test_a_chunk_that_always_kills_is_told_from_its_neighbours(tmp_path):
     import dask
+    import distributed  # noqa: F401  (brings its settings; the first import inside `set` would lose all of them behind it)
 
     work = replace(WORK, trouble=Trouble("kill", row=55))
     with dask.config.set({"distributed.scheduler.allowed-failures": 0}):
