@@ -33,9 +33,17 @@ def says(page: Any, text: str) -> None:
     page.locator(".form").wait_for()
 
 
+STATE = """field => `${field.value}, ${field.isConnected ? "" : "not "}in the page; the focus is on ` +
+  `${document.activeElement.ariaLabel ?? document.activeElement.className}`"""
+
+
 def shows(page: Any, field: Any, text: str) -> None:
-    """Wait until a field shows a number."""
-    page.wait_for_function("([one, text]) => one.value === text", arg=[field.element_handle(), text])
+    """Wait until a field shows a number; tell what it shows where that does not come."""
+    there = field.element_handle()
+    try:
+        page.wait_for_function("([one, text]) => one.value === text", arg=[there, text])
+    except Exception as error:
+        raise AssertionError(f"{text} does not come: {there.evaluate(STATE)}, and now {field.input_value()}") from error
 
 
 TURNED = """field => { field.dataset.turned = ""; field.addEventListener("wheel", () => {
@@ -165,3 +173,23 @@ def test_keys_take_back_a_number_that_was_moved_and_letters_that_were_typed_into
     page.keyboard.press("ControlOrMeta+z")
     shows(page, field, "10")
     assert mark(page, "redo").is_enabled()
+
+
+AT_ONCE = """field => {
+  const press = (key, ctrlKey) =>
+    field.dispatchEvent(new KeyboardEvent("keydown", { key, ctrlKey, bubbles: true, cancelable: true }));
+  press("ArrowUp", false);
+  press("z", true);
+}"""
+
+
+def test_undo_right_behind_a_step_takes_that_step_back(page_of: Open, url: str) -> None:
+    """A hand that is faster than the page sends: the step has to come before what takes it back."""
+    page = page_of(f"{url}/?example=three-joints-unequal", reduced_motion="reduce")
+    ready(page)
+    field = page.get_by_label("joint_angle °", exact=True).first
+    field.focus()
+    field.evaluate(AT_ONCE)
+    page.wait_for_function("button => !button.disabled", arg=mark(page, "redo").element_handle())
+    shows(page, field, "10")
+    says(page, "joint_angle_deg = 10\n")

@@ -60,7 +60,8 @@ PRESSED = """if (!window.cardanKeys) {
       setTimeout(() => emitEvent('cardan-key', 'save'));
     } else if ((letter === 'z' || letter === 'y') && !writing) {
       event.preventDefault();
-      emitEvent('cardan-key', letter === 'y' || event.shiftKey ? 'redo' : 'undo');
+      const what = letter === 'y' || event.shiftKey ? 'redo' : 'undo';
+      setTimeout(() => emitEvent('cardan-key', what)); // behind the last step of a number that was on the move
     }
   });
 }"""

@@ -78,15 +78,20 @@ function end() {
 const at = (event, names) => (event.target instanceof Element ? event.target.closest(names) : null);
 const size = (event) => (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
 
-addEventListener("keydown", (event) => {
-  const field = /** @type {HTMLInputElement | null} */ (at(event, NUMBERS));
-  const way = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
-  if (!field) return;
-  if (way && begin(field)) {
-    event.preventDefault();
-    by(way * size(event));
-  } else if (!["Shift", "Alt", "Control", "Meta"].includes(event.key)) end();
-});
+// In the capture phase: another key ends the move before anybody else hears of it.
+addEventListener(
+  "keydown",
+  (event) => {
+    const field = /** @type {HTMLInputElement | null} */ (at(event, NUMBERS));
+    const way = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
+    if (!field) return;
+    if (way && begin(field)) {
+      event.preventDefault();
+      by(way * size(event));
+    } else if (!["Shift", "Alt", "Control", "Meta"].includes(event.key)) end();
+  },
+  { capture: true },
+);
 addEventListener("focusout", (event) => at(event, NUMBERS) && end());
 addEventListener("input", (event) => {
   const field = /** @type {HTMLInputElement | null} */ (at(event, NUMBERS));
