@@ -23,7 +23,7 @@ def meissner(speed, damping=1e-5):
     return np.exp(-2.0 * damping * half)[..., None, None] * whole
 
 
-def largest(matrix, _falls=None):
+def largest(matrix, _place=None, _slope=None):
     return np.max(np.abs(np.linalg.eigvals(matrix)), axis=-1)
 
 
@@ -68,7 +68,7 @@ def test_one_real_eigenvalue_may_be_left_out() -> None:
         whole[..., 0, 1] = 0.1
         return mixed @ whole @ np.linalg.inv(mixed), np.ones(places.shape, dtype=bool), np.zeros(places.shape)
 
-    def others(matrix, _falls):
+    def others(matrix, _place, _slope):
         values = np.linalg.eigvals(matrix)
         near = np.argmin(np.where(np.abs(values.imag) < 1e-9, np.abs(values - 1.0), 9.0), axis=-1)
         values[np.arange(len(values)), near] = 0.0

@@ -46,11 +46,11 @@ DOUBLINGS = 26
 Sample: TypeAlias = Callable[[Array], tuple[Array, Array, Array]]
 """From places (n, p), a polynomial a row, to matrices (n, p, m, m), whether each is one (n, p), and numbers (n, p).
 
-Where the number falls with the place, the eigenvalue apart may be above 1.
+The slope of the number tells which eigenvalue is apart.
 """
 
-Largest: TypeAlias = Callable[[Array, Array], Array]
-"""From matrices (p, m, m) and whether the number falls there (p,) to the largest modulus that counts, (p,)."""
+Largest: TypeAlias = Callable[[Array, Array, Array], Array]
+"""From matrices (p, m, m), places and the slope of the number there (p,) to the largest modulus that counts, (p,)."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -110,8 +110,8 @@ def inside_circle(
     """Return where on an interval no eigenvalue is outside the unit circle, and where that is not so or not shown.
 
     sample: the matrices; largest: the modulus that decides at a place.
-    one_apart: whether one real eigenvalue does not count, the largest above 1 where the number falls, else that nearest
-    to 1; all others are then shown to be inside.
+    one_apart: whether one real eigenvalue does not count, that which `largest` leaves out; all others are then shown to
+    be inside.
     breaks: places at which the matrix is not smooth, as far as known.
     first: polynomials to begin with; width: share of the number at which halving ends.
     slack: by which a modulus may exceed 1 where nothing else is seen: of matrices whose moduli all are 1.
@@ -278,9 +278,10 @@ def _judged(
     count, size = len(control), control.shape[-1]
     three = np.stack([control[:, 0], middle, control[:, -1]], axis=1).reshape(3 * count, size, size)
     steps = np.diff(part.number, axis=-1)
-    slope = np.stack([steps[:, 0], steps @ _tables().middle, steps[:, -1]], axis=-1)
-    out = (largest(three, slope.reshape(-1) < 0.0) > 1.0 + INSIDE).reshape(count, 3)
     long = part.high - part.low
+    slope = DEGREE * np.stack([steps[:, 0], steps @ _tables().middle, steps[:, -1]], axis=-1) / long[:, None]
+    places = np.stack([part.low, 0.5 * (part.low + part.high), part.high], axis=-1)
+    out = (largest(three, places.reshape(-1), slope.reshape(-1)) > 1.0 + INSIDE).reshape(count, 3)
     proved = np.zeros(count, dtype=bool)
     maybe = np.flatnonzero(~out.any(axis=-1))
     if maybe.size:

@@ -13,7 +13,7 @@ from cardan.maths.compiled.method import Compiled, Plain
 from cardan.questions.torsion.stability.floquet_map import floquet_map
 from cardan.questions.torsion.stability.proved_speeds import proved_speeds
 from cardan.questions.torsion.stability.stability_kernel import vibration_growth
-from cardan.questions.torsion.steady.run_stability import Verdict, floquet, torque_falls, vibrating
+from cardan.questions.torsion.steady.run_stability import Verdict, drift_of, floquet, vibrating
 from cardan.questions.torsion.steady.steady import periodic_response, steady_orbits
 from cardan.questions.torsion.steady.torsion_response import loaded_model, parted
 from cardan.units import deg, rpm
@@ -109,10 +109,10 @@ def test_a_jump_is_no_drift():
     """At 669.25 rpm, of three motions the middle one: its torque rises with the speed, and it grows all the same."""
     drive, speed = example("unstable-drive"), np.asarray(669.25 * rpm)
     orbit = steady_orbits(parted(loaded_model(drive, drive.duty, speed)[1])[0], speed=speed)[0]
-    assert not torque_falls(orbit, np.zeros(1, dtype=int))[0]
+    assert drift_of(orbit, np.zeros(1, dtype=int))[0] < 0.0
     assert floquet(orbit).verdict == Verdict.UNSTABLE
-    assert torque_falls(stand(680.0)[1].steady.orbit, np.zeros(1, dtype=int))[0]
-    assert not torque_falls(stand(640.0)[1].steady.orbit, np.zeros(1, dtype=int))[0]
+    assert drift_of(stand(680.0)[1].steady.orbit, np.zeros(1, dtype=int))[0] > 0.0
+    assert drift_of(stand(640.0)[1].steady.orbit, np.zeros(1, dtype=int))[0] < 0.0
 
 
 @pytest.mark.slow
@@ -149,14 +149,13 @@ def test_a_range_with_a_jump_says_what_its_speeds_say():
 
 
 def test_which_multiplier_is_the_drift():
-    """The real one above 1 where the torque falls with the speed, none above 1 where it rises."""
-    values = np.asarray([[1.4, 0.95, 0.7], [1.4, 0.95, 0.7], [1.01, 0.3, -0.9]], dtype=complex)
-    left = vibrating(values, 1, lambda rows: np.asarray([True, False, True])[rows])
-    assert sorted(left[0].real) == [0.7, 0.95]
-    assert sorted(left[1].real) == [0.7, 1.4]
-    assert sorted(left[2].real) == [-0.9, 0.3]
-    shifted = np.concatenate([values, np.ones((3, 1))], axis=-1)
-    again = vibrating(shifted, 2, lambda rows: np.asarray([True, False, True])[rows])
+    """Where the torque falls with the speed, of those above 1 that which the slope makes; none above where it rises."""
+    values = np.asarray([[1.4, 0.95, 0.7], [1.4, 0.95, 0.7], [1.01, 0.3, -0.9], [1.03, 1.0002, 0.92]], dtype=complex)
+    drift = np.asarray([0.5, -0.1, 0.02, 0.00021])
+    left = vibrating(values, 1, lambda rows: drift[rows])
+    assert np.sort(left.real).tolist() == [[0.7, 0.95], [0.7, 1.4], [-0.9, 0.3], [0.92, 1.03]]
+    shifted = np.concatenate([values, np.ones((4, 1))], axis=-1)
+    again = vibrating(shifted, 2, lambda rows: drift[rows])
     assert np.sort(again.real).tolist() == np.sort(left.real).tolist()
 
 

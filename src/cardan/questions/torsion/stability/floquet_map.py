@@ -22,9 +22,9 @@ from cardan.questions.torsion.steady.run_stability import (
     Verdict,
     Zone,
     as_wide,
+    drift_of_sums,
     drifting,
     floquet,
-    force_falls,
     judged,
     rising_first,
     shaped,
@@ -210,7 +210,9 @@ class _Table:
             frequencies = frequencies[:, 1:]
             coefficient = started(coefficient, part.period)
         values, removed = rising_first(
-            _values(found.matrix[sure], tangent, threads), drifts, lambda rows: force_falls(part.part(rows), sums[rows])
+            _values(found.matrix[sure], tangent, threads),
+            drifts,
+            lambda rows: drift_of_sums(part.part(rows), sums[rows]),
         )
         values = without_last(values, unmoved(straight_damping(drives, part.speed), heavy_of(part.model)))
         nothing = np.full(len(values), np.nan)

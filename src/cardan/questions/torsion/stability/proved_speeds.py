@@ -321,6 +321,7 @@ class _Drive:
         self.frequencies = straight_frequencies(one)[:, 1 if self.free else 0 :]
         self.fastest, self.steepest = self._fastest(one, middle)
         self.neutral = not np.any(straight_damping(one, here))
+        self.inertia = float(np.sum(one.inertia[0]))
         self.drifts = self.free and bool(np.all(drifting(one, here)))
         first = 0 if self.free else 1
         mass = np.zeros(one.coordinates)
@@ -445,9 +446,10 @@ class _Drive:
         found: Array = self.rest.T @ turn @ matrix @ turn @ self.rest
         return found
 
-    def largest(self, matrix: Array, falls: Array) -> Array:
-        """Return the largest modulus of the multipliers of vibration; falls: as `vibrating` asks."""
+    def largest(self, matrix: Array, speed: Array, slope: Array) -> Array:
+        """Return the largest modulus of the multipliers of vibration; slope: of the torque that keeps the speed."""
         values = np.linalg.eigvals(matrix)
-        values = vibrating(values, 1, lambda rows: falls[rows]) if self.drifts else values
+        drift = -slope * self.period / (speed * self.inertia)
+        values = vibrating(values, 1, lambda rows: drift[rows]) if self.drifts else values
         found: Array = np.max(np.abs(values), axis=-1, initial=0.0)
         return found

@@ -20,10 +20,10 @@ from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.steady.orbit import Orbit, at_rest, straight_frequencies
 from cardan.questions.torsion.steady.run_stability import (
     CHUNK,
-    force_falls,
+    drift_of,
+    drift_of_sums,
     linear_motion,
     monodromy_in_pieces,
-    torque_falls,
     vibrating,
 )
 
@@ -316,8 +316,8 @@ def vibration_growth(orbit: Orbit, rows: Array) -> Array:
     there = np.isfinite(orbit.coefficient.reshape(orbit.count, -1)[rows]).all(axis=-1)
     smooth = np.flatnonzero(there & ~np.isin(rows, list(orbit.pieces)))
     for k in np.flatnonzero(there & np.isin(rows, list(orbit.pieces))):
-        falls = partial(_falls, orbit, rows[[k]])
-        found[k] = _largest(monodromy_in_pieces(orbit, int(rows[k]))[None], orbit.model.free, falls)[0]
+        drift = partial(_drift, orbit, rows[[k]])
+        found[k] = _largest(monodromy_in_pieces(orbit, int(rows[k]))[None], orbit.model.free, drift)[0]
     if smooth.size:
         found[smooth] = _smooth(orbit, rows[smooth])
     return found
@@ -335,24 +335,24 @@ def _smooth(orbit: Orbit, rows: Array) -> Array:
             found[sure] = _largest(
                 said.matrix[sure],
                 orbit.model.free,
-                lambda own: force_falls(part.part(sure[own]), said.coefficient[sure[own]]),
+                lambda own: drift_of_sums(part.part(sure[own]), said.coefficient[sure[own]]),
             )
     left = np.flatnonzero(np.isnan(found))
     for first in range(0, len(left), CHUNK):
         some = left[first : first + CHUNK]
         matrix = monodromy(linear_motion(orbit, rows[some]), orbit.time.reshape(-1)[rows[some]])
-        found[some] = _largest(matrix, orbit.model.free, partial(_falls, orbit, rows[some]))
+        found[some] = _largest(matrix, orbit.model.free, partial(_drift, orbit, rows[some]))
     return found
 
 
-def _falls(orbit: Orbit, rows: Array, own: Array) -> Array:
-    return torque_falls(orbit, rows[own])
+def _drift(orbit: Orbit, rows: Array, own: Array) -> Array:
+    return drift_of(orbit, rows[own])
 
 
-def _largest(matrix: Array, free: bool, falls: Callable[[Array], Array]) -> Array:
+def _largest(matrix: Array, free: bool, drift: Callable[[Array], Array]) -> Array:
     """Return ln of the largest modulus of the multipliers of drives, array (b,)."""
     values = np.linalg.eigvals(matrix)
-    values = vibrating(values, 2, falls) if free else values
+    values = vibrating(values, 2, drift) if free else values
     with np.errstate(divide="ignore"):
         found: Array = np.log(np.max(np.abs(values), axis=-1, initial=0.0))
     return found

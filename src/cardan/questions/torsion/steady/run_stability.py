@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from enum import IntEnum
 
 import numpy as np
 
-from cardan.maths.arrays import Array
+from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.periodic.floquet import STAGES, Coefficients, collocation, monodromy, propagators, without_direction
 from cardan.maths.periodic.harmonics import HarmonicBalance, Status, harmonic_balance
 from cardan.maths.periodic.switching_orbit import Pieces, periodic_pieces
@@ -449,7 +449,7 @@ def _values(orbit: Orbit, rows: Array, matrix: Array, heavy: Array) -> tuple[Arr
     _q, rate, acceleration = (one[:, 0] for one in orbit.of(rows, [0.0]))
     tangent = np.concatenate([rate, acceleration[:, heavy]], axis=-1)
     drifts = drifting(orbit.drives(rows), orbit.speed.reshape(-1)[rows])
-    return rising_first(values_of(matrix, tangent), drifts, lambda some: torque_falls(orbit, rows[some]))
+    return rising_first(values_of(matrix, tangent), drifts, lambda some: drift_of(orbit, rows[some]))
 
 
 def unmoved(damping: Array, heavy: Array) -> Array:
@@ -498,18 +498,18 @@ def values_of(matrix: Array, tangent: Array | None = None) -> Array:
 
 
 def rising_first(
-    values: Array, drifts: Array | None = None, falls: Callable[[Array], Array] | None = None
+    values: Array, drifts: Array | None = None, drift: Callable[[Array], Array] | None = None
 ) -> tuple[Array, Array]:
     """Return multipliers (b, m), the largest first, and how many were left out of free drives, array of int (b,).
 
     drifts (b,) of bool: of free drives, whose shift in time is left out already: whether any speed is as good as any
-    other; the drift to one is left out too, nan in its place. falls: from rows to what `vibrating` asks.
+    other; the drift to one is left out too, nan in its place. drift: from rows to what `vibrating` asks.
     """
     removed = np.zeros(len(values), dtype=int)
-    if drifts is not None and falls is not None and values.shape[-1]:
+    if drifts is not None and drift is not None and values.shape[-1]:
         rows = np.flatnonzero(drifts)
         values = values.copy()
-        values[rows, :-1] = vibrating(values[rows], 1, lambda some: falls(rows[some]))
+        values[rows, :-1] = vibrating(values[rows], 1, lambda some: drift(rows[some]))
         values[rows, -1] = np.nan
     if drifts is not None:
         removed += 1 + drifts
@@ -529,15 +529,16 @@ def drifting(drives: TorsionalModel, speed: Array) -> Array:
     return ~governed
 
 
-def vibrating(values: Array, count: int, falls: Callable[[Array], Array]) -> Array:
+def vibrating(values: Array, count: int, drift: Callable[[Array], Array]) -> Array:
     """Return the multipliers of free drives without those of turning as a whole, array (b, m-count), in no order.
 
     values (b, m).
     count: how many to leave out: one, the drift to another speed, where a shift in time is left out already, else two.
-    falls: from rows to whether the torque that keeps the mean speed falls as that rises, asked where it decides.
-    Left out are the real ones nearest to 1. Amid a resonance the drift may be far from it: where the torque falls, it
-    is the largest real one above 1; where it rises, none above 1 is. For the product of 1 - ρ has the sign of the slope
-    of that torque unless the motion is one that no governor of the mean speed could hold.
+    drift: from rows to how fast the mean speed would leave by itself, see `drift_of`; asked where it decides.
+    Left out are the real ones nearest to 1. Amid a resonance the drift may be far from it: where the torque that keeps
+    the mean speed falls as that rises, it is of the real ones above 1 that whose growth is nearest to what the slope of
+    the torque makes; where it rises, none above 1 is. For the product of 1 - ρ has the sign of the slope of that torque
+    unless the motion is one that no governor of the mean speed could hold.
     """
     real = np.abs(values.imag) <= REAL * np.abs(values)
     far = np.where(real, np.abs(values - 1.0), 1.0 + np.abs(values))
@@ -546,22 +547,23 @@ def vibrating(values: Array, count: int, falls: Callable[[Array], Array]) -> Arr
     rows = np.flatnonzero(np.any(above > 0.0, axis=-1) & (near | np.any(above > 1.0 + SLOW, axis=-1)))
     if rows.size:
         shifted = np.argmin(far[rows], axis=-1)  # the shift in time, where it is still there
-        down = falls(rows)[:, None]
-        drift = np.arange(values.shape[-1]) == np.argmax(above[rows], axis=-1)[:, None]
-        beyond = np.where(above[rows] > 0.0, np.inf, far[rows])
-        far[rows] = np.where(down, np.where(drift, -1.0, far[rows]), beyond)
+        leaving, up = drift(rows)[:, None], above[rows] > 0.0
+        off = np.where(up, np.abs(np.log(np.where(up, above[rows], 1.0)) - leaving), np.inf)
+        nearest = np.arange(values.shape[-1]) == np.argmin(off, axis=-1)[:, None]
+        far[rows] = np.where(leaving > 0.0, np.where(nearest, -1.0, far[rows]), np.where(up, np.inf, far[rows]))
         if count > 1:
             far[rows, shifted] = -2.0
     found: Array = np.take_along_axis(values, np.argsort(far, axis=-1, kind="stable")[:, count:], axis=-1)
     return found
 
 
-def torque_falls(orbit: Orbit, rows: Array) -> Array:
-    """Tell of free motions whether the torque that keeps their mean speed falls as that rises, array of bool (b,).
+def drift_of(orbit: Orbit, rows: Array) -> Array:
+    """Return of free motions how fast their mean speed would leave by itself, array (b,) [per period].
 
-    orbit (...); rows (b,) of int: which motions. By the motions at speeds a little apart; False where one is not found.
+    orbit (...); rows (b,) of int: which motions. Slowly, by the slope of the torque F that keeps it: -F' T/ΣJ, above 0
+    where the torque falls as the speed rises; by the motions at speeds a little apart, nan where one is not found.
     """
-    found = np.zeros(len(rows), dtype=bool)
+    found = np.full(len(rows), np.nan)
     for k in np.flatnonzero(np.isin(rows, list(orbit.pieces))).tolist():
         here, alone = orbit.pieces[int(rows[k])], orbit.turning.part(rows[[k]])
         ends = [
@@ -569,16 +571,17 @@ def torque_falls(orbit: Orbit, rows: Array) -> Array:
             for share in (1.0 - ASIDE, 1.0 + ASIDE)
         ]
         forces = [one.force for one in ends if one is not None and one.status == Status.CONVERGED]
-        found[k] = len(forces) == len(ends) and (forces[1] - forces[0]) * here.omega < 0.0
+        if len(forces) == len(ends):
+            found[k] = slow_drift(alone, forces)[0]
     smooth = np.flatnonzero(~np.isin(rows, list(orbit.pieces)))
     if smooth.size:
         coefficient = orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])[rows[smooth]]
-        found[smooth] = force_falls(orbit.turning.part(rows[smooth]), coefficient)
+        found[smooth] = drift_of_sums(orbit.turning.part(rows[smooth]), coefficient)
     return found
 
 
-def force_falls(part: Turning, coefficient: Array) -> Array:
-    """Tell the same of motions by their sums (b, R, H+1), array of bool (b,)."""
+def drift_of_sums(part: Turning, coefficient: Array) -> Array:
+    """Return the same of motions by their sums (b, R, H+1), array (b,) [per period]."""
     high = max(coefficient.shape[-1] - 1, 1)
     how = HarmonicBalance(harmonics=high, most=high)
     forces, there = [], np.ones(len(coefficient), dtype=bool)
@@ -587,8 +590,14 @@ def force_falls(part: Turning, coefficient: Array) -> Array:
         waves = harmonic_balance(near, near.frequency, near.coordinates, free=True, start=coefficient, method=how)
         forces.append(waves.force)
         there &= waves.status != Status.NO_CONVERGENCE
-    falls: Array = there & ((forces[1] - forces[0]) * part.speed < 0.0)
-    return falls
+    return np.where(there, slow_drift(part, forces), np.nan)
+
+
+def slow_drift(part: Turning, forces: Sequence[ArrayLike]) -> Array:
+    """Return the same by the torques (b,) that keep the speeds `ASIDE` below and above, array (b,) [per period]."""
+    slope = (np.asarray(forces[1]) - np.asarray(forces[0])) / (2.0 * ASIDE * part.speed)
+    found: Array = -slope * part.period / (np.abs(part.speed) * np.sum(part.model.inertia, axis=-1))
+    return found
 
 
 def _faster(part: Turning, share: float) -> Turning:

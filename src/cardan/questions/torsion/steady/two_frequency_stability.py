@@ -31,6 +31,7 @@ from .run_stability import (
     judged,
     liouville,
     replaced,
+    slow_drift,
     unmoved,
 )
 from .steady import Progress
@@ -270,13 +271,13 @@ def _drift(
 ) -> int | None:
     """Return which exponent of a free drive is that of its drift to another speed; None where that is not told.
 
-    As of periodic motions: where the torque that keeps the mean speed falls as that rises, the largest simple one above
-    0, else the simple one next to 0 that is not above it.
+    As of periodic motions, see `vibrating`: where the torque that keeps the mean speed falls as that rises, the simple
+    one above 0 nearest to what the slope makes, else the simple one next to 0 that is not above it.
     """
     gap = np.diff(growth, prepend=np.inf, append=-np.inf)
     alone = np.minimum(-gap[:-1], -gap[1:]) > APART + error
     above = growth > NEUTRAL + error
-    if alone[0] and above[0]:
+    if np.any(alone & above):
         forces = []
         for share in (1.0 - ASIDE, 1.0 + ASIDE):
             harmonics = motion.torus.coefficient.shape[-1] // 2
@@ -284,8 +285,9 @@ def _drift(
             if not near.bands.found[0]:
                 return None
             forces.append(float(near.torus.force[0]))
-        if (forces[1] - forces[0]) * float(near.turning.speed[0]) < 0.0:
-            return 0
+        leaving = float(slow_drift(near.turning, forces)[0])
+        if leaving > 0.0:
+            return int(np.argmin(np.where(alone & above, np.abs(growth - leaving), np.inf)))
     fitting = np.flatnonzero(alone & ~above)
     return int(fitting[np.argmin(np.abs(growth[fitting]))]) if fitting.size else None
 
