@@ -12,8 +12,10 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
+from cardan.io import loads
 from cardan.questions.torsion.optimise.answer import answer, lacking, otherwise, reasons
 from cardan.questions.torsion.optimise.optimise import Grid, Worst, optimise_torsion
+from cardan.questions.torsion.stability.torsion_stability import stability
 from cardan.report.block import page
 from cardan.texts import speaking
 from cardan.units import deg
@@ -80,3 +82,39 @@ def test_speeds_and_something_that_twists_are_asked_for():
 def test_a_drive_whose_yokes_are_fixed_is_told_so():
     assert ask(replace(DRIVE, shafts=(replace(DRIVE.shafts[1], yoke_fixed=True),))) is None
     assert "--free" in otherwise(DRIVE)
+
+
+SWUNG = """
+format = 1
+joints = [{ joint_angle_deg = 25 }, { joint_angle_deg = 25 }]
+shafts = [
+  { number = 2, length_mm = 300, yoke_angle_deg = 10, stiffness_Nm_per_rad = 4000, damping_Nms_per_rad = 0.3 },
+]
+stations = [{ shaft = 1, inertia_kg_m2 = 0.2 }, { shaft = 3, inertia_kg_m2 = 0.2 }]
+duty = { input = "free", torque_Nm = 200, speed_rpm = 1909.8593 }
+"""
+
+
+@pytest.mark.slow
+def test_a_drive_that_is_cured_of_instability_is_told_so_and_is():
+    """What is told of it as built is the motion from which vibration grows, so nothing "falls" from there."""
+    drive = loads(SWUNG)
+    found = optimise_torsion(drive)
+    said = answer(drive, found)
+    told_of = [told(one.text, USUAL) for one in said.remarks]
+    assert said.tone == "good"
+    assert told(said.sentence, USUAL).startswith("stable with the best values, which it is not as built; largest")
+    assert any(one.startswith("As built the drive is unstable at 1\u202f910 rpm") for one in told_of)
+    assert "Stable now at 1\u202f910 rpm." in told_of
+    better = stability(found.drive)
+    assert bool(better.stable)
+    assert float(better.growth_rate) < -0.05 * 1.5  # of what decays by itself, ζω = 0.0075 · 200 1/s
+
+
+@pytest.mark.slow
+def test_a_drive_that_nothing_makes_stable_is_told_so():
+    drive = loads(SWUNG)
+    found = optimise_torsion(drive, free={YOKE: (0.0, 40.0)}, method=Grid(points=3))
+    said = answer(drive, found)
+    assert said.tone == "warning"
+    assert told(said.sentence, USUAL).startswith("nothing that may change makes it stable everywhere; largest")

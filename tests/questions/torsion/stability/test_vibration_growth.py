@@ -5,14 +5,20 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from cardan import example
+from cardan.io import loads
+from cardan.questions.torsion.absorber.band import growth, lines
+from cardan.questions.torsion.model.torsion import torsion_modes
 from cardan.questions.torsion.model.torsional_model import torsional_line
+from cardan.questions.torsion.stability.proved_speeds import proved_speeds
 from cardan.questions.torsion.stability.stability_kernel import vibration_growth
 from cardan.questions.torsion.steady.alternating_torque import torque_swings
 from cardan.questions.torsion.steady.run_stability import floquet
 from cardan.questions.torsion.steady.torsion_response import loaded_model
 from cardan.units import rpm
+from tests.questions.torsion.stability.test_answer import FREE_TRIPOD
 
 LINE = torsional_line(
     [[1.0, 0.02], [0.03, 0.4]],
@@ -62,3 +68,32 @@ def test_drift_of_the_mean_speed_is_no_vibration() -> None:
 def test_what_was_not_found_is_not_known() -> None:
     found = torque_swings(LINE, np.linspace(20.0, 90.0, 600), progress=lambda _share: "stop")
     assert np.isnan(vibration_growth(found.orbit, np.asarray([10, 599]))).tolist() == [False, True]
+
+
+@pytest.mark.parametrize("yoke_angle", [25.0, -43.437, 60.0, 110.0])
+def test_a_resonance_is_not_taken_for_the_drift(yoke_angle: float) -> None:
+    """Two multipliers above 1 where the torque falls: that of the zone is Mathieu's, ω(m/2 - ζ) T."""
+    drive = loads(FREE_TRIPOD.replace("SPEED", "1910").replace("= 25,", f"= {yoke_angle},"))
+    speed = 1910.0 * rpm
+    found = lines([drive], speed).swings(np.asarray([[speed]]))
+    modes = torsion_modes(drive, drive.duty)
+    by_hand = float(modes.omega[0] * (0.5 * modes.modulation[0] - modes.damping_ratio[0])) * 2.0 * np.pi / speed
+    assert by_hand > 0.02
+    assert vibration_growth(found.orbit, np.zeros(1, dtype=int))[0] == pytest.approx(by_hand, rel=0.04)
+    assert floquet(found.orbit).spectral_radius.item() == pytest.approx(np.exp(by_hand), rel=2e-3)
+
+    def build(speeds):
+        return loaded_model(drive, drive.duty, speeds)[1]
+
+    assert not proved_speeds(build, 1909.0 * rpm, 1911.0 * rpm).stable
+
+
+def test_a_search_keeps_away_from_the_edge_of_a_zone() -> None:
+    """The edge is at 1,320.94 rpm; what decays by less than a twentieth of what it does far from it is no design."""
+    stand, kept = example("unstable-drive"), {}
+    for turns in (1310.0, 1320.5, 1320.93, 1321.2):
+        speed = np.asarray([[turns * rpm]])
+        line = lines([stand], turns * rpm)
+        kept[turns] = float(growth(line.swings(speed), speed, line.omega, np.asarray([True]))[0])
+    assert kept[1310.0] == kept[1320.5] == 0.0
+    assert 0.0 < kept[1320.93] < 2e-5 < kept[1321.2]

@@ -47,7 +47,8 @@ def answer(drive: Drive, result: Absorber, *, chosen: bool = False) -> Answer:
     chosen: whether the band of speeds was asked for: then it may lie where the drive does not run.
     """
     away = None if chosen else _away(drive, result)
-    tone: Tone = "good" if result.reduction < LITTLE and away is None and not unstable(result) else "warning"
+    helps = (result.reduction < LITTLE or cured(result)) and away is None and not unstable(result)
+    tone: Tone = "good" if helps else "warning"
     return Answer(
         name="absorber",
         title=_("Absorber"),
@@ -86,6 +87,8 @@ def _sentence(result: Absorber) -> Say:
         if result.reduction > 1.0:
             text = _("with {what} the alternating torque at {speed} rises from ±{before:bare} to ±{after}.")
         values["speed"] = speed(result.tuned_speed, 4)
+    elif cured(result):
+        text = _("{what} makes the drive stable; largest alternating torque ±{after}, {band}.")
     elif result.reduction > LITTLE:
         text = _("{what} does little here: alternating torque ±{after}, ±{before} without it, {band}.")
     return say(text, **values)
@@ -386,6 +389,11 @@ def unstable(found: Any) -> bool:
     return len(found.unstable_after) > 0 or (found.proof is not None and len(found.proof.lowest) > 0)
 
 
+def cured(found: Any) -> bool:
+    """Tell whether the drive is unstable somewhere in the band as built, and with an absorber or a design nowhere."""
+    return len(found.unstable_before) > 0 and not unstable(found)
+
+
 def proof_facts(found: Any) -> dict[str, Any]:
     """Return what a program is told of the proof of an absorber or a design, which leaves out nonsynchronous orders."""
     proof: ProvedSpeeds | None = found.proof
@@ -423,6 +431,11 @@ def _stability(found: Any) -> Iterator[Remark]:
     """Yield where in the band the drive is unstable, and whether the rest of it is proved to be stable."""
     proof: ProvedSpeeds | None = found.proof
     proved = proof is not None and proof.proved and proof.looked_at
+    if len(found.unstable_before):
+        others = _(" and others") if len(found.unstable_before) > NAMED else ""
+        at = Joined([Joined([speed(one, 4) for one in found.unstable_before[:NAMED]]), others], between="")
+        text = _("As built the drive is unstable at {speeds}: vibration grows there beyond the torque told of it.")
+        yield Remark(text=say(text, speeds=at))
     if unstable(found):
         where: list[Text] = [speed(one) for one in found.unstable_after[:NAMED]]
         if proof is not None and len(proof.lowest):
@@ -440,6 +453,8 @@ def _stability(found: Any) -> Iterator[Remark]:
         yield Remark(text=say(text, speeds=Joined(where)), tone="warning")
         return
     if proof is None:
+        if cured(found):
+            yield Remark(text=say(_("Stable now at {speed}."), speed=speed(found.speed[0], 4)), tone="good")
         return
     orders = nonsynchronous(found.drive)
     if proved and orders is not None:
@@ -450,10 +465,7 @@ def _stability(found: Any) -> Iterator[Remark]:
         yield Remark(text=say(text, orders=orders), tone="good" if found.together else "plain")
         return
     if proved:
-        text = _("Stable throughout the band: proved.")
-        if len(found.unstable_before):
-            text = _("As built, the drive is unstable at some speeds; now it is stable throughout the band: proved.")
-        yield Remark(text=text, tone="good")
+        yield Remark(text=_("Stable throughout the band: proved."), tone="good")
         return
     if not proof.looked_at:
         text = _("Stable at the speeds looked at; a proof between them would take too long.")

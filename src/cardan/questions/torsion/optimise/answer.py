@@ -19,6 +19,7 @@ from cardan.questions.torsion.absorber.answer import (
     LITTLE,
     band,
     cautions,
+    cured,
     curves,
     proof_facts,
     speed,
@@ -93,8 +94,11 @@ def _elsewhere(drive: Drive) -> Iterator[Remark]:
 def _sentence(result: OptimisedTorsion) -> tuple[Tone, Say]:
     values = {"after": torque(result.peak_after.torque), "band": band(result.speed)}
     drawn = result.worst_after is None
-    cured = len(result.unstable_before) and not len(result.unstable_after)
-    if drawn and result.reduction > LITTLE and not cured:
+    healed = cured(result)
+    if drawn and unstable(result):
+        text = _("nothing that may change makes it stable everywhere; largest alternating torque ±{after}, {band}.")
+        return "warning", say(text, **values)
+    if drawn and result.reduction > LITTLE and not healed:
         text = _("nothing that may change makes it vibrate much less; largest alternating torque ±{after}, {band}.")
         return "warning", say(text, **values)
     if result.worst_before is not None and result.worst_after is not None:
@@ -106,9 +110,15 @@ def _sentence(result: OptimisedTorsion) -> tuple[Tone, Say]:
             )
             return "warning", say(text, after=after, band=values["band"])
         text = _("within its tolerances the largest alternating torque falls from ±{before:bare} to ±{after}, {band}.")
+        if result.worst_before.unstable and not result.worst_after.unstable and not unstable(result):
+            text = _(
+                "stable within its tolerances, which it is not as built; largest alternating torque ±{after}, {band}."
+            )
         said = say(text, before=before, after=after, band=values["band"])
         return "warning" if result.worst_after.unstable or unstable(result) else "good", said
     text = _("the largest alternating torque falls from ±{before:bare} to ±{after} ({share}), {band}.")
+    if healed:
+        text = _("stable with the best values, which it is not as built; largest alternating torque ±{after}, {band}.")
     share = Quantity(result.reduction, "share", 3)
     tone: Tone = "warning" if unstable(result) else "good"
     return tone, say(text, before=torque(result.peak_before.torque), share=share, **values)
