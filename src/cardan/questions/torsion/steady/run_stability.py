@@ -148,8 +148,9 @@ def floquet(response: SteadyResponse | Orbit) -> Floquet:
     integrated over a period; the eigenvalues of the matrix that maps the disturbance at its beginning to that at its
     end. A free drive may run a moment later. Where no torque changes with the speed it may run at any other one too,
     but for what vibration takes, and a drive that nothing governs drifts up or down; the mean speed is given here, so
-    something governs it, and such a drift is no vibration. It is the real multiplier above 1 where the torque that
-    keeps the mean speed falls as that rises, as above a resonance; where it rises, what is above 1 is a jump.
+    something governs it, and such a drift is no vibration. It is a real multiplier above 1 where the torque that
+    keeps the mean speed falls as that rises, as above a resonance: of several that which the slope of the torque makes;
+    where it rises, what is above 1 is a jump.
 
     Examples
     --------
