@@ -336,6 +336,9 @@ REAL = 2e-3
 SLOW, BESIDE = 0.02, 0.5
 """Growth within a period up to which the only real multiplier above this second number is the drift without a look."""
 
+CLOSE = 2e-3
+"""How far from 1 a multiplier may be the drift whatever the slope of the torque says."""
+
 ASIDE = 2e-4
 """Share of the speed by which the torque that keeps it is looked at on either side."""
 
@@ -537,9 +540,10 @@ def vibrating(values: Array, count: int, drift: Callable[[Array], Array]) -> Arr
     count: how many to leave out: one, the drift to another speed, where a shift in time is left out already, else two.
     drift: from rows to how fast the mean speed would leave by itself, see `drift_of`; asked where it decides.
     Left out are the real ones nearest to 1. Amid a resonance the drift may be far from it: where the torque that keeps
-    the mean speed falls as that rises, it is of the real ones above 1 that whose growth is nearest to what the slope of
-    the torque makes; where it rises, none above 1 is. For the product of 1 - ρ has the sign of the slope of that torque
-    unless the motion is one that no governor of the mean speed could hold.
+    the mean speed falls as that rises, it is of the real ones above 1, or less than `CLOSE` below, that whose growth is
+    nearest to what the slope of the torque makes; where it rises, none that is `CLOSE` above 1 or more. For the product
+    of 1 - ρ has the sign of that slope unless the motion is one that no governor of the mean speed could hold; on which
+    side of 1 a slow drift is hangs on structural damping too.
     """
     real = np.abs(values.imag) <= REAL * np.abs(values)
     far = np.where(real, np.abs(values - 1.0), 1.0 + np.abs(values))
@@ -548,10 +552,14 @@ def vibrating(values: Array, count: int, drift: Callable[[Array], Array]) -> Arr
     rows = np.flatnonzero(np.any(above > 0.0, axis=-1) & (near | np.any(above > 1.0 + SLOW, axis=-1)))
     if rows.size:
         shifted = np.argmin(far[rows], axis=-1)  # the shift in time, where it is still there
-        leaving, up = drift(rows)[:, None], above[rows] > 0.0
-        off = np.where(up, np.abs(np.log(np.where(up, above[rows], 1.0)) - leaving), np.inf)
-        nearest = np.arange(values.shape[-1]) == np.argmin(off, axis=-1)[:, None]
-        far[rows] = np.where(leaving > 0.0, np.where(nearest, -1.0, far[rows]), np.where(up, np.inf, far[rows]))
+        leaving, size = np.nan_to_num(drift(rows))[:, None], values[rows].real
+        may = real[rows] & (size > 1.0 - CLOSE)
+        if count > 1:
+            may[np.arange(len(rows)), shifted] = False
+        off = np.where(may, np.abs(np.log(np.where(may, size, 1.0)) - leaving), np.inf)
+        nearest = may & (np.arange(values.shape[-1]) == np.argmin(off, axis=-1)[:, None])
+        back = np.where(may, np.where(size > 1.0 + CLOSE, np.inf, off), far[rows])
+        far[rows] = np.where(leaving > 0.0, np.where(nearest, -1.0, far[rows]), back)
         if count > 1:
             far[rows, shifted] = -2.0
     found: Array = np.take_along_axis(values, np.argsort(far, axis=-1, kind="stable")[:, count:], axis=-1)

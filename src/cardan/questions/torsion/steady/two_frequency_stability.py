@@ -23,6 +23,7 @@ from cardan.questions.torsion.model.torsional_modes import base_order
 from .orbit import Orbit, straight_frequencies
 from .run_stability import (
     ASIDE,
+    CLOSE,
     NEUTRAL,
     Floquet,
     Verdict,
@@ -272,7 +273,7 @@ def _drift(
     """Return which exponent of a free drive is that of its drift to another speed; None where that is not told.
 
     As of periodic motions, see `vibrating`: where the torque that keeps the mean speed falls as that rises, the simple
-    one above 0 nearest to what the slope makes, else the simple one next to 0 that is not above it.
+    one above 0, or hardly below, nearest to what the slope makes, else the simple one next to 0 that is not above it.
     """
     gap = np.diff(growth, prepend=np.inf, append=-np.inf)
     alone = np.minimum(-gap[:-1], -gap[1:]) > APART + error
@@ -287,8 +288,8 @@ def _drift(
             forces.append(float(near.torus.force[0]))
         leaving = float(slow_drift(near.turning, forces)[0])
         if leaving > 0.0:
-            return int(np.argmin(np.where(alone & above, np.abs(growth - leaving), np.inf)))
-    fitting = np.flatnonzero(alone & ~above)
+            return int(np.argmin(np.where(alone & (growth > -CLOSE), np.abs(growth - leaving), np.inf)))
+    fitting = np.flatnonzero(alone & (growth < CLOSE))
     return int(fitting[np.argmin(np.abs(growth[fitting]))]) if fitting.size else None
 
 
