@@ -102,13 +102,12 @@ def test_a_drive_that_is_cured_of_instability_is_told_so_and_is():
     found = optimise_torsion(drive)
     said = answer(drive, found)
     told_of = [told(one.text, USUAL) for one in said.remarks]
-    assert said.tone == "good"
-    assert told(said.sentence, USUAL).startswith("stable with the best values, which it is not as built; largest")
+    assert said.tone == "warning"  # nothing is known a little beside this speed
+    assert told(said.sentence, USUAL).startswith("unstable as built, no more so with the best values; largest")
     assert any(one.startswith("As built the drive is unstable at 1\u202f910 rpm") for one in told_of)
-    assert "Stable now at 1\u202f910 rpm." in told_of
-    better = stability(found.drive)
-    assert bool(better.stable)
-    assert float(better.growth_rate) < -0.05 * 1.5  # of what decays by itself, ζω = 0.0075 · 200 1/s
+    assert any(one.startswith("Stability was judged at 1\u202f910 rpm alone") for one in told_of)
+    assert float(stability(drive).growth_rate) > 5.0
+    assert float(stability(found.drive).growth_rate) < 1e-3
 
 
 @pytest.mark.slow
@@ -117,4 +116,8 @@ def test_a_drive_that_nothing_makes_stable_is_told_so():
     found = optimise_torsion(drive, free={YOKE: (0.0, 40.0)}, method=Grid(points=3))
     said = answer(drive, found)
     assert said.tone == "warning"
-    assert told(said.sentence, USUAL).startswith("nothing that may change makes it stable everywhere; largest")
+    assert told(said.sentence, USUAL).startswith("the best values found do not make it stable everywhere; largest")
+    worst = Worst(torque=50.0, speed=40.0, element=0, unstable=True, sides=())
+    within = answer(drive, replace(found, worst_before=worst, worst_after=replace(worst, torque=90.0)))
+    assert told(within.sentence, USUAL).startswith("within its tolerances, unstable as built, the largest")
+    assert within.tone == "warning"

@@ -47,7 +47,8 @@ def answer(drive: Drive, result: Absorber, *, chosen: bool = False) -> Answer:
     chosen: whether the band of speeds was asked for: then it may lie where the drive does not run.
     """
     away = None if chosen else _away(drive, result)
-    helps = (result.reduction < LITTLE or cured(result)) and away is None and not unstable(result)
+    calmer = result.reduction < LITTLE or (cured(result) and result.tuned_speed is None)
+    helps = calmer and away is None and not unstable(result)
     tone: Tone = "good" if helps else "warning"
     return Answer(
         name="absorber",
@@ -87,8 +88,8 @@ def _sentence(result: Absorber) -> Say:
         if result.reduction > 1.0:
             text = _("with {what} the alternating torque at {speed} rises from ±{before:bare} to ±{after}.")
         values["speed"] = speed(result.tuned_speed, 4)
-    elif cured(result):
-        text = _("{what} makes the drive stable; largest alternating torque ±{after}, {band}.")
+    elif len(result.unstable_before):
+        text = _("with {what} the largest alternating torque is ±{after}, {band}; without it vibration grows there.")
     elif result.reduction > LITTLE:
         text = _("{what} does little here: alternating torque ±{after}, ±{before} without it, {band}.")
     return say(text, **values)
@@ -391,7 +392,7 @@ def unstable(found: Any) -> bool:
 
 def cured(found: Any) -> bool:
     """Tell whether the drive is unstable somewhere in the band as built, and with an absorber or a design nowhere."""
-    return len(found.unstable_before) > 0 and not unstable(found)
+    return len(found.unstable_before) > 0 and not unstable(found) and bool(np.all(np.isfinite(found.after)))
 
 
 def proof_facts(found: Any) -> dict[str, Any]:
@@ -454,7 +455,8 @@ def _stability(found: Any) -> Iterator[Remark]:
         return
     if proof is None:
         if cured(found):
-            yield Remark(text=say(_("Stable now at {speed}."), speed=speed(found.speed[0], 4)), tone="good")
+            text = _("Stability was judged at {speed} alone; a little beside it the drive may be unstable.")
+            yield Remark(text=say(text, speed=speed(found.speed[0], 4)), tone="warning")
         return
     orders = nonsynchronous(found.drive)
     if proved and orders is not None:

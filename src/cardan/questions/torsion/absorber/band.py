@@ -16,13 +16,13 @@ from cardan.maths.arrays import Array
 from cardan.maths.curves.search import least_peak
 from cardan.questions.torsion.model.inputs import base_period
 from cardan.questions.torsion.model.torsion import orders
-from cardan.questions.torsion.model.torsional_layouts import chosen, single
+from cardan.questions.torsion.model.torsional_layouts import chosen
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
-from cardan.questions.torsion.model.torsional_modes import main_order, straight_modes
+from cardan.questions.torsion.model.torsional_modes import main_order
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained, in_time, stacked, torsional_train
 from cardan.questions.torsion.stability.stability_kernel import vibration_growth
 from cardan.questions.torsion.steady.alternating_torque import TorqueSwings, torque_swings
-from cardan.questions.torsion.steady.orbit import Orbit, straight_frequencies
+from cardan.questions.torsion.steady.orbit import straight_frequencies
 from cardan.questions.torsion.steady.torsion_response import Progress, loaded_model, zone_order
 from cardan.questions.torsion.steady.two_frequency_stability import growth_with_torques, meetings
 from cardan.texts import _
@@ -149,10 +149,6 @@ ZONED = 3
 
 GROWS = 1e-5
 """Growth in a period from which a motion is called unstable in a search."""
-
-DECAYS = 0.05
-"""Share of the decay on the straight line that a design keeps at least: less is the edge of a zone, where it takes
-another speed or value only a little off until vibration grows."""
 
 JUDGED, LOOSE = 6, 3
 """Speeds of a drive at which a search asks for stability, and those at which torques that do not repeat meet modes."""
@@ -339,8 +335,7 @@ def growth(found: TorqueSwings, speed: Array, omega: Array, asked: Array) -> Arr
 
     Looked at amid the zones of parametric resonance, and at the speed of the largest torque: not at every speed.
     found (D·S,), speed (D, S) [rad/s]; omega (D, m) [rad/s]: natural frequencies; asked (D,) of bool.
-    Returns: ln of the largest multiplier, no less than `GROWS` where too little decays; 0 where all decays as it
-    should, and for drives not asked.
+    Returns: ln of the largest multiplier; 0 where nothing grows, and for drives not asked.
     """
     count, width = speed.shape
     zones = zone_speeds(omega)
@@ -354,18 +349,8 @@ def growth(found: TorqueSwings, speed: Array, omega: Array, asked: Array) -> Arr
     worst = np.zeros(count)
     if judged.size:
         grown = vibration_growth(found.orbit, judged)
-        grows = grown > GROWS - DECAYS * _decay(found.orbit, judged)
-        np.maximum.at(worst, judged // width, np.where(grows, np.maximum(grown, GROWS), 0.0))
+        np.maximum.at(worst, judged // width, np.where(grown > GROWS, grown, 0.0))
     return worst
-
-
-def _decay(orbit: Orbit, rows: Array) -> Array:
-    """Return by how much the vibration slowest to decay does so in a period on the straight line, array (b,)."""
-    forced = None if orbit.model.free else 0.0
-    lines = (single(orbit.model, orbit.angle_error, row) for row in rows.tolist())
-    modes = [straight_modes(replace(line, torques=(), input_speed=forced)) for line in lines]
-    slowest = [float(np.min(one.damping_ratio * one.omega)) if one.omega.size else 0.0 for one in modes]
-    return np.asarray(slowest) * orbit.time.reshape(-1)[rows]
 
 
 def with_loose(found: TorqueSwings, omega: Array, speed: Array) -> tuple[Array, Array]:

@@ -95,8 +95,8 @@ def _sentence(result: OptimisedTorsion) -> tuple[Tone, Say]:
     values = {"after": torque(result.peak_after.torque), "band": band(result.speed)}
     drawn = result.worst_after is None
     healed = cured(result)
-    if drawn and unstable(result):
-        text = _("nothing that may change makes it stable everywhere; largest alternating torque ±{after}, {band}.")
+    if drawn and len(result.unstable_before) and unstable(result):
+        text = _("the best values found do not make it stable everywhere; largest alternating torque ±{after}, {band}.")
         return "warning", say(text, **values)
     if drawn and result.reduction > LITTLE and not healed:
         text = _("nothing that may change makes it vibrate much less; largest alternating torque ±{after}, {band}.")
@@ -110,17 +110,15 @@ def _sentence(result: OptimisedTorsion) -> tuple[Tone, Say]:
             )
             return "warning", say(text, after=after, band=values["band"])
         text = _("within its tolerances the largest alternating torque falls from ±{before:bare} to ±{after}, {band}.")
-        if result.worst_before.unstable and not result.worst_after.unstable and not unstable(result):
-            text = _(
-                "stable within its tolerances, which it is not as built; largest alternating torque ±{after}, {band}."
-            )
+        if result.worst_before.unstable:
+            text = _("within its tolerances, unstable as built, the largest alternating torque is ±{after}, {band}.")
         said = say(text, before=before, after=after, band=values["band"])
         return "warning" if result.worst_after.unstable or unstable(result) else "good", said
     text = _("the largest alternating torque falls from ±{before:bare} to ±{after} ({share}), {band}.")
     if healed:
-        text = _("stable with the best values, which it is not as built; largest alternating torque ±{after}, {band}.")
+        text = _("unstable as built, no more so with the best values; largest alternating torque ±{after}, {band}.")
     share = Quantity(result.reduction, "share", 3)
-    tone: Tone = "warning" if unstable(result) else "good"
+    tone: Tone = "warning" if unstable(result) or (healed and result.proof is None) else "good"
     return tone, say(text, before=torque(result.peak_before.torque), share=share, **values)
 
 
