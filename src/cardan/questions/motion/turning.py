@@ -112,9 +112,7 @@ def swing(drive: Drive) -> Swing:
         max_angle_error=0.5 * (peak(angle_error, smooth=True) + peak(-angle_error, smooth=True)),
         max_acceleration=largest(slope),
         amplitude=wave[:, 1 : PLACES // 8],
-        coast_acceleration=np.maximum(peak(coast, smooth=True), peak(-coast, smooth=True))
-        if coast.size
-        else np.zeros(0),
+        coast_acceleration=largest(coast) if coast.size else np.zeros(0),
     )
 
 
