@@ -88,3 +88,11 @@ def test_lost_motions_are_told():
 def test_something_that_twists_is_asked_for():
     assert not lacking(DRIVE)
     assert lacking(Drive.from_angles([0.2])) == (("stations", "shafts[1].stiffness"),)
+
+
+@pytest.mark.slow
+def test_speeds_that_read_alike_are_told_once(found):
+    at = np.asarray([100.0, 100.01, 110.0]) * np.pi / 30.0
+    said = answer(DRIVE, replace(found, unstable_before=at))
+    (told_of,) = (one for one in (told(remark.text, USUAL) for remark in said.remarks) if one.startswith("As built"))
+    assert told_of.startswith("As built the drive is unstable at 100.0 rpm, 110.0 rpm: ")

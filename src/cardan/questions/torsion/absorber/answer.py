@@ -428,17 +428,24 @@ def _nonsynchronous(found: Any) -> Iterator[Remark]:
         yield Remark(text=text)
 
 
+def _told_apart(speeds: Array) -> Array:
+    """Return speeds (k,), rising, without those that read like the one before them: curves look closely at peaks."""
+    found: Array = speeds[np.diff(speeds, prepend=-np.inf) > 1e-3 * np.abs(speeds)]
+    return found
+
+
 def _stability(found: Any) -> Iterator[Remark]:
     """Yield where in the band the drive is unstable, and whether the rest of it is proved to be stable."""
     proof: ProvedSpeeds | None = found.proof
     proved = proof is not None and proof.proved and proof.looked_at
     if len(found.unstable_before):
-        others = _(" and others") if len(found.unstable_before) > NAMED else ""
-        at = Joined([Joined([speed(one, 4) for one in found.unstable_before[:NAMED]]), others], between="")
+        built = _told_apart(found.unstable_before)
+        others = _(" and others") if len(built) > NAMED else ""
+        at = Joined([Joined([speed(one, 4) for one in built[:NAMED]]), others], between="")
         text = _("As built the drive is unstable at {speeds}: vibration grows there beyond the torque told of it.")
         yield Remark(text=say(text, speeds=at))
     if unstable(found):
-        where: list[Text] = [speed(one) for one in found.unstable_after[:NAMED]]
+        where: list[Text] = [speed(one) for one in _told_apart(found.unstable_after)[:NAMED]]
         if proof is not None and len(proof.lowest):
             pairs = list(zip(proof.lowest, proof.highest, strict=True))[:NAMED]
             where = [say(_("{low:bare} to {high}"), low=speed(low, 4), high=speed(high, 4)) for low, high in pairs]
