@@ -289,7 +289,7 @@ def _drift(
         leaving = float(slow_drift(near.turning, forces)[0])
         if leaving > 0.0:
             return int(np.argmin(np.where(alone & (growth > -CLOSE), np.abs(growth - leaving), np.inf)))
-    fitting = np.flatnonzero(alone & (growth < CLOSE))
+    fitting = np.flatnonzero(alone & ~above)
     return int(fitting[np.argmin(np.abs(growth[fitting]))]) if fitting.size else None
 
 
